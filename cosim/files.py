@@ -51,11 +51,12 @@ def writable(folder: Path, files: Iterable[str] = ()) -> Path:
             "name one with -o"
         ) from error
     not_taken(folder, files)
-    _clear_partial(folder)
+    clear_partial(folder)
     return folder
 
 
-def _clear_partial(folder: Path) -> None:
+def clear_partial(folder: Path) -> None:
+    """Remove the partial files of processes that were killed."""
     for file in folder.glob(".*.partial"):
         host, _, number = file.name.split(".")[-2].partition("-")
         if host == _HOST and number.isdecimal() and not _lives(int(number)):

@@ -17,12 +17,13 @@ from stickslip.effects import FILES as CATALOGUE
 from stickslip.effects.effect import Effect
 from stickslip.generation.compiler import CompilerError, possible
 from stickslip.generation.platforms import Platform, this_machine
+from stickslip.scratch import scratch_folder
 
 import cosim
+from cosim.files import clear_partial
 from cosim.fmu import libraries, native, python_unit
 from cosim.fmu.libraries import runs_here
 from cosim.fmu.thermal import native_unit
-from cosim.scratch import scratch_folder
 
 #: Folder of a checkout in which its units stand, beside the recipes.
 BUILD_FOLDER = Path("build")
@@ -157,3 +158,4 @@ def _check_writable(directory: Path) -> None:
         raise FmuBuildError(f"{directory}: cannot be made: {error.strerror}") from error
     if not os.access(directory, os.W_OK | os.X_OK):
         raise FmuBuildError(f"{directory}: is not writable; name another folder for the FMU")
+    clear_partial(directory)

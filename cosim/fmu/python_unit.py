@@ -28,6 +28,7 @@ from stickslip import ports
 from stickslip.generation.source import kernel_source
 from stickslip.kernel import layout
 from stickslip.names import NAMES
+from stickslip.scratch import scratch_folder
 
 from cosim.files import write_bytes
 from cosim.fmu import description
@@ -46,7 +47,6 @@ from cosim.fmu.variables import (
     parameter_table,
     variables,
 )
-from cosim.scratch import scratch_folder
 
 FMU = "StickSlip3DOF-python.fmu"
 MODULE = "stickslip3dof"

@@ -25,6 +25,7 @@ import platformdirs
 
 from .generation.compiler import CALLED_BY_NAME, compiled
 from .generation.platforms import Platform, this_machine
+from .scratch import scratch_folder
 
 LOG = logging.getLogger(__name__)
 #: Beside this file in an installed package.
@@ -67,7 +68,7 @@ class Code:
         if kept := _kept(name, made):
             return ctypes.CDLL(str(kept))
         # Windows removes no library that is loaded
-        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
+        with scratch_folder("code") as scratch:
             file = Path(scratch) / name
             file.write_bytes(made)
             return ctypes.CDLL(str(file))
@@ -76,14 +77,15 @@ class Code:
 def _kept(name: str, content: bytes) -> Path | None:
     """The file, written where it will be found again; None for nowhere. Processes may race."""
     for folder in _folders():
-        partial = folder / f"{name}.{os.getpid()}.partial"
         with suppress(OSError):
             folder.parent.mkdir(parents=True, exist_ok=True)
             with suppress(FileExistsError):
                 folder.mkdir(mode=0o700)
             if _is_private(folder):
-                partial.write_bytes(content)
-                return partial.replace(folder / name)
+                with scratch_folder("code", folder) as scratch:
+                    partial = Path(scratch) / name
+                    partial.write_bytes(content)
+                    return partial.replace(folder / name)
     return None
 
 

@@ -24,7 +24,7 @@ FILES = [(name, file) for name, folder in PACKAGES.items() for file in folder.rg
 #: Parts of cosim that compute and write without knowing what.
 LEAVES = (
     *("cosim.files", "cosim.interrupts", "cosim.manifest", "cosim.names", "cosim.processes"),
-    "cosim.scratch",
+    "stickslip.scratch",
 )
 PRODUCT = ("stickslip", "thermal", "cosim")
 #: Part -> what of the product it may import beside itself. What a part is not named for, the
@@ -34,6 +34,7 @@ MAY_IMPORT = {
     "stickslip.quantity": (),
     "thermal": ("stickslip.quantity",),
     **dict.fromkeys(LEAVES, LEAVES),
+    "stickslip.scratch": (),
     "cosim.coupling": LEAVES,
     "cosim.scenario": ("stickslip", "thermal", *LEAVES),
     "cosim.fmu": ("stickslip", "cosim.report", *LEAVES),

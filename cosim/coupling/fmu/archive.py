@@ -16,7 +16,6 @@ from pathlib import Path
 from xml.parsers import expat
 
 from cosim.coupling.fmu.errors import FmuError, one_line
-from cosim.scratch import scratch_folder
 
 #: Bytes that a unit may have unpacked, bytes of its description, and members.
 MOST_BYTES, MOST_XML, MOST_MEMBERS = 4 * 1024**3, 256 * 1024**2, 50_000
@@ -49,6 +48,8 @@ def read_xml(path: Path, member: str) -> bytes | None:
 
 def unpack(path: Path) -> tempfile.TemporaryDirectory[str]:
     """Unpack a unit into a fresh folder; FmuError in one line where that cannot be."""
+    from stickslip.scratch import scratch_folder  # whoever couples units loads no model
+
     try:
         directory = scratch_folder("fmu")
     except OSError as error:

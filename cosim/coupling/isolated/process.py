@@ -21,7 +21,6 @@ from typing import Any
 from cosim.coupling.isolated.pipe_protocol import CLOSE, DONE, MESSAGE, START, packed, waiter
 from cosim.coupling.messages import KEPT, LONGEST, Message
 from cosim.interrupts import held_interrupts, unheard_by_children
-from cosim.scratch import scratch_folder
 
 #: Time (s) that Python and the imports of a participant may take, beyond the time limit of a call.
 START_SECONDS = 60.0
@@ -59,6 +58,8 @@ class Process:
     """
 
     def __init__(self, time_limit: float, heard: Callable[[Message], object]) -> None:
+        from stickslip.scratch import scratch_folder  # whoever couples units loads no model
+
         self._limit = time_limit
         self._heard = heard
         self._scratch = scratch_folder("isolated")

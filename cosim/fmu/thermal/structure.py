@@ -13,6 +13,7 @@ from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, register_namespace, tostring
 
 from stickslip.generation.platforms import PLATFORMS, Platform
+from stickslip.scratch import scratch_folder
 
 from cosim.files import write_bytes
 from cosim.fmu import exchange, native
@@ -22,7 +23,6 @@ from cosim.fmu.thermal import native_unit
 from cosim.fmu.thermal.variables import reduced
 from cosim.fmu.units import UNITS
 from cosim.fmu.variables import Variable
-from cosim.scratch import scratch_folder
 
 SSP = "StickSlipThermal.ssp"
 MECHANICS, THERMAL = "mechanics", "thermal"

@@ -14,8 +14,8 @@ from pathlib import Path, PurePosixPath
 from urllib.parse import unquote, urlsplit
 
 from lxml import etree
+from stickslip.scratch import scratch_folder
 
-from cosim.scratch import scratch_folder
 from cosim.systems.system_errors import SystemFault
 
 STRUCTURE = "SystemStructure.ssd"

@@ -9,11 +9,11 @@ import shutil
 import struct
 import subprocess
 import sys
-import tempfile
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from ..scratch import scratch_folder
 from .platforms import Platform, this_machine
 
 LOG = logging.getLogger(__name__)
@@ -70,7 +70,7 @@ def compiled(
     as there are processors. Raises CompilerError.
     """
     LOG.info("compiling %s for %s", name, ", ".join(each.name for each in platforms))
-    with tempfile.TemporaryDirectory(prefix="stickslip-c-") as scratch:
+    with scratch_folder("c") as scratch:
         folder = Path(scratch)
         for file, content in sources.items():
             (folder / file).write_bytes(content)

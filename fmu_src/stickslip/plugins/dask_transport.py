@@ -8,11 +8,13 @@ from __future__ import annotations
 
 import os
 import pickle
-import tempfile
 from collections.abc import Callable, Sequence
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
+from ..scratch import scratch_folder
 from .active_plugins import files, is_read, known_as, use
 from .errors import PluginError
 
@@ -55,9 +57,15 @@ def receive(sent: Sequence[Sent]) -> None:
                 f" not these but those of {', '.join(map(str, files())) or 'no file'}; allowed is"
                 " a worker that was started afresh"
             )
-        folder = Path(tempfile.mkdtemp(prefix="stickslip-effects-"))  # as long as the process may
+        folder = Path(_folder().name)
         for one in sent:
             (folder / Path(one.name).name).write_text(one.text, encoding="utf-8")
         use(*(folder / Path(one.name).name for one in sent))
     for one, file in zip(sent, files(), strict=True):
         known_as(one.name, file)
+
+
+@cache
+def _folder() -> TemporaryDirectory[str]:
+    """A folder for effects' files, as long as this process."""
+    return scratch_folder("effects")

@@ -11,12 +11,12 @@ from pathlib import Path
 
 import pytest
 from c_units import made
+from stickslip import scratch
+from stickslip.scratch import scratch_folder
 
-from cosim import scratch
 from cosim.coupling import CoupledSystem, FmuError, FmuParticipant, GaussSeidel, run
 from cosim.coupling.fmu import archive
 from cosim.coupling.fmu.errors import FmuCallError
-from cosim.scratch import scratch_folder
 
 
 @pytest.fixture

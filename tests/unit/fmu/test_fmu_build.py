@@ -13,7 +13,7 @@ import platformdirs
 import pytest
 from stickslip.generation.platforms import this_platform
 
-from cosim.fmu import libraries, native, python_unit, pythonfmu_library
+from cosim.fmu import build, libraries, native, python_unit, pythonfmu_library
 from cosim.fmu.build import FMI3, PYTHON, FmuBuildError, build_fmu, ensure_fmu, own_folder
 
 STANDARD_LIBRARY_USED = {
@@ -213,6 +213,14 @@ KILLED = {
     "    if 'stickslip.' in str(place): die()\n"
     "    raise build.FmuBuildError('read-only')\n"
     "build.ensure_fmu = ensure; build.own_fmu()",
+    "compiler": "from stickslip.generation import compiler, platforms\n"
+    "compiler.subprocess.run = die\n"
+    "compiler.compiled({'a.c': b''}, [platforms.this_machine()], 'a')",
+    "machine code": "import tempfile; from stickslip import machine_code; Path.replace = die\n"
+    "machine_code._folders = lambda: [Path(tempfile.gettempdir())]\n"
+    "machine_code._kept('a.so', b'')",
+    "effects that were sent": "from stickslip.plugins import dask_transport as far\n"
+    "far.use = die; far.receive([far.Sent('law.py', '')])",
 }
 DIE = """import os, signal, sys
 from pathlib import Path
@@ -230,6 +238,16 @@ def test_what_a_killed_build_leaves_the_next_process_clears(tmp_path, what):
     program = [sys.executable, "-c", DIE + KILLED[what], str(tmp_path)]
     killed = subprocess.run(program, env=environment, check=False, timeout=60)
     assert killed.returncode == -signal.SIGKILL and any(scratch.iterdir())
-    clear = "from cosim.scratch import scratch_folder; scratch_folder('next').cleanup()"
+    clear = "from stickslip.scratch import scratch_folder; scratch_folder('next').cleanup()"
     subprocess.run([sys.executable, "-c", clear], env=environment, check=True, timeout=60)
     assert list(scratch.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="what is left stays there")
+def test_what_a_killed_build_left_beside_the_unit_the_next_build_clears(tmp_path, monkeypatch):
+    half = "from cosim.files import write_bytes; os.replace = die; write_bytes(b'', here / 'a.fmu')"
+    subprocess.run([sys.executable, "-c", DIE + half, str(tmp_path)], check=False, timeout=60)
+    assert len(list(tmp_path.iterdir())) == 1
+    monkeypatch.setattr(build, "_maker", lambda name: lambda directory, platforms: directory)
+    build.build_fmu(tmp_path)
+    assert list(tmp_path.iterdir()) == []

@@ -1,5 +1,6 @@
 """Effects' files that are sent to a process elsewhere, which has one set of them in its life."""
 
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -29,8 +30,10 @@ for others in ([Sent("/home/somebody/law.py", text + "# changed")], []):
 def test_a_process_takes_one_set_and_refuses_another_in_one_line(tmp_path):
     done = subprocess.run(
         [sys.executable, "-c", FAR, str(LAW)],
-        cwd=tmp_path, capture_output=True, text=True, check=True,
+        cwd=tmp_path, env=os.environ | {"TMPDIR": str(tmp_path)},
+        capture_output=True, text=True, check=True,
     )  # fmt: skip
+    assert list(tmp_path.iterdir()) == []
     changed, none = done.stdout.splitlines()
     assert changed.startswith("law.py: this worker (process ") and "started afresh" in changed
     assert none.startswith("no file: this worker")

@@ -24,11 +24,17 @@ PREFIX = "stickslip."
 ATTEMPTS = 5
 
 
-def scratch_folder(what: str) -> tempfile.TemporaryDirectory[str]:
-    """A fresh folder; OSError where there is no place for one. what: part of its name."""
-    _clear(tempfile.gettempdir())
+def scratch_folder(what: str, place: str | Path | None = None) -> tempfile.TemporaryDirectory[str]:
+    """A fresh folder; OSError where there is no place for one.
+
+    what : part of its name; place : the folder that it is made in, else that of temporary files
+    """
+    place = str(place or tempfile.gettempdir())
+    _clear(place)
     for _ in range(ATTEMPTS):
-        folder = tempfile.TemporaryDirectory(prefix=f"{PREFIX}{what}-", ignore_cleanup_errors=True)
+        folder = tempfile.TemporaryDirectory(
+            prefix=f"{PREFIX}{what}-", dir=place, ignore_cleanup_errors=True
+        )
         held = _held(folder.name)
         if held is not None:
             weakref.finalize(folder, os.close, held)
