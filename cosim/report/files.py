@@ -44,6 +44,13 @@ class Shown(TypedDict):
 
 PAGE_ALONE: Shown = {"figures": False, "page": True}
 
+
+def results_line(folder: Path) -> str:
+    """Where to look, for whoever waited: the page, if there is one."""
+    page = folder / "report.html"
+    return f"  results      {f'{page} and beside it' if page.is_file() else folder}"
+
+
 #: Most that a netCDF file has beside its numbers, and for each variable, bytes.
 _OVERHEAD, _A_VARIABLE = 2**18, 2**13
 

@@ -77,7 +77,7 @@ def library(text: str) -> Library | ModuleType:
     try:
         return Library(text, code(text).load())
     except (CompilerError, OSError) as error:
-        LOG.warning("%s; until then the model runs interpreted, some 200 times slower", error)
+        LOG.warning("%s; without it the model runs interpreted, some 200 times slower", error)
     module = ModuleType("stickslip_kernel")
     exec(compile(text, "<kernel>", "exec"), vars(module))
     return module

@@ -59,14 +59,15 @@ class Code:
         """The library, compiled where it is not kept. Raises CompilerError or OSError."""
         here = this_machine()
         name = self.file(here)
-        for folder in (Path(__file__).with_name(PREBUILT), *filter(_is_private, _folders())):
-            if (file := folder / name).is_file():
-                LOG.info("mechanical model: machine code in %s", file)
-                return ctypes.CDLL(str(file))
+        brought = Path(__file__).with_name(PREBUILT) / name
+        kept = [folder / name for folder in _folders() if _is_private(folder)]
+        for file in [*filter(Path.is_file, [brought]), *filter(_is_whole, kept)]:
+            LOG.info("mechanical model: machine code in %s", file)
+            return ctypes.CDLL(str(file))
         LOG.warning("compiling the mechanical model for this machine, once: a few seconds")
         made = compiled(self.sources(), [here], self.name, CALLED_BY_NAME, stays=True)[here]
-        if kept := _kept(name, made):
-            return ctypes.CDLL(str(kept))
+        if file := _kept(name, made):
+            return ctypes.CDLL(str(file))
         # Windows removes no library that is loaded
         with scratch_folder("code") as scratch:
             file = Path(scratch) / name
@@ -82,11 +83,30 @@ def _kept(name: str, content: bytes) -> Path | None:
             with suppress(FileExistsError):
                 folder.mkdir(mode=0o700)
             if _is_private(folder):
-                with scratch_folder("code", folder) as scratch:
-                    partial = Path(scratch) / name
-                    partial.write_bytes(content)
-                    return partial.replace(folder / name)
+                for file, written in ((name, content), (_check(name), _digest(content))):
+                    with scratch_folder("code", folder) as scratch:
+                        partial = Path(scratch) / file
+                        partial.write_bytes(written)
+                        partial.replace(folder / file)
+                return folder / name
     return None
+
+
+def _check(name: str) -> str:
+    """The file beside a library that says what it must be."""
+    return f"{name}.sha256"
+
+
+def _digest(content: bytes) -> bytes:
+    return hashlib.sha256(content).hexdigest().encode()
+
+
+def _is_whole(file: Path) -> bool:
+    """Whether a library is there as it was written: a damaged one would end the process."""
+    try:
+        return file.with_name(_check(file.name)).read_bytes() == _digest(file.read_bytes())
+    except OSError:
+        return False
 
 
 def _folders() -> list[Path]:

@@ -28,8 +28,9 @@ INPUTS = (
         "U_SPEED",
         "m/s",
         0.1,
-        "Speed of the surface after its ramp. In co-simulation that of the step's beginning, with "
-        "its rate where a host gives one; without, a stick is led to it up to the step's end",
+        "Speed of the surface after its ramp: a host that ramps it sets surface.run_up_time to 0. "
+        "In co-simulation that of the step's beginning, with its rate where a host gives one; "
+        "without, a stick is led to it up to the step's end",
         start=0.15,
     ),
     Port(

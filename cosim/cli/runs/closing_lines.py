@@ -11,6 +11,7 @@ from stickslip.steady_motion.regimes import CREEPING
 from stickslip.steady_motion.stability import GRAZING, UNSTABLE
 from stickslip.steady_motion.starts import OWN
 
+from cosim.report.files import results_line
 from cosim.report.material import ICE, of_material
 from cosim.report.motion_text import (
     WELL_INSIDE,
@@ -45,8 +46,7 @@ def closing_lines(
         lines.append(f"  in the end   {_ending_line(numbers['in_the_end'])}")
     lines += _assessed_lines(numbers)
     lines.append(f"  ledgers      {_ledger_line(ledgers)}")
-    lines.append(f"  results      {folder / 'report.html'} and beside it")
-    return lines
+    return [*lines, results_line(folder)]
 
 
 def _assessed_lines(numbers: Mapping[str, Any]) -> list[str]:

@@ -293,6 +293,5 @@ def _finish(
     for said in in_few_lines(numbers["warnings"]):
         print(f"warning: {said}", file=sys.stderr)
     if not printed:
-        page = str(folder / "report.html")
-        print("\n".join(closing_lines(numbers, page, time.perf_counter() - began)))
+        print("\n".join(closing_lines(numbers, folder, time.perf_counter() - began)))
     return DONE

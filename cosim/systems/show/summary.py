@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from cosim.coupling.conversion import watts
 from cosim.coupling.messages import WARNING
 from cosim.coupling.system import ENERGY_UNIT, find_port
 from cosim.report.coupling import efforts, step_numbers
+from cosim.report.files import results_line
 from cosim.report.page import number
 from cosim.systems.run import SystemRun
 
@@ -211,7 +213,7 @@ def in_few_lines(said: Sequence[str]) -> list[str]:
     return [*said[:MOST_NOTES], *([f"{more} more on the page"] if more > 0 else [])]
 
 
-def closing_lines(numbers: Mapping[str, Any], page: str, wall_time: float) -> list[str]:
+def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) -> list[str]:
     """What whoever waited for the run is told."""
     coupling = numbers["coupling"]
     lines = [
@@ -223,7 +225,7 @@ def closing_lines(numbers: Mapping[str, Any], page: str, wall_time: float) -> li
     ]
     lines += [f"  energy       {line}" for line in ledger_lines(numbers["ledger"])]
     lines += [f"  note         {remark}" for remark in in_few_lines(numbers["remarks"])]
-    return [*lines, f"  results      {page} and beside it"]
+    return [*lines, results_line(folder)]
 
 
 def ledger_lines(found: Mapping[str, Any]) -> list[str]:

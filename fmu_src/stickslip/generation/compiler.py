@@ -106,7 +106,8 @@ def _compiler(platform: Platform, stays: bool) -> list[str]:
     if has_zig():
         return [sys.executable, "-m", "ziglang", "cc", "-target", platform.target]
     raise CompilerError(
-        f"{platform.name}: no compiler for it; `pip install ziglang` brings one for every platform"
+        f"{platform.name}: no compiler for it: install cc, gcc or clang, or `pip install ziglang`, "
+        "which compiles for every platform"
     )
 
 

@@ -24,9 +24,12 @@ HEAT_LEDGERS = {
 }
 
 
-def test_a_coupled_run_ends_in_six_lines():
+def test_a_coupled_run_ends_in_six_lines(tmp_path):
     ledgers = {"ledger": MECHANICS["ledger"] | HEAT_LEDGERS}
-    lines = closing_lines(MECHANICS | HEAT | ledgers, Path("out"), 6.0)
+    without = closing_lines(MECHANICS | HEAT | ledgers, tmp_path, 6.0)
+    assert without[-1].endswith(tmp_path.name), "a page that there is not is not named"
+    (tmp_path / "report.html").touch()
+    lines = closing_lines(MECHANICS | HEAT | ledgers, tmp_path, 6.0)
     assert len(lines) == 6
     for said in (
         "30 s in 6.0 s",
@@ -37,7 +40,7 @@ def test_a_coupled_run_ends_in_six_lines():
         "5.13 J",
         "of which belt 31.0 %, ice 48.0 %, air 21.0 %",
         "1.0e-13 of the work",
-        "out/report.html",
+        f"{tmp_path / 'report.html'}",
     ):
         assert any(said in line for line in lines), said
 

@@ -108,6 +108,20 @@ def test_a_folder_or_link_of_another_user_in_its_place_is_not_used(keeps):
     assert compiled.library(TEXT).advance(1.0) == 2.0
 
 
+@pytest.mark.parametrize("damage", [b"", b"\x7fELF and then nothing", None])
+def test_a_damaged_library_is_compiled_again(tmp_path, monkeypatch, damage):
+    """A process that loaded a shortened one would be ended by the system."""
+    monkeypatch.setattr(machine_code, "_folders", lambda: [tmp_path])
+    file = tmp_path / compiled.code(TEXT).file(this_machine())
+    assert compiled.library(TEXT).advance(1.0) == 2.0
+    whole = file.read_bytes()
+    file.unlink()  # the loaded one stays as it is
+    file.write_bytes(whole[: len(whole) // 2] if damage is None else damage)
+    library = compiled.library(TEXT)
+    assert isinstance(library, compiled.Library) and library.advance(2.0) == 3.0
+    assert file.read_bytes() == whole
+
+
 def test_without_a_compiler_it_runs_interpreted_and_says_so(tmp_path, monkeypatch, caplog):
     monkeypatch.setattr(machine_code, "_folders", lambda: [tmp_path])
     monkeypatch.setattr(shutil, "which", lambda name: None)
