@@ -61,7 +61,7 @@ COMPARED = {
 
 def begin(scenario: Path, results: Path) -> subprocess.Popen:
     """Start a run."""
-    return _started("run", str(scenario), "-o", str(results))
+    return _started("run", str(scenario), "--fields", "-o", str(results))
 
 
 def resume(results: Path) -> subprocess.Popen:
