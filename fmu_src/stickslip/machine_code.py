@@ -66,8 +66,8 @@ class Code:
             return ctypes.CDLL(str(file))
         LOG.warning("compiling the mechanical model for this machine, once: a few seconds")
         made = compiled(self.sources(), [here], self.name, CALLED_BY_NAME, stays=True)[here]
-        if file := _kept(name, made):
-            return ctypes.CDLL(str(file))
+        if there := _kept(name, made):
+            return ctypes.CDLL(str(there))
         # Windows removes no library that is loaded
         with scratch_folder("code") as scratch:
             file = Path(scratch) / name
