@@ -124,6 +124,7 @@ def test_a_damaged_library_is_compiled_again(tmp_path, monkeypatch, damage):
 
 def test_without_a_compiler_it_runs_interpreted_and_says_so(tmp_path, monkeypatch, caplog):
     monkeypatch.setattr(machine_code, "_folders", lambda: [tmp_path])
+    monkeypatch.setattr(machine_code, "PREBUILT", "none")  # an installed package has one
     monkeypatch.setattr(shutil, "which", lambda name: None)
     monkeypatch.setattr("stickslip.generation.compiler.has_zig", lambda: False)
     compiled.compiled_kernel.cache_clear()
