@@ -103,6 +103,15 @@ def results_in(
         results.close()
 
 
+def other_command(folder: Path) -> str:
+    """The command line of an earlier result in a folder, if it is of another command; else ""."""
+    try:
+        line = str(json.loads((folder / MANIFEST).read_text(encoding="utf-8"))["command"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return ""
+    return line if line.split()[1:2] != sys.argv[1:2] else ""
+
+
 def require_own(folder: Path, files: Iterable[str], force: bool = False) -> None:
     """OutputRefused when one of these files is there and no run of ours has listed it."""
     if force:

@@ -29,6 +29,7 @@ from cosim.cli.runs.run_io import (
 from cosim.cli.scenarios import given_scenario
 from cosim.coupling.record import LOG, MessageLog
 from cosim.interrupts import Patience
+from cosim.manifest import other_command
 from cosim.report import Views, summary, write_results
 from cosim.report.bounds import bounds_sentences, is_believed
 from cosim.report.contents import attach_assessment, material_of
@@ -69,6 +70,8 @@ def scenario_to_run(source: str | None, settings: Iterable[str] = (), *, coupled
 def results_folder(given: str | None, scenario: Scenario, force: bool = False) -> Path:
     """The folder of the results, made, found writable and without others' files; OutputRefused."""
     folder = Path(given) if given is not None else Path(RESULTS) / scenario.name
+    if replaced := other_command(folder):
+        note(f"{folder}: what this writes replaces the results of `{replaced}`")
     return own_folder(folder, RESULT_FILES, force)
 
 

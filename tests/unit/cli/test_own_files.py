@@ -203,3 +203,19 @@ def test_what_a_killed_process_was_writing_goes_with_the_next_run(tmp_path):
         (tmp_path / name).touch()
     writable(tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names[1:] + others)
+
+
+def test_results_of_another_command_are_not_replaced_without_a_word(tmp_path, capsys, monkeypatch):
+    (tmp_path / "short.toml").write_text(SHORT)
+    replaced = (
+        "note: out: what this writes replaces the results of `stickslip run short.toml -o out`"
+    )
+    for argv, said in (
+        (["run", "short.toml", "-o", "out"], False),
+        (["run", "short.toml", "-o", "out"], False),
+        (["simulate", "short.toml", "-o", "out"], True),
+        (["simulate", "short.toml", "-o", "out"], False),
+    ):
+        monkeypatch.setattr("sys.argv", ["stickslip", *argv])
+        assert main(argv) == 0
+        assert (replaced in capsys.readouterr().err.splitlines()) == said
