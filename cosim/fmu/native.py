@@ -21,7 +21,7 @@ from xml.etree.ElementTree import ParseError, fromstring
 from stickslip.contradictions import SAID
 from stickslip.generation import c as c_generation
 from stickslip.generation.c import c_header, c_source
-from stickslip.generation.platforms import PLATFORMS, Platform
+from stickslip.generation.platforms import Platform
 from stickslip.generation.source import kernel_source
 from stickslip.names import NAMES
 from stickslip.status import WHY_NOT
@@ -106,7 +106,7 @@ def native_folder() -> Path:
     return checkout if checkout.is_dir() else here.with_name("native_sources")
 
 
-def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS, fmi: int = FMI2) -> Path:
+def build(directory: Path, platforms: Sequence[Platform], fmi: int = FMI2) -> Path:
     """Make the unit of a version of FMI, with libraries for those platforms that there is a way to.
 
     Written beside its final place and moved there, so that nobody ever sees half of it. Raises

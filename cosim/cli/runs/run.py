@@ -92,6 +92,8 @@ class Job(NamedTuple):
 
 def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
+    from stickslip.compiled import compiled_kernel
+
     from cosim.cli.numbers import numbers_asked
     from cosim.cli.runs import run_io, running
     from cosim.cli.scenarios import note_taken
@@ -106,7 +108,7 @@ def execute(arguments: Namespace) -> int:
     # said with the first step, when units, too, are known to be good; of old when it goes on
     unsaid = [] if arguments.resume else [job.scenario]
     fields = writable(job.results / run_io.FIELDS) if job.fields else None
-    running.compile_model()
+    compiled_kernel()  # before the bar begins to count
     logging = run_io.message_log(job.folder, arguments.verbose)
     going_on = run_io.going_on(job.folder, _resume(job.results))
     with going_on, patient_interrupts() as patience, logging as log:

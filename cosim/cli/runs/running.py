@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import xarray as xr
-from stickslip import Parameters, simulate
 from stickslip.steady_motion import Interface, assess
 from stickslip.steady_motion.assessment import MOST_STEPS
 
@@ -78,11 +77,6 @@ def results_folder(given: str | None, scenario: Scenario, force: bool = False) -
 def stretched_fields(folder: Path) -> list[Path]:
     """The collections of the fields with a thicker belt: one, or none where it needs none."""
     return sorted((folder / FIELDS).glob(f"{Path(COLLECTION).stem}_belt_*x.pvd"))
-
-
-def compile_model() -> None:
-    """Have the compiled mechanics ready, before a bar begins to count."""
-    simulate(Parameters(), 1e-3, 1e-3)
 
 
 def assess_motion(dataset: xr.Dataset, scenario: Scenario, patience: Patience) -> None:

@@ -101,7 +101,7 @@ def _heat_files() -> list[str]:
     return sorted(file.relative_to(folder).as_posix() for file in folder.rglob("*.py"))
 
 
-def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS, fmi: int = FMI2) -> Path:
+def build(directory: Path, platforms: Sequence[Platform], fmi: int = FMI2) -> Path:
     """Make the unit of the reference scenario for a version of FMI in a directory, with libraries
     for platforms.
 
