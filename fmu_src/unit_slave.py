@@ -5,15 +5,16 @@ recipe that builds an FMU lays this module and the model's slave into one packag
 after its content.
 
 pythonfmu's library turns an exception into fmi2Fatal and leaves the instance with dangling
-pointers, so nothing may be raised from here. A call that is refused is logged as an error, the
-instance counts as failed from then on, and every further step returns an error that says why,
-until the host resets the instance or sets a state taken before.
+pointers, so nothing may be raised from here, but at the end of initialisation, where the recipe
+has seen to it that it comes out as fmi2Error. A call that is refused is logged as an error, the
+instance counts as failed from then on, and the end of initialisation and every further step return
+an error that says why, until the host resets the instance or sets a state taken before.
 
 What only another library could do, and the native unit does:
 
-- Of all calls only a step can return an error. One that is refused in a setter or at the end of
-  initialisation is in the log and comes back at the next step; until then a getter gives NaN for an
-  output, and 0 for a whole number.
+- Of all calls only a step and the end of initialisation can return an error. What is refused in a
+  setter is in the log and comes back there; until then a getter gives NaN for an output, and 0 for
+  a whole number.
 - A host that asks for some categories of messages gets those, errors or not. Where it switches
   logging off, it gets all: the few there are are to be known.
 - A host cannot say with what rate an input goes on; `input.hold` = 1 estimates it.
@@ -24,9 +25,11 @@ What only another library could do, and the native unit does:
   of its resources' URL the library reads %20 only, and it ends the process where it finds none.
 """
 
+import ctypes
 import functools
 import json
 import sys
+from abc import abstractmethod
 from math import inf, isfinite, nan, ulp
 
 from pythonfmu import (
@@ -123,22 +126,22 @@ class UnitSlave(Fmi2Slave):
     #: difference, or rounding: it is taken for the bound.
     slack = 0.02
 
+    @abstractmethod
     def begin(self):
         """Begin a run from what is `given` and the `parameters`; `show` the outputs."""
-        raise NotImplementedError
 
+    @abstractmethod
     def go_on(self, end, size):
         """Step to a time after the start of the experiment, by the host's size, s; `show` the
         outputs."""
-        raise NotImplementedError
 
+    @abstractmethod
     def keep(self):
         """A copy of what a continuation needs, beside what is kept here."""
-        raise NotImplementedError
 
+    @abstractmethod
     def put(self, kept):
         """Take back what `keep` gave, or what JSON made of it."""
-        raise NotImplementedError
 
     def warn(self):
         """Tell what the user should know, though it is no failure; called after each step."""
@@ -266,10 +269,18 @@ class UnitSlave(Fmi2Slave):
     def enter_initialization_mode(self):
         self.phase = INITIALISING
 
-    @guarded("fmi2ExitInitializationMode", (INITIALISING,))
     def exit_initialization_mode(self):
+        if not self._end_initialisation():
+            # The library lets go of what it holds, as of a dead instance, and uses it all the same.
+            for held in (type(self), self, self.log_queue):
+                ctypes.pythonapi.Py_IncRef(ctypes.py_object(held))
+            raise Refused
+
+    @guarded("fmi2ExitInitializationMode", (INITIALISING,), result=False)
+    def _end_initialisation(self):
         self.phase = STEPPING
         self._refresh()
+        return True
 
     def _refresh(self):
         """Lay out the run afresh from parameters and inputs, as long as no step was made."""

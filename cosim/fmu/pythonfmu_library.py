@@ -1,4 +1,4 @@
-"""Three corrections to pythonfmu's native library, each a matter of one or two constants.
+"""Four corrections to pythonfmu's native library, each a matter of a few constants.
 
 A refused step (src/pythonfmu/fmi2.cpp, `fmi2DoStep`). A slave that answers False to `do_step` ends
 in these two statements, and no answer at all gives fmi2Error:
@@ -9,6 +9,15 @@ in these two statements, and no answer at all gives fmi2Error:
 fmi2Discard means that a part of the step was made, and that the slave wants to end the simulation:
 a host may stop there without calling it a failure, and fmpy does. An exception instead gives
 fmi2Fatal and destroys the instance. So the constants become `false` and `fmi2Error`.
+
+A refused end of initialisation (src/pythonfmu/fmi2.cpp, `fmi2ExitInitializationMode`). An exception
+of the slave ends in the first of two handlers,
+
+    } catch (const pythonfmu::fatal_error& e) { logger->log(fmi2Fatal, e.what()); return fmi2Fatal;
+    } catch (const std::exception& e) { logger->log(fmi2Error, e.what()); return fmi2Error; }
+
+and is made to leave by the end of the second, without a message: the slave has logged its own, and
+keeps the instance that the library lets go of (`unit_slave`).
 
 The end of the process (src/pythonfmu/PySlaveInstance.cpp, `finalizePythonInterpreter`, Linux). The
 function sets the static pointer `pyState` to null when the library goes. Where the library stays
@@ -46,6 +55,27 @@ REFUSED_STEP = Correction(
     found=bytes.fromhex("c6430801 b802000000"),  # movb $1, 8(%rbx); movl $2, %eax
     put=bytes.fromhex("c6430800 b803000000"),
     loss="returns fmi2Discard, not fmi2Error, where a step is refused",
+)
+FATAL_END = "returns fmi2Fatal, not fmi2Error, where the end of initialisation is refused"
+REFUSED_END = (
+    Correction(  # mov %rsp, %r12; mov 0x18(%rbx), %rbp; mov %rax, %rdi; call what
+        found=bytes.fromhex("4989e4488b 6b184889c7 e848f7ffff"),
+        put=bytes.fromhex("e99c000000 6b184889c7 e848f7ffff"),  # jmp to the end of the second
+        loss=FATAL_END,
+        start=ELF,
+    ),
+    Correction(  # the first handler's entry in the table: type, frame, code, where to go on
+        found=bytes.fromhex("1712 a8d10300 50 10b90100 4c"),
+        put=bytes.fromhex("1712 a8d10300 50 10b90100 7a"),
+        loss=FATAL_END,
+        start=DLL,
+    ),
+    Correction(  # mov $4, %edx; mov %rdi, %rcx; call log
+        found=bytes.fromhex("ba04000000 488bcf e83102ffff"),
+        put=bytes.fromhex("ba04000000 488bcf 0f1f440000"),  # nop
+        loss="repeats in other words why the end of initialisation is refused",
+        start=DLL,
+    ),
 )
 PROCESS_END = Correction(
     # endbr64; push %rbp; pxor %xmm0, %xmm0; push %rbx; sub $8, %rsp; mov pyState+8, %rbp;
@@ -89,7 +119,7 @@ def corrected(library: bytes) -> bytes:
 
     Code that is not found exactly once is left as it is, with a warning that says what is lost.
     """
-    for correction in (REFUSED_STEP, PROCESS_END, *LOGGING):
+    for correction in (REFUSED_STEP, *REFUSED_END, PROCESS_END, *LOGGING):
         if not library.startswith(correction.start):
             continue
         if library.count(correction.found) == 1:

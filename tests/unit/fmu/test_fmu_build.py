@@ -18,6 +18,7 @@ from cosim.fmu.build import FMI3, PYTHON, FmuBuildError, build_fmu, ensure_fmu, 
 
 STANDARD_LIBRARY_USED = {
     "__future__",
+    "abc",
     "collections",
     "ctypes",
     "random",
@@ -185,6 +186,8 @@ def test_an_unknown_library_is_left_alone_and_what_is_lost_is_said():
         (pythonfmu_library.ELF, "may abort at the end"),
         (pythonfmu_library.ELF, "says nothing of its errors"),
         (pythonfmu_library.DLL, "says nothing of its errors"),
+        (pythonfmu_library.ELF, "returns fmi2Fatal, not fmi2Error"),
+        (pythonfmu_library.DLL, "returns fmi2Fatal, not fmi2Error"),
     ):
         with pytest.warns(UserWarning) as said:
             pythonfmu_library.corrected(start + known)

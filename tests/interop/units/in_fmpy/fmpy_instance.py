@@ -54,10 +54,10 @@ class Instance:
     def refuses(self, call, *arguments, **values):
         """The call is refused; the reason, from the log.
 
-        Of the Python unit's calls only a step returns an error. What another failed in, the next
-        step says.
+        Of the Python unit's calls only a step and the end of initialisation return an error, also
+        where another one failed before.
         """
-        if self.is_python and call != self.slave.doStep:
+        if self.is_python and call not in (self.slave.doStep, self.initialise):
             call(*arguments, **values)
         else:
             refused(call, *arguments, **values)

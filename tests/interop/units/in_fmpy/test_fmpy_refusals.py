@@ -93,11 +93,29 @@ def test_an_error_is_logged_where_the_host_wants_no_log(unit, tmp_path):
 def test_one_reason_is_told_once(python_block):
     """A host that sets a hundred parameters more does not hear of it a hundred times."""
     python_block.set("rig.mass", -1.0)
-    python_block.initialise()
+    python_block.set("surface_speed", 0.1)
+    python_block.slave.enterInitializationMode()
     assert math.isnan(python_block.get("x"))
     assert python_block.log.take_errors() == "rig.mass = -1: must lie in (0, inf]"
-    refused(python_block.slave.doStep, 0.0, 0.01)
-    assert "(rig.mass = -1: must lie in (0, inf])" in python_block.log.take_errors()
+    for call, *arguments in ("exitInitializationMode",), ("doStep", 0.0, 0.01):
+        refused(getattr(python_block.slave, call), *arguments)
+        assert "(rig.mass = -1: must lie in (0, inf])" in python_block.log.take_errors()
+
+
+def test_what_initialisation_refuses_is_told_at_its_end_in_one_line(block):
+    """And the instance is as alive as after any other error: it can be asked, reset and freed."""
+    for _ in range(3):
+        said = block.refuses(block.initialise, **{"rig.spring_natural_length": 1.0})
+        assert said.startswith(
+            "rig.spring_natural_length = 1 m is more than twice rig.spring_length = 0.2 m: "
+        )
+        assert said.endswith("allowed is at most twice the installed length")
+        assert "\n" not in said
+        block.get("rig.mass")
+        block.slave.reset()
+    block.initialise()
+    block.march(0, 10, 0.01)
+    assert block.log.take_errors() == ""
 
 
 @pytest.mark.parametrize(
