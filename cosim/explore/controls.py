@@ -153,7 +153,7 @@ def _kind(field: FieldInfo) -> str:
     if get_origin(kind) is Literal:
         return "choice"
     if get_origin(kind) is tuple:
-        return "list" if float in get_args(kind) else "freedom"
+        return "freedom" if get_origin(get_args(kind)[0]) is Literal else "list"
     return "inertia"
 
 

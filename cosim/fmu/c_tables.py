@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from string import Formatter
 
+from stickslip.contradictions import COMPUTABLE
 from stickslip.kernel.layout import DRAW_SEED, DRAW_UNIFORM, constants
 from stickslip.status import WHY_NOT
 
@@ -132,13 +133,14 @@ def _number(value: float) -> str:
 def words_header() -> str:
     """Declarations of `words_source`."""
     lines = [
+        "#include <stdbool.h>",
         "#include <stddef.h>",
         "",
         "/* Why `advance` gave up, by its status. */",
         f"extern const char *const WHY_NOT[{max(WHY_NOT) + 1}];",
         "",
-        "/* What the code of `contradiction` says, with the values in it. */",
-        "void say_contradiction(int code, const double v[], char text[], size_t size);",
+        "/* Are there parameters that cannot be? Says why, with the values in it. */",
+        "bool find_contradiction(const double v[], char text[], size_t size);",
     ]
     return guarded("WORDS_H", lines)
 
@@ -162,17 +164,27 @@ def words_source(contradictions: Mapping[int, str], places: Mapping[str, int]) -
             MADE,
             "#include <stdio.h>",
             "",
+            '#include "kernel.h"',
+            '#include "unit.h"',
             '#include "words.h"',
             "",
             f"const char *const WHY_NOT[{max(WHY_NOT) + 1}] = {{",
             *why,
             "};",
             "",
-            "void say_contradiction(int code, const double v[], char text[], size_t size)",
+            "bool find_contradiction(const double v[], char text[], size_t size)",
             "{",
+            "    int beyond = (int)stickslip_beyond_numbers(v);",
+            "    if (beyond >= 0) {",
+            "        const char *name = VARIABLES[FIRST_PARAMETER + beyond].name;",
+            f'        snprintf(text, size, "%s = %g: %s", name, v[beyond], {quoted(COMPUTABLE)});',
+            "        return true;",
+            "    }",
+            "    int code = (int)stickslip_contradiction(v);",
             "    switch (code) {",
             *cases,
             "    }",
+            "    return code != 0;",
             "}",
             "",
         ]

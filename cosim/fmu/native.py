@@ -18,7 +18,7 @@ from importlib.metadata import version
 from pathlib import Path
 from xml.etree.ElementTree import ParseError, fromstring
 
-from stickslip.contradictions import SAID
+from stickslip.contradictions import COMPUTABLE, SAID
 from stickslip.generation import c as c_generation
 from stickslip.generation.c import c_header, c_source
 from stickslip.generation.platforms import Platform
@@ -75,7 +75,7 @@ def guid() -> str:
     declared = [asdict(each) for each in variables()]
     made_from = {
         "kernel": kernel_source().encode(),
-        "words": json.dumps([WHY_NOT, SAID]).encode(),
+        "words": json.dumps([WHY_NOT, SAID, COMPUTABLE]).encode(),
         "variables": json.dumps(declared, sort_keys=True).encode(),
         **{f"maker/{file.name}": file.read_bytes() for file in MAKERS},
         **_written(),

@@ -6,7 +6,7 @@ import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 from stickslip import Parameters, ports
@@ -205,10 +205,15 @@ def _of_port(port: ports.Port, causality: str) -> Variable:
 
 
 def bounds_of(field: FieldInfo) -> dict[str, float]:
-    """Those that pydantic checks of a parameter: gt, ge, lt and le, where there are any."""
+    """Those that pydantic checks of a parameter: gt, ge, lt and le, where there are any.
+
+    Of a parameter of several numbers, those of each.
+    """
+    is_list = get_origin(field.annotation) is tuple
+    one = FieldInfo.from_annotation(get_args(field.annotation)[0]) if is_list else field
     return {
         kind: getattr(bound, kind)
-        for bound in field.metadata
+        for bound in one.metadata
         for kind in ("gt", "ge", "lt", "le")
         if getattr(bound, kind, None) is not None
     }

@@ -190,7 +190,7 @@ def _allowed_list(entries: tuple[Any, ...], unit: str) -> str:
         return f"a list of {_allowed_type(entries[0], (), unit)}"
     if entries[0] is str:
         return f"a list of {len(entries)} texts"
-    return f"a list of {len(entries)} numbers{unit and f' in{unit}'}"
+    return f"a list of {len(entries)}, each {_allowed_type(entries[0], (), unit)}"
 
 
 def _flat_metadata(kind: Any) -> list[Any]:

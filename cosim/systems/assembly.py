@@ -187,7 +187,12 @@ def _value(
         affine = _to_own_unit(label, variable, start, definitions).then(affine)
     if affine.is_identity or isinstance(value, (bool, str)):
         return value
-    return affine(value)
+    own = affine(value)
+    if not math.isfinite(own):
+        raise SystemFault(
+            f"{label}: {value:g} {start.unit or ''} is not a finite number in {unit_of(variable)}"
+        )
+    return own
 
 
 def _to_own_unit(

@@ -16,7 +16,9 @@ from .kernel.packing.contradictions import (
     FULL_RIPPLE_TOO_FAST,
     GUIDED_PHI_TURNS,
     GUIDED_Y_MOVES,
+    LARGEST,
     NO_CONTRADICTION,
+    SMALLEST,
     SPRINGS_COIL_ON_COIL,
     SURFACE_TURNS_UNDER_BLOCK,
     TABLE_AT_NEGATIVE_SPEED,
@@ -27,8 +29,10 @@ from .kernel.packing.contradictions import (
     TABLE_ROW_WITHOUT_FRICTION,
     TABLE_TEMPERATURES_GO_BACK,
     TRANSITION_BESIDE_STATE_LAW,
+    beyond_numbers,
 )
 from .kernel.packing.contradictions import contradiction as code_of
+from .names import NAMES
 from .packing import in_order
 
 #: What is said of each. ``{name:g}`` stands for the value of the parameter of that name, written
@@ -81,10 +85,19 @@ SAID = {
     GUIDED_PHI_TURNS: "initial.omega = {initial.omega:g} rad/s in a rig that is guided in phi "
     "(rig.free_phi = 0): a guided direction has no velocity; allowed is 0 rad/s",
 }
+#: What a single value must be, whatever its own bounds are.
+COMPUTABLE = f"must be 0, or of a size from {SMALLEST:g} to {LARGEST:g}"
 _VALUE = re.compile(r"\{([^:{}]+):g\}")
 
 
 def contradiction(values: Mapping[str, float]) -> str:
-    """What two of the parameters (names as of `Parameters.flat`) contradict in; "" if nothing."""
-    said = SAID[code_of(in_order(values))]
+    """What two of the parameters (names as of `Parameters.flat`) contradict in; "" if nothing.
+
+    Or why one of them, within its bounds, cannot be computed with.
+    """
+    v = in_order(values)
+    place = beyond_numbers(v)
+    if place >= 0:
+        return f"{NAMES[place]} = {v[place]:g}: {COMPUTABLE}"
+    said = SAID[code_of(v)]
     return _VALUE.sub(lambda found: f"{values[found[1]]:g}", said)

@@ -24,6 +24,10 @@ from .quantity import Table, quantity
 FASTEST_SURFACE = 1e3
 
 
+#: deg, of a direction.
+Angle = Annotated[float, Field(ge=-360, le=360)]
+
+
 class Rig(Table):
     """Block, spring geometry and guides."""
 
@@ -38,7 +42,7 @@ class Rig(Table):
     attachment_radius: float = quantity(
         0.05, "m", "distance of the spring attachments from the block's centre", gt=0
     )
-    attachment_angles_deg: tuple[float, float, float, float] = Field(
+    attachment_angles_deg: tuple[Angle, Angle, Angle, Angle] = Field(
         (160.0, 20.0, 200.0, 340.0),
         description="direction of each attachment from the block's centre, degrees from x",
         json_schema_extra={"unit": "deg"},

@@ -22,7 +22,8 @@ function outOfBounds(scenario) {
 }
 
 function boundFault(control, value) {
-  const bounds = control.kind === "inertia" ? { gt: 0 } : control.bounds;
+  const { max_length, ...ends } = control.bounds;
+  const bounds = control.kind === "inertia" ? { gt: 0 } : ends;
   for (const [kind, bound] of Object.entries(bounds)) {
     if (!BOUNDS[kind](value, bound)) {
       const what = control.kind === "inertia" ? "not possible" : "out of range";
@@ -37,7 +38,9 @@ function listFault(control, value) {
   const most = control.bounds.max_length ?? Infinity;
   const few = control.default.length > 0 && value.length < control.default.length;
   const many = value.length > (control.default.length || most);
-  if (!few && !many) return "";
+  if (!few && !many) {
+    return value.map((entry) => boundFault(control, entry)).find((text) => text) ?? "";
+  }
   const what = `has too ${few ? "few" : "many"} entries ([${value.join(", ")}])`;
   return `${control.key}: ${what}, allowed is ${control.allowed}`;
 }

@@ -152,8 +152,9 @@ def _numeric(text: str, form: str, what: str) -> float | int:
         )
     try:
         value = int(text) if form in INTEGERS else float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
+        is_finite = math.isfinite(value)
+    except (ValueError, OverflowError):
+        is_finite = False
+    if not is_finite:
         raise SystemFault(f"{what} is {text!r}, allowed is a finite number")
     return value

@@ -37,10 +37,8 @@ CALLED(take_events) int explorer_take_events(void)
 CALLED(begin) const char *explorer_begin(void)
 {
     double d[D_SIZE];
-    int code = (int)stickslip_contradiction(v);
     text[0] = '\0';
-    if (code != 0) {
-        say_contradiction(code, v, text, TEXT);
+    if (find_contradiction(v, text, TEXT)) {
         return text;
     }
     draw(d, v);

@@ -13,9 +13,7 @@ static bool pack_parameters(Model *model, const double values[], double toleranc
 {
     double v[V_SIZE], d[D_SIZE];
     memcpy(v, values + FIRST_PARAMETER, sizeof v);
-    int code = (int)stickslip_contradiction(v);
-    if (code != 0) {
-        say_contradiction(code, v, message, MESSAGE_SIZE);
+    if (find_contradiction(v, message, MESSAGE_SIZE)) {
         return false;
     }
     if (tolerance > 0.0) {

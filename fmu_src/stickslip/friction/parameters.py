@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
-from typing import Any, Self
+from typing import Annotated, Any, Self
 
 from pydantic import Field, model_validator
 
 from ..kernel.layout import CURVE_LIMIT, TABLE_LIMIT, TEMPERATURE_LIMIT
 from ..quantity import Table, quantity
-from .table_file import read_table
+from .table_file import ABSOLUTE_ZERO, read_table
 
 
 class Friction(Table):
@@ -75,7 +75,7 @@ class Friction(Table):
         strict=False,
         max_length=TABLE_LIMIT,
     )
-    table_temperature_degC: tuple[float, ...] = Field(
+    table_temperature_degC: tuple[Annotated[float, Field(ge=ABSOLUTE_ZERO, le=1000)], ...] = Field(
         (),
         description="temperatures of the interface at which the table has its coefficients, "
         "growing, 2 to 6; PCHIP between them, constant beyond; none: at any temperature",

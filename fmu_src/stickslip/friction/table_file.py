@@ -19,8 +19,13 @@ MOST_BYTES = 2**20
 #: Columns of a file: sliding speed, m/s, and coefficient; and of one over the temperature, too.
 COLUMNS = ("v", "mu")
 TEMPERATURE = "T_degC"
+ABSOLUTE_ZERO = -273.15  # degC
 #: What each column may be: least, most, and the unit. More is a slip of the unit (mm/s, kelvin).
-RANGES = {"v": (0.0, 1000.0, "m/s"), "mu": (0.0, 100.0, ""), TEMPERATURE: (-273.15, 100.0, "degC")}
+RANGES = {
+    "v": (0.0, 1000.0, "m/s"),
+    "mu": (0.0, 100.0, ""),
+    TEMPERATURE: (ABSOLUTE_ZERO, 100.0, "degC"),
+}
 #: Columns that would be the temperature, were they called so; others are comments.
 _ALIKE = re.compile(r"t\b.*|t_.*|temp.*", re.IGNORECASE)
 #: Speeds, temperatures, and coefficients: at all speeds of the first temperature, and so on.

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from stickslip import Parameters
+from stickslip.contradictions import COMPUTABLE
 
 from cosim.scenario import Scenario, packaged_scenarios, read_scenario
 from cosim.scenario.validation import ScenarioError
@@ -131,7 +132,19 @@ NUMBER = "allowed is a number greater than 0 kg"
         ("[rig]\nmass = 1979-05-27", f"rig.mass: not a number (1979-05-27), {NUMBER}"),
         ("[belt]\nlength = '1'", "belt.length: not a number"),
         ("[belt]\nelements = 6.0", "belt.elements: not a whole number (6.0), allowed is a whole"),
-        ("[rig]\nmass = 1e308", "rig.mass: 1e+308 kg: its weight is beyond all numbers"),
+        ("[rig]\nmass = 1e308", f"rig.mass: 1e+308: {COMPUTABLE}"),
+        ("[rig]\nmass = 5e-324", f"rig.mass: 4.94066e-324: {COMPUTABLE}"),
+        ("[speed_ripple]\nphase_deg = -1e308", f"speed_ripple.phase_deg: -1e+308: {COMPUTABLE}"),
+        (
+            "[friction]\ntable_temperature_degC = [-1e308, 0]",
+            "friction.table_temperature_degC: out of range (-1e+308), allowed is a list of a number"
+            " at least -273.15 and at most 1000 degC",
+        ),
+        (
+            "[rig]\nattachment_angles_deg = [1, 2, 3, 1e308]",
+            "rig.attachment_angles_deg: out of range (1e+308), allowed is a list of 4, each a"
+            " number at least -360 and at most 360 deg",
+        ),
         ("[rig]\nmas = 1", "rig.mas: no such key, nearest known: rig.mass"),
         ("mass = 1", "mass: no such key, nearest known: rig.mass"),
         ("[friction]\nmass = 1", "friction.mass: no such key, nearest known: rig.mass"),

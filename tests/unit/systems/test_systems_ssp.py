@@ -70,6 +70,9 @@ def real(name, value, unit=""):
     return f'<ssv:Parameter name="{name}"><ssv:Real value="{value}"{said}/></ssv:Parameter>'
 
 
+INTEGER = '<ssv:Parameter name="gain"><ssv:Integer value="{}"/></ssv:Parameter>'
+
+
 def system(elements, connections="", before="", name="root"):
     return (
         f'<ssd:System name="{name}">{before}<ssd:Elements>{elements}</ssd:Elements>'
@@ -268,6 +271,16 @@ def test_a_value_is_converted_to_the_unit_of_its_variable(write):
     assert done.result["a.y"][-1] == pytest.approx(1.5, rel=1e-12)
 
 
+def test_a_value_that_is_none_in_the_unit_of_its_variable_is_refused(write):
+    units = (
+        '<ssd:Units><ssc:Unit name="km"><ssc:BaseUnit m="1" factor="1000"/></ssc:Unit></ssd:Units>'
+    )
+    a = component("a", "a.fmu", values(real("u", 1e308, "km")))
+    path = write(structure(system(a), units), (("m", ""), ("", "")))
+    with pytest.raises(SystemFault, match=r"a\.u: 1e\+308 km is not a finite number in m$"):
+        run(path)
+
+
 def test_values_of_a_systems_connectors_go_to_what_they_feed(write):
     """An input and a parameter of the system, as OMSimulator has them."""
     before = connectors(strength=("input", ""), k=("parameter", "")) + values(
@@ -334,6 +347,10 @@ REFUSED = {
     "no number": (
         component("a", "a.fmu", values(real("gain", "much"))),
         "'gain' of the set 'set' is 'much', allowed is a finite number",
+    ),
+    "no number of a computer": (
+        component("a", "a.fmu", values(INTEGER.format("1" + 400 * "0"))),
+        "000', allowed is a finite number",
     ),
     "binary": (
         component(

@@ -23,13 +23,18 @@ from ..layout import (
     V_RIG_CONTACT_RADIUS,
     V_RIG_FREE_PHI,
     V_RIG_FREE_Y,
+    V_RIG_INERTIA,
+    V_RIG_MASS,
     V_RIG_SPRING_LENGTH,
     V_RIG_SPRING_NATURAL_LENGTH,
+    V_SIZE,
     V_SPEED_RIPPLE_AMPLITUDE,
     V_SPEED_RIPPLE_FREQUENCY,
     V_SPRINGS_FORCE_CURVE_EXTENSION,
     V_SPRINGS_FORCE_CURVE_FORCE,
     V_STICK_STIFFNESS_RATIO,
+    V_SURFACE_PATTERN_WAVELENGTH,
+    V_SURFACE_SCATTER_CORRELATION_LENGTH,
     V_TURNING_SURFACE_CURVATURE,
 )
 from ..terms import has_dry_law
@@ -59,6 +64,26 @@ TABLE_TEMPERATURES_GO_BACK = 19
 TABLE_ROW_WITHOUT_FRICTION = 20
 
 FASTEST_FULL_RIPPLE = 100.0  # Hz
+
+# Beyond these, numbers that the model makes of a parameter (squares, quotients) can be infinite.
+SMALLEST = 1e-100
+LARGEST = 1e100
+
+
+def beyond_numbers(v: Floats) -> int:
+    """Place of the first value that is too small or too large to compute with, -1 for none."""
+    for i in range(V_SIZE):
+        size = abs(v[i])
+        if size > LARGEST or (is_divisor(i) and 0.0 < size < SMALLEST):
+            return i
+    return -1
+
+
+def is_divisor(place: int) -> bool:
+    """Whether the model divides by the value there; elsewhere next to nothing is nothing."""
+    is_rigs = place == V_RIG_MASS or place == V_RIG_INERTIA or place == V_RIG_CONTACT_RADIUS
+    is_length = place == V_SURFACE_PATTERN_WAVELENGTH
+    return is_rigs or is_length or place == V_SURFACE_SCATTER_CORRELATION_LENGTH
 
 
 def contradiction(v: Floats) -> int:

@@ -159,7 +159,7 @@ def test_sources_compile_without_a_warning(sources, tmp_path):
     compiled([*strict, "-o", made, *sorted(sources.glob("*.c")), "-lm"], sources)
     # A plain name of another library, as the C library's `step`, would be called instead of ours.
     plain = [name for name in shown(made) if not name.startswith(("fmi2", "stickslip_"))]
-    assert all(name.isupper() or name == "say_contradiction" for name in plain)
+    assert all(name.isupper() or name == "find_contradiction" for name in plain)
 
 
 def test_fmpy_compiles_the_sources(fmu, run, tmp_path):

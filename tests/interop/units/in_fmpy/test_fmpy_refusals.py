@@ -120,10 +120,32 @@ def test_what_initialisation_refuses_is_told_at_its_end_in_one_line(block):
 
 @pytest.mark.parametrize(
     ("name", "value", "range"),
-    [("rig.mass", 0.0, "(0, inf]"), ("rig.mass", -1.0, "(0, inf]"), ("rig.free_y", 2, "[0, 1]")],
+    [
+        ("rig.mass", 0.0, "(0, inf]"),
+        ("rig.mass", -1.0, "(0, inf]"),
+        ("rig.free_y", 2, "[0, 1]"),
+        ("temperature_dependence.reference_degC", -1e308, "[-273.15, 0]"),
+        ("friction.table_temperature_degC[2]", -1e308, "[-273.15, 1000]"),
+        ("rig.attachment_angles_deg[1]", 1e308, "[-360, 360]"),
+    ],
 )
 def test_a_parameter_out_of_range_is_refused(block, name, value, range):
     assert block.refuses(block.set, name, value) == f"{name} = {value:g}: must lie in {range}"
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("rig.mass", 1e308),
+        ("rig.mass", 5e-324),
+        ("initial.x", -1e308),
+        ("surface_pattern.phase_deg", 1e308),
+    ],
+)
+def test_what_nobody_can_compute_with_is_refused(block, name, value):
+    """Squares and quotients of it would be infinite."""
+    said = block.refuses(block.initialise, **{name: value})
+    assert said == f"{name} = {value:g}: must be 0, or of a size from 1e-100 to 1e+100"
 
 
 @pytest.mark.parametrize(
