@@ -90,7 +90,7 @@ def _guarded(argv: Sequence[str], ending: bool) -> int:
     except (OutputError, Failed) as error:
         return _give_up(error, FAILED, debug)
     except Exception as error:
-        if is_of_an_effect(error):
+        if is_of_an_effect(error) or _lacks_compiler(error):
             return _give_up(error, BAD_INPUT, debug)
         if isinstance(error, OSError) and error.errno == ENAMETOOLONG:  # of whoever gave the name
             text = f"{error.filename}: is too long for a file's name, allowed is a shorter one"
@@ -101,6 +101,13 @@ def _guarded(argv: Sequence[str], ending: bool) -> int:
             return _give_up(error, FAILED, debug, text)
         said = " ".join(str(error).split()) or type(error).__name__
         return _give_up(error, FAILED, debug, f"{said} (--debug shows where)")
+
+
+def _lacks_compiler(error: Exception) -> bool:
+    """Whether there is no compiler for what has to be compiled: nothing was computed."""
+    from stickslip.generation.compiler import CompilerError
+
+    return isinstance(error, CompilerError) or isinstance(error.__cause__, CompilerError)
 
 
 def _silence(stream: TextIO) -> None:

@@ -15,7 +15,7 @@ import stickslip
 from stickslip.effects import EFFECTS
 from stickslip.effects import FILES as CATALOGUE
 from stickslip.effects.effect import Effect
-from stickslip.generation.compiler import CompilerError, possible
+from stickslip.generation.compiler import NO_COMPILER, CompilerError
 from stickslip.generation.platforms import Platform, this_machine
 from stickslip.scratch import scratch_folder
 
@@ -72,7 +72,7 @@ def own_fmu() -> Path:
     try:
         return ensure_fmu(_scratch().name)
     except (FmuBuildError, OSError):
-        raise refused from None
+        raise refused from refused.__cause__
 
 
 @cache
@@ -104,19 +104,34 @@ def build_fmu(
     """
     directory = Path(directory)
     platforms = platforms or [this_machine()]
+    require_way(name, platforms)
     _check_writable(directory)
     if name in MADE_APART:
         return _build_python_unit(directory, name)
-    if _outside() and name in (NATIVE, FMI3) and not possible(platforms):
-        raise FmuBuildError(
-            f"{name} was not built: a custom effect has to be compiled, and there is no C "
-            "compiler: `pip install ziglang` brings one for every platform; or build "
-            f"{PYTHON}, which needs none (`stickslip run --fmu` takes it)"
-        )
     try:
         return _maker(name)(directory, platforms)
     except CompilerError as error:
         raise FmuBuildError(f"{name} was not built: {error}") from error
+
+
+def require_way(name: str, platforms: Sequence[Platform] = ()) -> None:
+    """Raises FmuBuildError where there is no compiler for a unit that needs one."""
+    of_block = () if name in MADE_APART or _is_of_heat(name) else (native.guid(),)
+    of_heat = (native_unit.guid(),) if _is_of_heat(name) or name == SYSTEM else ()
+    try:
+        for guid in (*of_block, *of_heat):
+            libraries.require_way(guid, platforms or [this_machine()])
+    except CompilerError as error:
+        why = f"custom effects are compiled, and there is {NO_COMPILER}" if _outside() else error
+        if name in (NATIVE, FMI3):
+            why = (
+                f"{why}; {PYTHON} needs none: `stickslip build {PYTHON} -o .`, `run --fmu {PYTHON}`"
+            )
+        raise FmuBuildError(f"{name} was not built: {why}") from error
+
+
+def _is_of_heat(name: str) -> bool:
+    return name in native_unit.FILES.values()
 
 
 def _maker(name: str) -> Callable[[Path, Sequence[Platform]], Path]:
@@ -124,7 +139,7 @@ def _maker(name: str) -> Callable[[Path, Sequence[Platform]], Path]:
         from cosim.fmu.thermal import structure  # the scenario, and with it the heat model
 
         return structure.build
-    if name in native_unit.FILES.values():
+    if _is_of_heat(name):
         of_heat = libraries.FMI3 if name == THERMAL_FMI3 else libraries.FMI2
         return partial(native_unit.build, fmi=of_heat)
     return partial(native.build, fmi=libraries.FMI3 if name == FMI3 else libraries.FMI2)

@@ -8,7 +8,7 @@ from functools import cache
 from pathlib import Path
 from typing import IO
 
-from stickslip.generation.compiler import CompilerError, compiled, joined, possible
+from stickslip.generation.compiler import NO_COMPILER, CompilerError, compiled, joined, possible
 from stickslip.generation.platforms import BROWSER, PLATFORMS, Platform, this_platform
 
 #: Versions of FMI, each with its own names of the folders in `binaries`.
@@ -29,20 +29,27 @@ def libraries(
     Once in a process: a library serves several units. Raises CompilerError where there is a way to
     none.
     """
-    made = _prebuilt(guid)
+    require_way(guid, platforms)
+    brought = _prebuilt(guid)
+    made = {each: brought[each].read_bytes() for each in platforms if each in brought}
     lacking = possible([each for each in platforms if each not in made])
     if lacking:
         made |= compiled(sources(), lacking, name)
-    found = {each: made[each] for each in platforms if each in made}
-    if not found:
-        raise CompilerError(_no_way(guid))
-    return found
+    return made
 
 
-def _prebuilt(guid: str) -> dict[Platform, bytes]:
+def require_way(guid: str, platforms: Sequence[Platform]) -> None:
+    """Raises CompilerError where a unit can have a library for none of the platforms."""
+    brought = _prebuilt(guid)
+    if not possible([each for each in platforms if each not in brought]):
+        if not any(each in brought for each in platforms):
+            raise CompilerError(_no_way(guid))
+
+
+def _prebuilt(guid: str) -> dict[Platform, Path]:
     folder = _prebuilt_folder() / guid
     files = {each: folder / f"{each.name}{each.suffix}" for each in (*PLATFORMS, BROWSER)}
-    return {each: file.read_bytes() for each, file in files.items() if file.is_file()}
+    return {each: file for each, file in files.items() if file.is_file()}
 
 
 def _prebuilt_folder() -> Path:
@@ -59,10 +66,7 @@ def _no_way(guid: str) -> str:
             "compiler to make new ones: install stickslip again "
             "(`pip install --force-reinstall stickslip`)"
         )
-    return (
-        "no C compiler for the unit: install one (cc, gcc or clang), or `pip install ziglang`, "
-        "which compiles for every platform"
-    )
+    return NO_COMPILER
 
 
 def prebuild(

@@ -23,7 +23,7 @@ from pathlib import Path
 
 import platformdirs
 
-from .generation.compiler import CALLED_BY_NAME, compiled
+from .generation.compiler import CALLED_BY_NAME, compiled, require_compiler
 from .generation.platforms import Platform, this_machine
 from .scratch import scratch_folder
 
@@ -64,6 +64,7 @@ class Code:
         for file in [*filter(Path.is_file, [brought]), *filter(_is_whole, kept)]:
             LOG.info("mechanical model: machine code in %s", file)
             return ctypes.CDLL(str(file))
+        require_compiler(here)
         LOG.warning("compiling the mechanical model for this machine, once: a few seconds")
         made = compiled(self.sources(), [here], self.name, CALLED_BY_NAME, stays=True)[here]
         if there := _kept(name, made):

@@ -74,12 +74,14 @@ def refused() -> tuple[type[Exception], ...]:
 def execute(arguments: Namespace) -> int:
     """Build the units afresh and say where they are, and for which platforms."""
     from cosim.files import writable
-    from cosim.fmu.build import build_fmu, own_folder
+    from cosim.fmu.build import build_fmu, own_folder, require_way
     from cosim.fmu.libraries import platforms_of
 
     units = arguments.units or UNITS
-    folder = writable(Path(arguments.output) if arguments.output else own_folder(), units)
     platforms = list(dict.fromkeys(each for named in arguments.platforms for each in named))
+    for name in units:
+        require_way(name, platforms)
+    folder = writable(Path(arguments.output) if arguments.output else own_folder(), units)
     for name in units:
         fmu = build_fmu(folder, name, platforms)
         print(f"{fmu}: {', '.join(platforms_of(fmu))}")

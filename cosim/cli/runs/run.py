@@ -161,6 +161,7 @@ def _begun(arguments: Namespace) -> Job:
     from cosim.cli.plug_ins import digests
     from cosim.cli.runs import run_io, running
     from cosim.coupling.record import RunFolder
+    from cosim.fmu.build import own_fmu
     from cosim.manifest import require_own
 
     if arguments.effects:
@@ -169,6 +170,8 @@ def _begun(arguments: Namespace) -> Job:
             "scenario"
         )
     scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=True)
+    # before anything is written: it may lack a compiler
+    unit = arguments.fmu or own_fmu()
     results = running.results_folder(arguments.output, scenario, arguments.force)
     require_own(results, [run_io.COLLECTION], arguments.force)
     command = shlex.join(["stickslip", *sys.argv[1:]])
@@ -185,7 +188,7 @@ def _begun(arguments: Namespace) -> Job:
     }
     folder = RunFolder.begun(results, asked, {SCENARIO: scenario.to_toml()}, force=arguments.force)
     return Job(
-        *(scenario, results, folder, arguments.fmu, arguments.animation, arguments.fields),
+        *(scenario, results, folder, str(unit), arguments.animation, arguments.fields),
         *(shown(arguments), command, arguments.force),
     )
 

@@ -86,11 +86,13 @@ def refused() -> tuple[type[Exception], ...]:
 
 def execute(arguments: Namespace) -> int:
     """Run, write, print a line a temperature; 0."""
+    from cosim.fmu.build import own_fmu
     from cosim.studies.friction_map import friction_map
 
     began = time.perf_counter()
     scenario = given_scenario(arguments.scenario, arguments.changes)
     asked = numbers_asked(arguments, KEYS)
+    own_fmu()  # once, and before anything is written: it may lack a compiler
     folder = Path(arguments.output)
     writable(folder)
     require_own(folder, (RESULT, TABLE, FIGURE, PAGE), arguments.force)

@@ -113,6 +113,7 @@ def refused() -> tuple[type[Exception], ...]:
 
 def execute(arguments: Namespace) -> int:
     """Sweep, write, report; 0, or 1 when nothing came out or the sweep was stopped."""
+    from cosim.fmu.build import own_fmu
     from cosim.studies.sweep import SweepStopped, run_grid
     from cosim.studies.sweep.figure import check_shown
 
@@ -125,6 +126,8 @@ def execute(arguments: Namespace) -> int:
     folder = Path(arguments.output or Path("results") / f"{scenario.name}-sweep")
     not_taken(folder, OWN)
     require_own(folder, OWN, arguments.force)
+    if _is_coupled(grids[""]) and arguments.dask is None:
+        own_fmu()  # once, and before anything is written: it may lack a compiler
     note_taken(scenario)
     datasets = {}
     try:
@@ -188,11 +191,15 @@ def _grids(arguments: Namespace, scenario: Scenario) -> dict[str, Grid]:
 
 def _run_of(grid: Grid, scenario: Scenario) -> Run:
     """How each combination is run: as the scenario says."""
-    from cosim.scenario import Scenario as Whole
-
     own = scenario.run
     said = {"duration": own.duration, "output_interval": own.output_interval}
-    return grid.run_of({} if isinstance(grid.base, Whole) else said)
+    return grid.run_of({} if _is_coupled(grid) else said)
+
+
+def _is_coupled(grid: Grid) -> bool:
+    from cosim.scenario import Scenario as Whole
+
+    return isinstance(grid.base, Whole)
 
 
 @contextmanager

@@ -38,6 +38,12 @@ MORE = {".dll": [], ".dylib": ["-lm", "-Wl,-install_name,@rpath/{library}"]}
 COMPILERS = ("cc", "gcc", "clang")
 
 
+NO_COMPILER = (
+    "no C compiler: install one (cc, gcc or clang), or `pip install ziglang`, which compiles for "
+    "every platform"
+)
+
+
 class CompilerError(ValueError):
     """There is no compiler for a platform, or it refuses the sources; one line."""
 
@@ -53,6 +59,12 @@ def possible(platforms: Sequence[Platform]) -> list[Platform]:
         return list(platforms)
     own = this_machine() if _system_compiler() else None
     return [each for each in platforms if each == own]
+
+
+def require_compiler(platform: Platform) -> None:
+    """Raises CompilerError where nothing compiles for a platform."""
+    if not possible([platform]):
+        raise CompilerError(f"{platform.name}: {NO_COMPILER}")
 
 
 def compiled(
@@ -103,12 +115,8 @@ def _compiler(platform: Platform, stays: bool) -> list[str]:
     system = _system_compiler() if platform == this_machine() else None
     if system and (stays or not has_zig()):
         return [system]
-    if has_zig():
-        return [sys.executable, "-m", "ziglang", "cc", "-target", platform.target]
-    raise CompilerError(
-        f"{platform.name}: no compiler for it: install cc, gcc or clang, or `pip install ziglang`, "
-        "which compiles for every platform"
-    )
+    require_compiler(platform)
+    return [sys.executable, "-m", "ziglang", "cc", "-target", platform.target]
 
 
 def _system_compiler() -> str | None:

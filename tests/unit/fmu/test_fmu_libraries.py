@@ -95,7 +95,7 @@ def put(folder, platform, content=b"a library"):
 
 
 def test_without_libraries_a_compiler_is_asked_for(prebuilt, tmp_path):
-    assert "no C compiler for the unit: install one" in refusal(tmp_path / "units")
+    assert "no C compiler: install one" in refusal(tmp_path / "units")
 
 
 def test_libraries_of_another_content_are_said_to_be_that(prebuilt, tmp_path):
@@ -108,7 +108,7 @@ def test_libraries_of_another_content_are_said_to_be_that(prebuilt, tmp_path):
 
 def test_libraries_that_lack_this_platform_alone_need_a_compiler(prebuilt, tmp_path):
     put(prebuilt / native.guid(), next(each for each in PLATFORMS if each != this_platform()))
-    assert "no C compiler for the unit: install one" in refusal(tmp_path / "units")
+    assert "no C compiler: install one" in refusal(tmp_path / "units")
 
 
 def test_what_there_is_of_the_platforms_is_taken(prebuilt, tmp_path):
