@@ -9,11 +9,13 @@ import shutil
 import struct
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
 
 from ..scratch import scratch_folder
+from . import ends_with_parent
 from .platforms import Platform, this_machine
 
 LOG = logging.getLogger(__name__)
@@ -79,24 +81,38 @@ def compiled(
 
     stays : for this machine alone, by its own compiler if it has one, which is quicker; what zig
     compiles runs on older systems, too. Each is compiled by a process of its own, as many at once
-    as there are processors. Raises CompilerError.
+    as there are processors; all end with this one, however that ends. Raises CompilerError.
     """
     LOG.info("compiling %s for %s", name, ", ".join(each.name for each in platforms))
     with scratch_folder("c") as scratch:
         folder = Path(scratch)
         for file, content in sources.items():
             (folder / file).write_bytes(content)
-        with ThreadPoolExecutor(os.cpu_count()) as pool:
+        # the line is cut before the pool waits for its threads
+        with ThreadPoolExecutor(os.cpu_count()) as pool, _line() as line:
             made = pool.map(
                 lambda each: _library(
-                    folder, each, name, [*_compiler(each, stays), *OPTIONS, *options]
+                    folder, each, name, [*_compiler(each, stays), *OPTIONS, *options], line
                 ),
                 platforms,
             )
             return dict(zip(platforms, made, strict=True))
 
 
-def _library(folder: Path, platform: Platform, name: str, compiler: Sequence[str]) -> bytes:
+@contextmanager
+def _line() -> Iterator[int]:
+    """Standard input of compilers, which end with it."""
+    theirs, ours = os.pipe()
+    try:
+        yield theirs
+    finally:
+        os.close(ours)
+        os.close(theirs)
+
+
+def _library(
+    folder: Path, platform: Platform, name: str, compiler: Sequence[str], line: int
+) -> bytes:
     # A DLL calls itself as the file that the compiler writes, so each platform has a folder.
     library = Path(platform.name) / f"{name}{platform.suffix}"
     (folder / library.parent).mkdir()
@@ -104,7 +120,16 @@ def _library(folder: Path, platform: Platform, name: str, compiler: Sequence[str
     more = [word.format(library=library.name) for word in MORE.get(platform.suffix, ["-lm"])]
     shared = SHARED.get(platform.suffix, ["-fPIC", "-shared"])
     command = [*compiler, *shared, "-o", str(library), *files, *more]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    guarded = [sys.executable, "-IS", ends_with_parent.__file__, *command]
+    done = subprocess.run(
+        guarded,
+        cwd=folder,
+        stdin=line,
+        capture_output=True,
+        text=True,
+        check=False,
+        process_group=0,
+    )
     if done.returncode != 0:
         said = next((line for line in done.stderr.splitlines() if "error" in line), done.stderr)
         raise CompilerError(f"{platform.name}: {command[0]} refuses the sources: {said.strip()}")
