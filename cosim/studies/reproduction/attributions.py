@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from .cases import many
-from .claims.friction_level import Y_STIFFNESS, variant_of
-from .claims.rotation import FACTOR, MEASURED
-from .claims.spring_angles import ROTATES
+from .claims.friction_level import misfit, observed
+from .claims.rotation import ROTATES, turns_far_and_near
 from .readings import (
     AS_PRINTED,
     BALANCED,
-    ENOUGH,
     MARKS,
     ROUNDED,
     Outcome,
     Reading,
     outcomes,
     reading_figures,
+    standing,
 )
+from .sheet import WRITTEN
 
 #: Claims that this bears on.
 CLAIMS = ("C5", "C6", "C7")
@@ -50,21 +51,20 @@ class Attribution:
         return self.misfits[2] < self.misfits[1]
 
 
-def misfit(reading: Reading, dataset: int) -> float:
-    """Of the five observations, in their spreads."""
-    stiffer = reading_figures(reading, dataset, stiffness=Y_STIFFNESS)
-    return variant_of("", reading_figures(reading, dataset), stiffer).misfit
-
-
 def attribution(reading: Reading) -> Attribution:
     """The three claims under a reading."""
-    turns = [reading_figures(reading, dataset).max_rotation for dataset in (1, 2)]
-    misfits = (misfit(reading, 1), misfit(reading, 2), misfit(reading.mended("F1"), 1))
+    first, second = (reading_figures(reading, dataset).max_rotation for dataset in (1, 2))
+    misfits = _misfit(reading, 1), _misfit(reading, 2), _misfit(reading.mended("F1"), 1)
     without = {
         fault: reading_figures(reading.mended(fault), 1).max_rotation for fault in ("F2", "F13")
     }
-    far, near = turns[0] > 150.0 / FACTOR, turns[1] < FACTOR * MEASURED
-    return Attribution(reading, turns[0] > ROTATES, without, misfits, far and near)
+    both = turns_far_and_near(first, second)
+    return Attribution(reading, first > ROTATES, without, misfits, both)
+
+
+def _misfit(reading: Reading, dataset: int) -> float:
+    """Of the five observations, in their spreads."""
+    return misfit(observed(lambda k: reading_figures(reading, dataset, stiffness=k)))
 
 
 @dataclass(frozen=True)
@@ -82,51 +82,44 @@ class Datasets:
     @property
     def says(self) -> str:
         """What came of it, in sentences."""
-        of = {one.reading: one for one in self.outcomes}
-        count, mean, second, first, _ = of[AS_PRINTED].values
-        rounded, balanced = of[ROUNDED], of[BALANCED]
+        of, written = {one.reading: one for one in self.outcomes}, WRITTEN["datasets"]
         most = max(sum(one.met) for one in self.outcomes)
-        closest = [one.reading.name for one in self.outcomes if sum(one.met) == most]
-        return (
-            f"{'A' if self.found else 'No'} reading of the scheme gives both of the study's "
-            f"datasets. As printed it gives the rotation of dataset #1 (up to {first:.0f}° in "
-            "the 20 s after ten cycles of three runs, against the study's 150°) and nothing of "
-            "dataset #2: "
-            f"{count:.1f} oscillations in 20 s against 30 or 31, a mean of x of {mean:+.3f} m "
-            f"against +0.004 m, {second:.0f}° against 15°. The scatter is not the reason. The "
-            "printed scheme is unstable: whatever first turns the block grows until the springs' "
-            f"angles bound it. In perfect balance it slides straight ({balanced.values[0]:.1f} "
-            f"oscillations, {balanced.values[1]:+.4f} m, no rotation); with no scatter but "
-            f"rounding it does so for {rounded.onset:.0f} s, and then it turns all the same, by "
-            f"{rounded.values[2]:.0f}°. Closest to all {len(MARKS)} marks, with "
-            f"{most} met: {'; '.join(closest)}. "
-            + ("" if self.found else "The listing alone does not make the study's figures.")
+        said = written["says"].format(
+            printed=of[AS_PRINTED].values,
+            balanced=of[BALANCED].values,
+            rounded=of[ROUNDED].values,
+            onset=of[ROUNDED].onset,
+            marks=len(MARKS),
+            most=most,
+            closest=_names(one.reading for one in self.outcomes if sum(one.met) == most),
         )
+        if self.found:
+            return f"{written['found']} {said}"
+        return f"{written['none']} {said} {written['listing']}"
 
     @property
     def bears(self) -> str:
         """What it does to the three claims, in sentences."""
-        turning = [one for one in self.attributions if one.rotates]
-        ended = {
-            fault: sum(one.without[fault] < ROTATES for one in turning) for fault in ("F2", "F13")
-        }
-        explained = [one for one in self.attributions if one.one_spring_explains]
-        others = [one.reading.name for one in self.attributions if not one.one_spring_explains]
-        both = [one.reading.name for one in self.attributions if one.both]
-        several = len(self.attributions)
-        return (
-            f"C5: dataset #1 rotates in {len(turning)} of {several} readings; mending F2 ends that "
-            f"in {ended['F2']} of them, mending F13 in {ended['F13']}. C6: µ full with F1 mended "
-            f"fits better than the quarter in {len(explained)} of {several}"
-            + (f"; not in: {', '.join(others)}" if others else "")
-            + f". C7: both of its parts in {len(both)} of {several}"
-            + (f": {', '.join(both)}" if both else "")
-            + "."
+        every = self.attributions
+        turning = [one for one in every if one.rotates]
+        others = _names(one.reading for one in every if not one.one_spring_explains)
+        both = [one.reading for one in every if one.both]
+        return WRITTEN["datasets"]["bears"].format(
+            all=len(every),
+            turning=len(turning),
+            ended=[sum(one.without[f] < ROTATES for one in turning) for f in ("F2", "F13")],
+            explained=sum(one.one_spring_explains for one in every),
+            others=f"; not in: {others}" if others else "",
+            both=len(both),
+            both_in=f": {_names(both)}" if both else "",
         )
 
 
+def _names(readings: Iterable[Reading]) -> str:
+    return "; ".join(one.name for one in readings)
+
+
 def datasets() -> Datasets:
-    """Every reading beside the marks, and the claims under those that stand."""
-    every = outcomes()
-    standing = [one.reading for one in every if one.reading == AS_PRINTED or sum(one.met) >= ENOUGH]
-    return Datasets(tuple(every), tuple(many(attribution, standing)))
+    """Every reading beside the marks, and the claims as printed and under those that stand."""
+    bearing = [AS_PRINTED, *(one for one in standing() if one != AS_PRINTED)]
+    return Datasets(tuple(outcomes()), tuple(many(attribution, bearing)))

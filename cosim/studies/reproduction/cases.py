@@ -1,27 +1,23 @@
-"""The study's cases, the models they are run with, and every number that it prints of them.
-
-What is computed from its numbers is not one of them: a `Row` has a place of its own for it.
-"""
+"""The study's cases, and the three models that they are run with: as printed, mended, exact."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from itertools import product
+from typing import Any
 
 import numpy as np
 from stickslip import Parameters, simulate
 from stickslip.reference.linearised import GRAVITY, Scheme
 from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
-from cosim.studies.reproduction.motion import Motion, MotionFigures, average, figures
+from .motion import Motion, MotionFigures, average, figures
 
-Grid = dict[str, np.ndarray]  # model -> number (stiffness, mass, speed)
-
-PRINTED_MODEL, MENDED_MODEL, EXACT_MODEL = "printed", "mended", "exact"
+Array = np.ndarray
 
 CYCLES = 25  # the study's run: 10 cycles to settle, 15 that count
 STEADY = 0.6
@@ -35,108 +31,13 @@ MASSES = (0.67, 0.896667, 1.123333, 1.35, 1.576667, 1.803333, 2.03)
 STIFFNESSES = (20.17, 38.50, 53.36, 68.22)
 EXTRA_STIFFNESS = 136.44
 SPEEDS = (0.15, 0.25, 0.37, 0.50, 0.63, 0.82)
-MASSES_ASSUMED = "seven masses evenly from 0.67 to 2.03 kg (only the ends are printed)"
-STIFFNESS_ASSUMED = "53.36 N/m, midway, for the stiffness that is plotted but not stated"
 LENGTH, PRETENSION = 0.20, 0.01
-RIG_ASSUMED = (
-    f"exact model: springs of {1e3 * LENGTH:.0f} mm stretched by {1e3 * PRETENSION:.0f} mm as "
-    "installed (the pretension is not printed; without any, straight sliding is unstable), planar "
-    "friction, contact radius 0.04 m, J = m a²/2, started turned by 1°, 10 s of settling, then "
-    "20 s"
-)
-GUIDED_ASSUMED = (
-    "exact model: block guided along x, 10 s of settling, then 20 s (whether a free block turns at "
-    "high speed depends on the pretension, which is not printed)"
-)
 # rad: an ideal start would hide whether straight sliding is stable
 TURNED = math.radians(1.0)
-EXACT_START = " (exact: a block that only keeps its start shows the 1° of that)"
-GUIDED = {"degrees_of_freedom": ("x",)}
-SCATTER = 0.02
-SCATTER_ASSUMED = (
-    f"scatter of µ_k per strip: standard deviation {SCATTER} (not printed); mean of three seeds, "
-    "last 60 % of 25 cycles"
-)
+GUIDED: dict[str, Any] = {"degrees_of_freedom": ("x",)}
+SCATTER = 0.02  # standard deviation of mu_k per strip, not printed
 # mu_k falls by two fifths over the speeds of the study: its data points are drawn, not printed
 WEAKENING = 0.4
-LAW_ASSUMED = (
-    "µ_k falls linearly by 40 % of its value at 0.15 m/s between sliding speeds of 0.15 and 0.82 "
-    "m/s (the study's four data points are not printed) and does not scatter; last 60 % of 25 "
-    "cycles"
-)
-ASSUMED = (LAW_ASSUMED, MASSES_ASSUMED, STIFFNESS_ASSUMED)
-
-
-@dataclass(frozen=True)
-class Printed:
-    """A number of the study, or a range between two of its numbers.
-
-    place: section, then table, figure or equation. ValueError for a number without its place.
-    """
-
-    value: float | str
-    place: str
-
-    def __post_init__(self) -> None:
-        if not self.place:
-            raise ValueError(f"{self.value}: where does the study print it?")
-
-    @property
-    def number(self) -> float:
-        """The value; TypeError where the study prints words."""
-        if isinstance(self.value, str):
-            raise TypeError(f"{self.value!r} ({self.place}) is no number")
-        return self.value
-
-
-def _at(place: str, **values: float | str) -> dict[str, Printed]:
-    return {name: Printed(value, place) for name, value in values.items()}
-
-
-#: K/k, by treatment and entry; what is not listed is printed as 0
-MATRICES = {
-    "zero": {
-        (0, 0): Printed(4.0, "§4.2.2, eq. 4.16"), (2, 2): Printed(0.00117, "§4.2.2, eq. 4.16"),
-    },
-    "constant": {
-        (0, 0): Printed(3.99878, "§4.2.2, eq. 4.17"), (0, 1): Printed(0.0698, "§4.2.2, eq. 4.17"),
-        (1, 1): Printed(0.00122, "§4.2.2, eq. 4.17"), (2, 2): Printed(0.00117, "§4.2.2, eq. 4.17"),
-    },
-    "opposed": {
-        (0, 0): Printed(3.99878, "§4.2.2, eq. 4.18"), (1, 1): Printed(0.00122, "§4.2.2, eq. 4.18"),
-        (1, 2): Printed(-0.00119, "§4.2.2, eq. 4.18"),
-        (2, 2): Printed(0.00117, "§4.2.2, eq. 4.18"),
-    },
-}  # fmt: skip
-#: Temperature of the belt after one pass, degC, by its length, m
-TEMPERATURES = {
-    length: Printed(value, "§3.3.1, table 3.5")
-    for length, value in ((1.0, -7.9435), (2.0, -7.9583), (3.0, -7.9693), (4.0, -7.9774))
-}
-STUDY = {
-    **_at("§3.3.1, eq. 3.1", friction_force=4.1261),
-    **_at("§3.3.1, eq. 3.4", rise_in_a_pass=0.0748),
-    **_at("§3.3.3, §6.1", camera_mK=70.0),
-    **_at("§4.3.1, fig. 4.6", rotation_sets_in="after 10"),
-    **_at("§4.3.2, §4.3.3", minutes_updated="5 to 8", seconds_others="20 to 30"),
-    **_at("§4.5, fig. 4.14", stiff_displacement=0.0),
-    **_at("§4.6.2", least_hold=6.67),
-    **_at("§4.6.3, fig. 4.18c", mean_x_measured=0.02, mean_x_dataset_2=0.004),
-    **_at("§4.6.3", percent_in_slip="90 to 95 %"),
-    **_at("§4.6.4", rotation_measured=20.0),
-    **_at("§4.6.4, eq. 4.26", rotation_dataset_1=150.0, swing_dataset_1=880.0,
-          rotation_dataset_2=15.0, swing_dataset_2=56.0),
-    **_at("§5.1", runs_with_a_jump="three"),
-    **_at("§5.4, fig. 5.11", oscillations_measured=34.0, oscillations_at_1=29.0),
-    **_at("§6.2, fig. 6.4b", mean_y_measured=0.01),
-    **_at("executive summary", least_mu_k=0.05, largest_mu_k=0.11),
-}  # fmt: skip
-
-
-def printed_numbers() -> list[Printed]:
-    """Every number of the study that is compared with, each with its place."""
-    entries = (one for matrix in MATRICES.values() for one in matrix.values())
-    return [*entries, *TEMPERATURES.values(), *STUDY.values()]
 
 
 @dataclass(frozen=True)
@@ -160,18 +61,31 @@ class Case:
         """N"""
         return self.mass * GRAVITY
 
-    def changed(self, **changes) -> Case:
+    def changed(self, **changes: float) -> Case:
         """This case with other numbers."""
         return replace(self, **changes)
+
+    def over(self, number: str, values: Iterable[float]) -> list[Case]:
+        """This case with each value of one of its numbers."""
+        return [self.changed(**{number: value}) for value in values]
 
 
 DATASET_1 = Case()
 DATASET_2 = Case(mu_s=0.065, mu_k=0.05)
+DATASETS = {1: DATASET_1, 2: DATASET_2}
 #: All of the series have the second set's friction, falling with the sliding speed.
 CASE = DATASET_2.changed(weakening=WEAKENING)
 
 
-def scheme(case: Case, faults: Faults, **changes) -> Scheme:
+def plan(stiffnesses: Sequence[float] = STIFFNESSES) -> list[Case]:
+    """Combinations of stiffness, mass and speed in the study's series, speed running fastest."""
+    return [
+        CASE.changed(stiffness=k, mass=m, speed=v)
+        for k, m, v in product(stiffnesses, MASSES, SPEEDS)
+    ]
+
+
+def scheme(case: Case, faults: Faults, **changes: Any) -> Scheme:
     """The study's scheme for a case; friction scatters, or depends on speed, never both."""
     changes = {"scatter": 0.0 if case.weakening else SCATTER} | changes
     return Scheme(
@@ -187,13 +101,13 @@ def scheme(case: Case, faults: Faults, **changes) -> Scheme:
     )
 
 
-def exact_parameters(case: Case, *, pretension: float = PRETENSION, **tables) -> Parameters:
+def exact_parameters(case: Case, *, pretension: float = PRETENSION, **tables: Any) -> Parameters:
     """The exact model for a case, planar friction; starts at rest on the surface, barely turned.
 
-    pretension: m by which the springs are stretched as installed.
+    pretension: m by which the springs are stretched as installed; tables: laid over the model's.
     """
     at_rest = case.mu_k + case.mu_slope * SPEEDS[0]  # mu_k is given at the slowest surface
-    parameters = {
+    parameters: dict[str, Any] = {
         "rig": {
             "mass": case.mass,
             "spring_length": LENGTH,
@@ -212,7 +126,7 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **tables) ->
     for name, values in tables.items():
         parameters[name] = parameters.get(name, {}) | values
     if parameters["rig"].get("degrees_of_freedom") == ("x",):
-        parameters["initial"] = parameters["initial"] | {"phi": 0.0}
+        parameters["initial"] |= {"phi": 0.0}
     return Parameters.model_validate(parameters)
 
 
@@ -227,46 +141,47 @@ def longest(case: Case) -> float:
     return CYCLES * (max(period, LONGEST_SLIP) + stick)
 
 
-@cache
-def scheme_motion(case: Case, faults: Faults, seed: int = 0, cycles: int = CYCLES) -> Motion:
+@lru_cache(maxsize=32)
+def scheme_motion(case: Case, faults: Faults, seed: int = 0) -> Motion:
     """A whole run of the study's scheme."""
-    run = scheme(case, faults).run(cycles=cycles, duration=longest(case), seed=seed)
+    run = scheme(case, faults).run(cycles=CYCLES, duration=longest(case), seed=seed)
     return Motion.of_scheme(run)
 
 
 @cache
-def exact_motion(parameters: Parameters, duration: float = SETTLING + WINDOW) -> Motion:
-    """A whole run of the exact model; ValueError where it ends early."""
+def scheme_figures(case: Case, faults: Faults, seeds: tuple[int, ...] = SEEDS) -> MotionFigures:
+    """Steady figures of the study's scheme, mean over seeds."""
+    return average([figures(scheme_motion(case, faults, seed).last(STEADY)) for seed in seeds])
+
+
+def exact_motion(case: Case, duration: float = SETTLING + WINDOW, **model: Any) -> Motion:
+    """A whole run of the exact model; model: of `exact_parameters`. ValueError where it ends early.
+
+    >>> exact_motion(DATASET_1, 1.0).time[-1]
+    1.0
+    """
+    return _exact_motion(exact_parameters(case, **model), duration)
+
+
+@lru_cache(maxsize=32)
+def _exact_motion(parameters: Parameters, duration: float) -> Motion:
     run = simulate(parameters, duration, SAMPLE)
     if not run.complete:
         raise ValueError(run.reason)
     return Motion.of_trajectory(run)
 
 
-@cache
-def scheme_figures(case: Case, faults: Faults, seeds: tuple[int, ...] = SEEDS) -> MotionFigures:
-    """Steady figures of the study's scheme, mean over seeds."""
-    many = []
-    for seed in seeds:
-        run = scheme(case, faults).run(cycles=CYCLES, duration=longest(case), seed=seed)
-        many.append(figures(Motion.of_scheme(run).last(STEADY)))
-    return average(many)
-
-
-def exact_figures(case: Case, *, pretension: float = PRETENSION, **tables) -> MotionFigures:
+def exact_figures(case: Case, **model: Any) -> MotionFigures:
     """Steady figures of the exact model."""
-    return _exact_figures(exact_parameters(case, pretension=pretension, **tables))
+    return _exact_figures(exact_parameters(case, **model))
 
 
 @cache
 def _exact_figures(parameters: Parameters) -> MotionFigures:
-    run = simulate(parameters, SETTLING + WINDOW, SAMPLE)
-    if not run.complete:
-        raise ValueError(run.reason)
-    return figures(Motion.of_trajectory(run).since(SETTLING))
+    return figures(_exact_motion(parameters, SETTLING + WINDOW).between(SETTLING))
 
 
-def many(call, cases, *rest) -> list:
+def many(call: Callable[..., Any], cases: Iterable[Any], *rest: Any) -> list[Any]:
     """``call(case, *rest)`` for each case, on two cores: the scheme's loop runs without the GIL.
 
     Threads, not `cosim.processes`: runs are cached for the claims that follow, and a call may be a
@@ -276,30 +191,22 @@ def many(call, cases, *rest) -> list:
         return list(pool.map(lambda case: call(case, *rest), cases))
 
 
-def three_models(cases: list[Case]) -> dict[str, list[MotionFigures]]:
-    """Figures of each case: as printed, mended, exact with the block guided along x."""
-    return {
-        PRINTED_MODEL: many(scheme_figures, cases, PRINTED, SEEDS[:1]),
-        MENDED_MODEL: many(scheme_figures, cases, MENDED, SEEDS[:1]),
-        EXACT_MODEL: [exact_figures(case, rig=GUIDED) for case in cases],
-    }
+def tabulated(figure: str, cases: Sequence[Case], seeds: tuple[int, ...] = SEEDS[:1]) -> Array:
+    """A steady figure of each case: (3, n), as printed, mended, exact with the block guided."""
+    return np.array(
+        [
+            [getattr(one, figure) for one in many(scheme_figures, cases, PRINTED, seeds)],
+            [getattr(one, figure) for one in many(scheme_figures, cases, MENDED, seeds)],
+            exact_table(figure, cases, rig=GUIDED),
+        ]
+    )
 
 
-def cases(stiffnesses: Sequence[float] = STIFFNESSES) -> list[Case]:
-    """Combinations of stiffness, mass and speed in the study's series, speed running fastest."""
-    return [
-        CASE.changed(stiffness=k, mass=m, speed=v)
-        for k, m, v in product(stiffnesses, MASSES, SPEEDS)
-    ]
+def exact_table(figure: str, cases: Sequence[Case], **model: Any) -> Array:
+    """A steady figure of each case in the exact model: (n,)."""
+    return np.array([getattr(exact_figures(case, **model), figure) for case in cases])
 
 
-def grid(
-    number: Callable[[Case, MotionFigures], float], stiffnesses: Sequence[float] = STIFFNESSES
-) -> Grid:
-    """A number of every combination's steady motion, as each of the three models has it."""
-    series = cases(stiffnesses)
-    shape = len(stiffnesses), len(MASSES), len(SPEEDS)
-    return {
-        model: np.reshape([number(*pair) for pair in zip(series, figures, strict=True)], shape)
-        for model, figures in three_models(series).items()
-    }
+def gridded(numbers: Array, stiffnesses: Sequence[float] = STIFFNESSES) -> Array:
+    """Numbers (models, cases) of the `plan` as (models, stiffnesses, masses, speeds)."""
+    return numbers.reshape(-1, len(stiffnesses), len(MASSES), len(SPEEDS))

@@ -1,4 +1,4 @@
-"""Which claims there are, what a claim is, and the verdict that follows from its numbers."""
+"""What a judged claim is: rows of numbers, checks against limits, what turns them, its verdict."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from itertools import combinations
 from stickslip.reference.scheme_errors import DESCRIPTIONS, PRINTED, Faults
 
 from cosim.report.page import Picture
-from cosim.studies.reproduction.cases import Printed
 
 CLAIM_IDS = tuple(f"C{n}" for n in range(1, 19))
 
@@ -20,13 +19,13 @@ class UnknownClaim(ValueError):
 
 def claim_ids(wanted: Sequence[str]) -> tuple[str, ...]:
     """The ids asked for, once each and in the study's order; all of them for none asked."""
-    asked = {one.upper() for one in wanted}
     for one in wanted:
         if one.upper() not in CLAIM_IDS:
             raise UnknownClaim(
                 f"claim {one!r}: unknown, allowed are {CLAIM_IDS[0]} to {CLAIM_IDS[-1]}"
             )
-    return tuple(one for one in CLAIM_IDS if not asked or one in asked)
+    asked = {one.upper() for one in wanted} or set(CLAIM_IDS)
+    return tuple(one for one in CLAIM_IDS if one in asked)
 
 
 HOLDS = "holds"
@@ -48,12 +47,33 @@ FAR = "far"  # the study says otherwise: only how far it is to the turn
 
 
 @dataclass(frozen=True)
+class Printed:
+    """A number of the study, or a range between two of its numbers.
+
+    place: section, then table, figure or equation. ValueError for a number without its place.
+    """
+
+    value: float | str
+    place: str
+
+    def __post_init__(self) -> None:
+        if not self.place:
+            raise ValueError(f"{self.value}: where does the study print it?")
+
+    @property
+    def number(self) -> float:
+        """The value; TypeError where the study prints words."""
+        if isinstance(self.value, str):
+            raise TypeError(f"{self.value!r} ({self.place}) is no number")
+        return self.value
+
+
+@dataclass(frozen=True)
 class Row:
     """One quantity: the study's figure, what follows from the study's numbers, and ours.
 
-    study: what the study prints, with its place. derived: computed from the study's numbers, not
-    printed there; how: in what way. None: there is none. digits: significant ones that are shown
-    of ours. ValueError for a derived figure without how.
+    derived: computed from the study's numbers, not printed there; how: in what way. None: there is
+    none. digits: significant ones that are shown of ours. ValueError for one without the other.
     """
 
     quantity: str
@@ -90,10 +110,9 @@ class Margin:
 
 @dataclass(frozen=True)
 class Turn:
-    """What becomes of a part when an assumption is changed; computed, like the part itself.
+    """A part under a changed assumption: the change, what comes out, whether the part is then so.
 
-    change: of what into what; figure: what comes out; sound: whether the part is then so; weight:
-    what the change is to the study (`PUT_IN`, `OPEN`, `FAR`).
+    weight: what the change is to the study (`PUT_IN`, `OPEN`, `FAR`).
     """
 
     change: str
@@ -154,6 +173,15 @@ class Check:
         named = f"of several together (ended by mending {pairs})" if pairs else SEVERAL
         return f"{ONLY_WITH_FAULT} {', '.join(self.faults) or named}"
 
+    @property
+    def reason(self) -> str:
+        """The part with what the models say to it."""
+        answers = zip(
+            ("as printed", "mended", "exact"), (self.printed, self.mended, self.exact), strict=True
+        )
+        said = [f"{name}: {'yes' if one else 'no'}" for name, one in answers if one is not None]
+        return f"{self.says} ({', '.join(said) or 'no figure to compare with'})"
+
 
 @dataclass(frozen=True)
 class Claim:
@@ -187,13 +215,8 @@ class Claim:
     @property
     def faults(self) -> tuple[str, ...]:
         """Faults behind the parts that hold only with one."""
-        found = {
-            fault
-            for check in self.checks
-            if check.verdict == ONLY_WITH_FAULT
-            for fault in check.faults
-        }
-        return tuple(sorted(found, key=lambda fault: int(fault[1:])))
+        part = [check.faults for check in self.checks if check.verdict == ONLY_WITH_FAULT]
+        return tuple(sorted(set().union(*part), key=lambda fault: int(fault[1:])))
 
     @property
     def verdict(self) -> str:
@@ -225,8 +248,8 @@ class Claim:
 
     @property
     def reason(self) -> str:
-        """Why, in a sentence: the parts that decide, and how many are sound."""
-        said = "; ".join(_reason(check) for check in self.deciding)
+        """Why, in a sentence: the parts that decide, and what became of the others."""
+        said = "; ".join(check.reason for check in self.deciding)
         words = [check.verdict for check in self.checks]
         others = [word for word in dict.fromkeys(words) if word != self.word]
         if others:
@@ -234,18 +257,11 @@ class Claim:
         return said
 
 
-def _reason(check: Check) -> str:
-    """A part with what the models say to it."""
-    answers = [
-        f"{model}: {'yes' if answer else 'no'}"
-        for model, answer in (
-            ("as printed", check.printed),
-            ("mended", check.mended),
-            ("exact", check.exact),
-        )
-        if answer is not None
-    ]
-    return f"{check.says} ({', '.join(answers) or 'no figure to compare with'})"
+def responsible(holds: Callable[[Faults], bool]) -> tuple[str, ...]:
+    """Faults of which each, mended alone, makes ``holds`` fail; empty if it fails as printed."""
+    if not holds(PRINTED):
+        return ()
+    return tuple(fault for fault in DESCRIPTIONS if not holds(PRINTED.without(fault)))
 
 
 def responsible_pairs(holds: Callable[[Faults], bool]) -> tuple[tuple[str, str], ...]:
@@ -253,10 +269,3 @@ def responsible_pairs(holds: Callable[[Faults], bool]) -> tuple[tuple[str, str],
     return tuple(
         pair for pair in combinations(DESCRIPTIONS, 2) if not holds(PRINTED.without(*pair))
     )
-
-
-def responsible(holds: Callable[[Faults], bool]) -> tuple[str, ...]:
-    """Faults of which each, mended alone, makes ``holds`` fail; empty if it fails as printed."""
-    if not holds(PRINTED):
-        return ()
-    return tuple(fault for fault in DESCRIPTIONS if not holds(PRINTED.without(fault)))

@@ -1,73 +1,111 @@
-"""What the pictures of the reproduction share: colours and lines of the models, their grids."""
+"""Figures of the reproduction: curves in panels, in the colours and lines of the models."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
 
-from cosim.report.style import BLUE, GREEN, INK, RED, SERIES
+from cosim.report.style import BLUE, GREEN, INK, RED, SERIES, panels
 
-from .cases import EXACT_MODEL, MENDED_MODEL, PRINTED_MODEL
+from .cases import MASSES, SPEEDS
+from .motion import Motion
 
-MODELS = (PRINTED_MODEL, MENDED_MODEL, EXACT_MODEL)
-LABELS = {
-    PRINTED_MODEL: "scheme as printed",
-    MENDED_MODEL: "scheme mended",
-    EXACT_MODEL: "exact model",
-}
-COLOURS = {PRINTED_MODEL: RED, MENDED_MODEL: BLUE, EXACT_MODEL: GREEN}
+MODELS = ("printed", "mended", "exact")
+LABELS = ("scheme as printed", "scheme mended", "exact model")
+COLOURS = (RED, BLUE, GREEN)
 # the scheme mended and the exact model often coincide: the one shows as a rim about the other
-WIDER = {MENDED_MODEL: {"linewidth": 4.0, "markersize": 9.0}}
+DOTTED: tuple[dict[str, Any], ...] = (
+    {"marker": "o"},
+    {"marker": "o", "linewidth": 4.0, "markersize": 9.0},
+    {"marker": "o"},
+)
 
 
-def by_model(
-    ax: Axes, x: ArrayLike, series: Mapping[str, ArrayLike], scale: float = 1.0, **style: Any
-) -> None:
-    """One line a model over ``x``."""
-    for model, values in series.items():
-        line = {"marker": "o"} | style | WIDER.get(model, {})
-        ax.plot(
-            np.asarray(x),
-            scale * np.asarray(values),
-            color=COLOURS[model],
-            label=LABELS[model],
-            **line,
-        )
+@dataclass(frozen=True)
+class Curve:
+    """y (n,) over x (n,), in the units of the panel's labels; style: as matplotlib's `plot`."""
+
+    x: Any
+    y: Any
+    style: Mapping[str, Any] = field(default_factory=dict)
 
 
-def study_line(ax: Axes, value: float, label: str) -> None:
-    """The study's own figure as a dashed line."""
-    ax.axhline(value, color=INK, linestyle="--", linewidth=1.0, label=label)
+@dataclass(frozen=True)
+class Panel:
+    """Curves on one pair of axes; levels: label -> height of a broken line."""
+
+    curves: Sequence[Curve]
+    x: str = ""
+    y: str = ""
+    title: str = ""
+    levels: Mapping[str, float] = field(default_factory=dict)
+    end: float | None = None  # of the x axis, which then begins at 0
+
+
+def figure_of(rows: Sequence[Sequence[Panel]], *, legend: int = 3, **layout: Any) -> Figure:
+    """Panels in rows; legend: its columns; layout: of `report.style.panels`."""
+    figure, axes = panels(len(rows), len(rows[0]), **layout)
+    for ax, panel in zip(axes.flat, (panel for row in rows for panel in row), strict=True):
+        for curve in panel.curves:
+            ax.plot(curve.x, curve.y, **curve.style)
+        for label, height in panel.levels.items():
+            ax.axhline(height, color=INK, linestyle="--", linewidth=1.0, label=label)
+        ax.set(xlabel=panel.x, ylabel=panel.y, title=panel.title)
+        if panel.end is not None:
+            ax.set_xlim(0.0, panel.end)
+        if "sharex" in layout:
+            ax.label_outer()
+    named = axes[0, 0].get_legend_handles_labels()
+    if named[0]:
+        figure.legend(*named, ncols=legend, loc="outside upper center")
+    return figure
+
+
+def by_model(x: Any, series: Iterable[Any]) -> list[Curve]:
+    """A line with dots for each of the models."""
+    return [
+        Curve(x, values, {"color": colour, "label": label, **dots})
+        for values, colour, label, dots in zip(series, COLOURS, LABELS, DOTTED, strict=True)
+    ]
+
+
+def over_time(
+    motion: Motion,
+    name: str,
+    scale: float = 1.0,
+    begin: float = 0.0,
+    end: float = np.inf,
+    **style: Any,
+) -> Curve:
+    """A quantity of a motion from ``begin`` to ``end`` (s), time counted from ``begin``."""
+    keep = (motion.time >= begin) & (motion.time <= end)
+    return Curve(motion.time[keep] - begin, scale * getattr(motion, name)[keep], style)
 
 
 def over_mass(
-    figure: Figure,
-    axes: NDArray[np.object_],
-    masses: Sequence[float],
-    stiffnesses: Sequence[float],
-    speeds: Sequence[float],
-    values: Mapping[str, NDArray[np.float64]],
-    label: str,
-) -> None:
-    """Values (stiffness, mass, speed) of each model: a row a model, a column a stiffness.
+    values: np.ndarray, stiffnesses: Sequence[float], label: str, **layout: Any
+) -> Figure:
+    """Values (model, stiffness, mass, speed): a row a model, a column a stiffness."""
+    rows = [
+        [
+            Panel(
+                [
+                    Curve(MASSES, line, {"marker": "o", "ms": 2.5, "color": colour, "label": name})
+                    for line, colour, name in zip(cell.T, SERIES, SPEED_LABELS, strict=True)
+                ],
+                "mass, kg",
+                f"{model}\n{label}",
+                f"k {k:.2f} N/m" if model == LABELS[0] else "",
+            )
+            for k, cell in zip(stiffnesses, of_model, strict=True)
+        ]
+        for model, of_model in zip(LABELS, values, strict=True)
+    ]
+    return figure_of(rows, legend=6, sharex=True, **layout)
 
-    axes: (models, stiffnesses); masses in kg, stiffnesses in N/m, speeds in m/s.
-    """
-    for row, model in enumerate(MODELS):
-        for column, k in enumerate(stiffnesses):
-            ax = axes[row, column]
-            for i, v in enumerate(speeds):
-                y = values[model][column, :, i]
-                ax.plot(masses, y, "o-", ms=2.5, color=SERIES[i], label=f"v {v:.2f} m/s")
-            if row == 0:
-                ax.set_title(f"k {k:.2f} N/m")
-        axes[row, 0].set_ylabel(f"{LABELS[model]}\n{label}")
-    for ax in axes[-1]:
-        ax.set_xlabel("mass, kg")
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    figure.legend(handles, labels, ncols=6, loc="outside upper center")
+
+SPEED_LABELS = tuple(f"v {speed:.2f} m/s" for speed in SPEEDS)

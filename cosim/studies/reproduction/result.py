@@ -6,12 +6,11 @@ import math
 from dataclasses import asdict
 from typing import Any
 
-import numpy as np
 from stickslip.reference.scheme_errors import DESCRIPTIONS
 
 from cosim.report.page import render
 
-from .attributions import Attribution, Datasets
+from .attributions import Datasets
 from .claim import (
     CANNOT_BE_CHECKED,
     DOES_NOT_HOLD,
@@ -22,13 +21,24 @@ from .claim import (
     Claim,
     Row,
 )
-from .readings import MARKS, Outcome
+from .readings import MARKS
 
 #: The study's faults that are no switch of the scheme but stand behind a verdict.
 OTHER_FAULTS = {
     "F9": "one pass of the belt is counted, all heat goes to it, a conductivity is used as a rate",
     "F11": "the product of the friction force is misprinted: 4.0349 N by its own factors",
 }
+#: Verdict -> its class on the page, and the verdict after a number of claims.
+VERDICTS = {
+    HOLDS: ("holds", "hold"),
+    FOLLOWS: ("follows", "follow from an assumption"),
+    ONLY_WITH_FAULT: ("fault", "hold only with a fault"),
+    UNDECIDED: ("undecided", "are undecided"),
+    DOES_NOT_HOLD: ("fails", "do not hold"),
+    CANNOT_BE_CHECKED: ("unknown", "cannot be checked"),
+}
+#: Changes of assumptions that are told of a claim in the referee's table.
+TOLD = 3
 
 
 def as_data(
@@ -48,131 +58,81 @@ def as_data(
 
 def _referee(claim: Claim) -> dict[str, Any]:
     """A claim in the referee's table: how firm its verdict is."""
-    return {
-        "id": claim.id,
+    names = ("id", "place", "verdict", "scope", "steady")
+    return {name: getattr(claim, name) for name in names} | {
         "claim": claim.title,
-        "place": claim.place,
-        "verdict": claim.verdict,
-        "scope": claim.scope,
         "margins": [asdict(one) | {"text": one.text} for one in claim.margins],
-        "steady": claim.steady,
         "turns": [asdict(one) for one in claim.turns],
         "rests_on": claim.rests,
     }
 
 
-def _datasets(datasets: Datasets) -> dict[str, Any]:
-    """The study's datasets in every reading of its scheme."""
-    return {
-        "says": datasets.says,
-        "bears": datasets.bears,
-        "found": datasets.found,
-        "marks": [asdict(mark) for mark in MARKS],
-        "readings": [_outcome(one) for one in datasets.outcomes],
-        "attributions": [_attribution(one) for one in datasets.attributions],
-    }
-
-
-def _outcome(outcome: Outcome) -> dict[str, Any]:
-    return {
-        "reading": outcome.reading.name,
-        "place": outcome.reading.place,
-        "values": list(outcome.values),
-        "met": list(outcome.met),
-        "turned_by_1deg_after_s": outcome.onset,
-    }
-
-
-def _attribution(one: Attribution) -> dict[str, Any]:
-    return asdict(one) | {
-        "reading": one.reading.name,
-        "quarter_fits_better": one.quarter_fits_better,
-        "one_spring_explains": one.one_spring_explains,
-    }
-
-
 def _claim(claim: Claim) -> dict[str, Any]:
-    return {
-        "id": claim.id,
-        "title": claim.title,
-        "place": claim.place,
-        "first": claim.first,
-        "verdict": claim.verdict,
-        "scope": claim.scope,
-        "word": claim.word,
-        "faults": list(claim.faults),
-        "reason": claim.reason,
-        "checks": [
-            asdict(check) | {"verdict": check.verdict, "faults": list(check.faults)}
-            for check in claim.checks
-        ],
+    names = ("id", "title", "place", "first", "verdict", "scope", "word", "faults", "reason")
+    return {name: getattr(claim, name) for name in (*names, "remarks", "assumed")} | {
+        "checks": [asdict(check) | {"verdict": check.verdict} for check in claim.checks],
         "numbers": [_number(row) for row in claim.rows],
-        "remarks": list(claim.remarks),
-        "assumed": list(claim.assumed),
         "figures": [f"{picture.name}.png" for picture in claim.pictures],
     }
 
 
 def _number(row: Row) -> dict[str, Any]:
     """The study's number stands beside its place, not in a tree of its own."""
-    data = {key: value for key, value in asdict(row).items() if key != "digits"}
-    study = data.pop("study") or {"value": None, "place": ""}
-    return data | {"study": study["value"], "place": study["place"]}
+    names = ("quantity", "unit", "derived", "how", "printed", "mended", "exact")
+    return {name: getattr(row, name) for name in names} | {
+        "study": row.study and row.study.value,
+        "place": row.study.place if row.study else "",
+    }
+
+
+def _datasets(datasets: Datasets) -> dict[str, Any]:
+    """The study's datasets in every reading of its scheme."""
+    return {name: getattr(datasets, name) for name in ("says", "bears", "found")} | {
+        "marks": [asdict(mark) for mark in MARKS],
+        "readings": [
+            {
+                "reading": one.reading.name,
+                "place": one.reading.place,
+                "values": one.values,
+                "met": one.met,
+                "turned_by_1deg_after_s": one.onset,
+            }
+            for one in datasets.outcomes
+        ],
+        "attributions": [
+            vars(one)
+            | {
+                "reading": one.reading.name,
+                "quarter_fits_better": one.quarter_fits_better,
+                "one_spring_explains": one.one_spring_explains,
+            }
+            for one in datasets.attributions
+        ],
+    }
 
 
 def _plain(value: Any) -> Any:
-    """NaN and infinities are no JSON, numpy's numbers neither."""
+    """NaN and infinities are no JSON."""
     if isinstance(value, dict):
         return {key: _plain(one) for key, one in value.items()}
     if isinstance(value, (list, tuple)):
         return [_plain(one) for one in value]
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
-
-
-CLASSES = {
-    HOLDS: "holds",
-    FOLLOWS: "follows",
-    ONLY_WITH_FAULT: "fault",
-    UNDECIDED: "undecided",
-    DOES_NOT_HOLD: "fails",
-    CANNOT_BE_CHECKED: "unknown",
-}
-#: The verdicts after a number of claims.
-COUNTED = {
-    HOLDS: "hold",
-    FOLLOWS: "follow from an assumption",
-    ONLY_WITH_FAULT: "hold only with a fault",
-    UNDECIDED: "are undecided",
-    DOES_NOT_HOLD: "do not hold",
-    CANNOT_BE_CHECKED: "cannot be checked",
-}
-#: Changes of assumptions that are told of a claim in the referee's table.
-TOLD = 3
-MODELS = ("printed", "mended", "exact")
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def page(claims: list[Claim], faults: dict[str, str], datasets: Datasets | None = None) -> str:
     """HTML with every picture inside; ``faults`` are the descriptions of the scheme's."""
-    counts = {COUNTED[word]: sum(claim.word == word for claim in claims) for word in CLASSES}
     return render(
         "report.html.j2",
         "cosim.studies.reproduction",
         claims=claims,
-        classes=CLASSES,
-        models=MODELS,
+        classes={verdict: name for verdict, (name, _) in VERDICTS.items()},
         faults=faults | OTHER_FAULTS,
-        counts=counts,
-        leading=leading,
+        counts={
+            counted: sum(claim.word == word for claim in claims)
+            for word, (_, counted) in VERDICTS.items()
+        },
         datasets=datasets,
         marks=MARKS,
         told=TOLD,
     )
-
-
-def leading(claim: Claim) -> Row:
-    """The row that stands for a claim in the first table."""
-    return claim.rows[claim.leading]

@@ -2,16 +2,15 @@
 
 import math
 
-import numpy as np
 import pytest
 
 from cosim.studies.reproduction.attributions import Attribution, Datasets, attribution
-from cosim.studies.reproduction.motion import Motion, figures
 from cosim.studies.reproduction.readings import (
     AS_PRINTED,
     BALANCED,
     MARKS,
     READINGS,
+    ROUNDED,
     Outcome,
     outcome,
 )
@@ -61,29 +60,10 @@ def test_the_rotation_does_not_need_f2_where_switching_is_clean():
 
 def test_what_is_said_follows_from_the_figures():
     met = tuple(0.5 * (mark.low + mark.high) for mark in MARKS)
-    fair = Outcome(AS_PRINTED, met, 2.0)
-    others = (Outcome(READINGS[3], met, 8.0), Outcome(BALANCED, met, math.nan))
+    of = [Outcome(one, met, 8.0) for one in (AS_PRINTED, ROUNDED, BALANCED)]
     bears = Attribution(AS_PRINTED, True, {"F2": 0.1, "F13": 50.0}, (3.0, 2.0, 1.0), True)
-    found = Datasets((fair, *others), (bears,))
+    found = Datasets(tuple(of), (bears,))
     assert found.found and found.says.startswith("A reading")
     assert "mending F2 ends that in 1 of them, mending F13 in 0" in found.bears
     assert "1 of 1. C7" in found.bears
     assert Outcome(AS_PRINTED, (0.0,) * len(MARKS), 2.0).met == (False,) * len(MARKS)
-
-
-def test_a_swing_is_timed_from_turn_to_turn():
-    time = np.linspace(0.0, 10.0, 10001)
-    phi = np.radians(20.0) * np.cos(2.0 * np.pi * 0.5 * time)  # 40 degrees in a second
-    zero = 0.0 * time
-    motion = Motion(
-        time,
-        np.sin(9.0 * time),
-        zero,
-        phi,
-        zero,
-        zero + 1.0,
-        np.array([[0.0, 10.0, 1.0]]),
-        np.zeros(1),
-    )
-    assert figures(motion).swing_rate == pytest.approx(40.0, rel=1e-3)
-    assert figures(motion.between(2.0, 4.0)).slip_share == 1.0

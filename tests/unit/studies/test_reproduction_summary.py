@@ -52,8 +52,7 @@ def swing(amplitude=0.01, mean=0.02, frequency=1.3) -> Motion:
     phases = np.array([[0.0, 5.0, 0], [5.0, 12.0, 1], [12.0, 13.0, 0], [13.0, 20.0, 1]])
     none = np.zeros_like(time)
     turned = np.radians(-7.0) * np.ones_like(time)
-    jumps = np.zeros(len(phases))
-    return Motion(time, x, none - 0.003, turned, none, none, phases, jumps)
+    return Motion(time, x, none - 0.003, turned, none, none, phases)
 
 
 def test_figures_of_a_swing():

@@ -1,235 +1,229 @@
-"""C7: dataset #1 rotates up to 150 degrees, dataset #2 stays within 20."""
+"""C5 and C7: what turns the block; the four treatments of the spring angles, the two datasets."""
 
 from __future__ import annotations
+
+from functools import cache
+from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
 from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
+from stickslip.reference.spring_angles import TREATMENTS
 
-from cosim.report.live import live_of
-from cosim.report.style import panels, picture
-from cosim.studies.reproduction.cases import STUDY
+from cosim.report.style import SERIES
 
-from ..cases import (
-    DATASET_1,
-    DATASET_2,
-    EXACT_START,
-    RIG_ASSUMED,
-    SCATTER_ASSUMED,
-    Case,
-    exact_motion,
-    exact_parameters,
-    scheme_motion,
-)
-from ..claim import FAR, OPEN, Check, Claim, Margin, Row, Turn, responsible
-from ..drawing import COLOURS, LABELS, study_line
-from ..motion import Motion, MotionFigures, figures
-from ..readings import AS_PRINTED, MARKS, READINGS, outcome, outcomes, reading_figures
+from ..cases import DATASET_1, DATASETS, Case, exact_motion, scheme, scheme_motion
+from ..claim import FAR, OPEN, Claim, responsible, responsible_pairs
+from ..drawing import COLOURS, LABELS, Panel, figure_of, over_time
+from ..motion import Motion, figures
+from ..readings import AS_PRINTED, MARKS, READINGS, onset, outcome, reading_figures
+from ..sheet import STUDY, Sheet
 
-SEEDS = tuple(range(8))
+CYCLES, SEED = 40, 0
+ROTATES = 30.0  # deg: half of "three times" the measured 20
+SIDES = CYCLES // 10  # y comes back: more changes of its sign than one in every ten cycles
+#: Drawn: of `Motion`, the label of its axis, its scale.
+QUANTITIES = (("x", "x, cm", 100.0), ("phi_deg", "φ, °", 1.0), ("y", "y, cm", 100.0))
+EXACT_DURATION, SHOWN = 40.0, 20.0  # s
+#: What the study leaves open of the exact rig: pretension, m, and rotation at the start, deg.
+FREER = ((0.0, 1.0), (0.0, 5.0), (0.004, 5.0))
+
+
+def treated(faults: Faults, **changes: Any) -> dict[str, Motion]:
+    """Dataset #1 under each treatment of the spring angles."""
+    return {
+        name: Motion.of_scheme(
+            scheme(DATASET_1, faults, treatment=name, **changes).run(cycles=CYCLES, seed=SEED)
+        )
+        for name in TREATMENTS
+    }
+
+
+def _only_updated_rotates(runs: dict[str, Motion]) -> bool:
+    others = max(run.rotation for name, run in runs.items() if name != "updated")
+    return runs["updated"].rotation > ROTATES and others < 0.1 * ROTATES
+
+
+def _only_updated_comes_back(runs: dict[str, Motion]) -> bool:
+    """With constant angles y moves away for good; with updated ones it comes back."""
+    away = max(_sides(runs["constant"]), _sides(runs["opposed"]))
+    return _sides(runs["updated"]) > SIDES >= away
+
+
+def _sides(run: Motion) -> int:
+    """How often y changes sign."""
+    return int(np.sum(np.diff(np.sign(run.y[run.y != 0.0])) != 0))
+
+
+@cache
+def _parts(faults: Faults) -> tuple[bool, bool]:
+    """Whether only the updated angles rotate, and whether with them alone y comes back."""
+    runs = treated(faults)
+    return _only_updated_rotates(runs), _only_updated_comes_back(runs)
+
+
+def _apart(runs: dict[str, Motion]) -> float:
+    """Largest difference of break-away places between treatments before rotation sets in, m."""
+    until = np.nan_to_num(onset(runs["updated"]), nan=np.inf)
+    peaks = []
+    for run in runs.values():
+        ends = run.phases[(run.phases[:, 2] == 0) & (run.phases[:, 1] < until), 1]
+        peaks.append(np.interp(ends, run.time, run.x))
+    count = min(len(one) for one in peaks)
+    return float(np.ptp([one[:count] for one in peaks], axis=0).max()) if count else 0.0
+
+
+def judge_treatments() -> Claim:
+    """C5: all four treatments, as printed and mended, beside the exact geometry."""
+    sheet, printed, mended = Sheet("C5"), treated(PRINTED), treated(MENDED)
+    exact = exact_motion(DATASET_1, EXACT_DURATION)
+    loose = exact_motion(DATASET_1, EXACT_DURATION, pretension=0.0)
+    for name in TREATMENTS:
+        models = [printed[name], mended[name], exact if name == "updated" else None]
+        turned = "rotation_updated" if name == "updated" else "rotation"
+        sheet.row(turned, [one.rotation if one else None for one in models], name=name)
+        farthest_y = [float(np.abs(one.y).max()) if one else None for one in models]
+        sheet.row("sideways", farthest_y, name=name)
+    sheet.row("sets_in", [onset(printed["updated"]), onset(mended["updated"]), None])
+    apart = [_apart(printed), _apart(mended), None]
+    sheet.row("apart", apart)
+    sheet.check("agree", [one and 1e3 * one for one in apart])
+    free, back = max(exact.rotation, loose.rotation), treated(MENDED.only("F1", "F13"))["updated"]
+    sheet.check(
+        "rotates",
+        answers=[_parts(PRINTED)[0], _parts(MENDED)[0], free > ROTATES],
+        margin=free,
+        limit=ROTATES,
+        faults=responsible(lambda faults: _parts(faults)[0]),
+    )
+    for pretension, start in FREER:
+        run = exact_motion(
+            DATASET_1, EXACT_DURATION, pretension=pretension, initial={"phi": np.radians(start)}
+        )
+        sheet.turn("freer", run.rotation, pretension=1e3 * pretension, start=start)
+    sheet.turn("put_back", back.rotation)
+    alone = responsible(lambda faults: _parts(faults)[1])
+    sheet.check(
+        "comes_back",
+        answers=[_parts(PRINTED)[1], _parts(MENDED)[1], None],
+        margin=max(_sides(mended[name]) for name in ("constant", "opposed")),
+        limit=SIDES,
+        faults=alone,
+        together=() if alone else responsible_pairs(lambda faults: _parts(faults)[1]),
+    )
+    scattered = treated(MENDED, scatter=0.2)
+    sound = _only_updated_comes_back(scattered)
+    sheet.turn("scatter", _sides(scattered["updated"]), sound=sound)
+    schemes = {"as printed": printed, "mended": mended}
+    sheet.picture("C5_spring_angles", _draw_treatments, schemes, live=True)
+    return sheet.claim(back=back.rotation, loose=loose.rotation, y=100 * np.abs(loose.y).max())
+
+
+def _draw_treatments(schemes: dict[str, dict[str, Motion]]) -> Figure:
+    """A row a quantity, a column a scheme; a line a treatment."""
+    # thinner one by one: those that coincide are all seen
+    widths = np.linspace(3.0, 0.8, len(TREATMENTS))
+    rows: list[list[Panel]] = []
+    for name, label, scale in QUANTITIES:
+        rows.append([])
+        for title, runs in schemes.items():
+            lines = [
+                over_time(run, name, scale, end=SHOWN, color=colour, lw=width, label=treatment)
+                for (treatment, run), colour, width in zip(
+                    runs.items(), SERIES, widths, strict=False
+                )
+            ]
+            above = f"scheme {title}" if name == "x" else ""
+            rows[-1].append(Panel(lines, "time, s", label, above, end=SHOWN))
+    return figure_of(rows, legend=4, height=2.0, sharex="col", sharey="row")
+
+
+RUNS = tuple(range(8))
 FAR_TURN = STUDY["rotation_dataset_1"].number
 MEASURED = STUDY["rotation_measured"].number
 # the motion is chaotic: the largest angle of one run and of another differ by as much
 FACTOR = 1.5
 
 
-#: Dataset -> figures as printed, mended and exact.
-Found = dict[str, tuple[MotionFigures, MotionFigures, MotionFigures]]
-CASES = {"#1": DATASET_1, "#2": DATASET_2}
-
-
-def _farthest(case: Case, faults: Faults) -> Motion:
+def farthest(case: Case, faults: Faults) -> Motion:
     """The run of several seeds that turns farthest."""
-    runs = [scheme_motion(case, faults, seed) for seed in SEEDS]
-    return max(runs, key=lambda one: float(np.abs(one.phi).max()))
+    return max((scheme_motion(case, faults, seed) for seed in RUNS), key=lambda run: run.rotation)
 
 
-def _largest(case: Case, faults: Faults) -> MotionFigures:
-    return figures(_farthest(case, faults))
+def turns_far_and_near(first: float, second: float) -> bool:
+    """Whether #1 turns by the study's 150 degrees, and #2 stays within the measured 20."""
+    return first > FAR_TURN / FACTOR and second < FACTOR * MEASURED
 
 
-def _turns_still(faults: Faults) -> bool:
-    """Turns by more than chance could make of 150 degrees, once and again."""
-    return _largest(DATASET_1, faults).max_rotation > FAR_TURN / FACTOR**2
-
-
-def _stays(ours: MotionFigures) -> bool:
-    return ours.max_rotation < FACTOR * MEASURED
-
-
-def judge() -> Claim:
-    """Largest rotation and angular speed over several seeds."""
-    found = {
-        name: (
-            _largest(case, PRINTED),
-            _largest(case, MENDED),
-            figures(exact_motion(exact_parameters(case))),
-        )
-        for name, case in CASES.items()
+def judge_datasets() -> Claim:
+    """C7: largest rotation and angular speed over several seeds."""
+    sheet = Sheet("C7")
+    runs = {
+        dataset: [farthest(case, PRINTED), farthest(case, MENDED), exact_motion(case)]
+        for dataset, case in DATASETS.items()
     }
-    smaller = found["#2"][0].max_rotation < found["#1"][0].max_rotation
-    return Claim(
-        "C7",
-        "dataset #1 rotates up to 150°, dataset #2 stays within 20°",
-        _rows(found),
-        _checks(found),
-        remarks=(
-            f"As printed, dataset #2 turns {'less' if smaller else 'no less'} than dataset #1, by "
-            f"{found['#2'][0].max_rotation:.0f}°: not within the {MEASURED:.0f}° that the study "
-            "takes for measured. In the mended scheme and in the exact model it stays within, for "
-            "there nothing turns: neither does dataset #1.",
-            f"{found['#1'][0].max_rotation:.0f}° is the farthest of {len(SEEDS)} whole runs. The "
-            "table of readings has three runs, and of each the 20 s after ten cycles: "
-            f"{reading_figures(AS_PRINTED, 1).max_rotation:.0f}°.",
-            "Both rotations alone, to within half: "
-            + ("; ".join(_readings_with_both()) or "no reading")
-            + f". None of the {len(READINGS)} readings has the datasets' other marks, too.",
-            "The study's angular speeds are the angle of a swing by its duration; so are ours.",
-        ),
-        place="§4.6.4, fig. 4.21, eq. 4.26",
-        rests="the readings of the scheme, of which none gives both datasets",
-        assumed=(
-            SCATTER_ASSUMED.replace(
-                "mean of three seeds, last 60 % of 25 cycles",
-                f"largest of {len(SEEDS)} seeds, 25 cycles",
-            ),
-            RIG_ASSUMED,
-        ),
-        pictures=(_draw(),),
+    turned = {dataset: [one.rotation for one in three] for dataset, three in runs.items()}
+    for dataset, three in runs.items():
+        swings = [figures(one).swing_rate for one in three]
+        study = f"rotation_dataset_{dataset}", f"swing_dataset_{dataset}"
+        sheet.row("rotation", turned[dataset], study=study[0], dataset=dataset)
+        sheet.row("swing", swings, study=study[1], dataset=dataset)
+    # once by more than chance could make of 150 degrees, and again
+    least = FAR_TURN / FACTOR**2
+    sheet.check(
+        "far",
+        turned[1],
+        limit=FAR_TURN / FACTOR,
+        faults=responsible(lambda faults: farthest(DATASET_1, faults).rotation > least),
     )
-
-
-def _rows(found: Found) -> tuple[Row, ...]:
-    """Angle and swing of each dataset, by model."""
-    rows = []
-    for name, models in found.items():
-        angle, rate = (STUDY[f"{what}_dataset_{name[1:]}"] for what in ("rotation", "swing"))
-        rows.append(
-            Row(
-                f"largest rotation, dataset {name}, of {len(SEEDS)} runs{EXACT_START}",
-                "deg",
-                angle,
-                *(one.max_rotation for one in models),
-            )
-        )
-        rows.append(
-            Row(
-                f"angle by duration of the fastest swing, dataset {name}",
-                "deg/s",
-                rate,
-                *(one.swing_rate for one in models),
-            )
-        )
-    return tuple(rows)
-
-
-def _checks(found: Found) -> tuple[Check, ...]:
-    """How far each dataset turns, and whether one model does both."""
-    far = [one.max_rotation > FAR_TURN / FACTOR for one in found["#1"]]
-    near = [_stays(one) for one in found["#2"]]
-    both = [one and other for one, other in zip(far, near, strict=True)]
-    loose = {
-        name: figures(exact_motion(exact_parameters(case, pretension=0.0)))
-        for name, case in CASES.items()
-    }
-    return (
-        Check(
-            f"dataset #1 turns by more than {FAR_TURN / FACTOR:.0f}°",
-            *far,
-            faults=responsible(_turns_still),
-            margin=Margin(
-                "largest rotation #1, exact, its start",
-                found["#1"][2].max_rotation,
-                FAR_TURN / FACTOR,
-                "°",
-            ),
-        ),
-        Check(
-            f"dataset #2 stays within {FACTOR * MEASURED:.0f}°",
-            *near,
-            margin=Margin(
-                "largest rotation #2, exact, its start",
-                found["#2"][2].max_rotation,
-                FACTOR * MEASURED,
-                "°",
-            ),
-        ),
-        Check(
-            f"one and the same model makes both datasets: all {len(MARKS)} of their printed marks",
-            *both,
-            margin=Margin(
-                "marks of the two datasets met by the best reading",
-                max(sum(one.met) for one in outcomes()),
-                len(MARKS),
-            ),
-            turns=(_without_pretension(loose), *_readings()),
-        ),
+    sheet.check("near", turned[2], limit=FACTOR * MEASURED)
+    sheet.check(
+        "both",
+        answers=[turns_far_and_near(*pair) for pair in zip(turned[1], turned[2], strict=True)],
+        margin=max(sum(outcome(reading).met) for reading in READINGS),
+        limit=len(MARKS),
     )
-
-
-def _both(first: MotionFigures, second: MotionFigures) -> bool:
-    return first.max_rotation > FAR_TURN / FACTOR and _stays(second)
-
-
-def _without_pretension(loose: dict[str, MotionFigures]) -> Turn:
-    return Turn(
-        "exact: no pretension",
-        f"#1 {loose['#1'].max_rotation:.1f}°, #2 {loose['#2'].max_rotation:.1f}°",
-        _both(loose["#1"], loose["#2"]),
-        OPEN,
-    )
-
-
-def _readings() -> list[Turn]:
-    """The scheme in all its readings; what some passage of the study says, it may mean."""
-    turns = []
+    loose = [exact_motion(case, pretension=0.0).rotation for case in DATASETS.values()]
+    sheet.turn("loose", sound=turns_far_and_near(*loose), first=loose[0], second=loose[1])
+    with_both = []
     for reading in READINGS:
-        pair = reading_figures(reading, 1), reading_figures(reading, 2)
-        turns.append(
-            Turn(
-                f"the scheme read otherwise: {reading.name}",
-                f"{sum(outcome(reading).met)} of {len(MARKS)} marks; "
-                f"#1 {pair[0].max_rotation:.0f}°, #2 {pair[1].max_rotation:.0f}°",
-                all(outcome(reading).met),
-                OPEN if reading.place else FAR,
+        first, second = (reading_figures(reading, dataset).max_rotation for dataset in DATASETS)
+        sheet.turn(
+            "reading",
+            sum(outcome(reading).met),
+            weight=OPEN if reading.place else FAR,
+            name=reading.name,
+            first=first,
+            second=second,
+        )
+        if turns_far_and_near(first, second):
+            with_both.append(reading.name)
+    sheet.picture("C7_rotation", _draw_datasets, runs, live=True)
+    return sheet.claim(
+        first=turned[1][0],
+        second=turned[2][0],
+        compared="less" if turned[2][0] < turned[1][0] else "no less",
+        window=reading_figures(AS_PRINTED, 1).max_rotation,
+        with_both="; ".join(with_both) or "no reading",
+        readings=len(READINGS),
+    )
+
+
+def _draw_datasets(runs: dict[int, list[Motion]]) -> Figure:
+    row = []
+    for dataset, three in runs.items():
+        study = STUDY[f"rotation_dataset_{dataset}"].number
+        row.append(
+            Panel(
+                [
+                    over_time(run, "phi_deg", color=colour, label=label, lw=1.0)
+                    for run, colour, label in zip(three, COLOURS, LABELS, strict=True)
+                ],
+                "time, s",
+                "φ, °",
+                f"dataset #{dataset}: as printed up to {three[0].rotation:.0f}°",
+                {"study's largest": study, "_": -study},
+                end=three[0].time[-1],
             )
         )
-    return turns
-
-
-def _readings_with_both() -> list[str]:
-    """Names of the readings in which #1 turns far and #2 does not, whatever else they do."""
-    return [
-        reading.name
-        for reading in READINGS
-        if _both(reading_figures(reading, 1), reading_figures(reading, 2))
-    ]
-
-
-@picture(
-    "C7_rotation",
-    "φ(t) of datasets #1 and #2 as printed and mended (of eight runs each the "
-    "one that turns farthest) and in the exact model. Study: figure 4.21.",
-    live=live_of,
-)
-def _draw() -> Figure:
-    figure, axes = panels(1, 2, height=2.7)
-    for ax, (name, case) in zip(axes[0], CASES.items(), strict=True):
-        runs: dict[str, Motion] = {
-            "printed": _farthest(case, PRINTED),
-            "mended": _farthest(case, MENDED),
-            "exact": exact_motion(exact_parameters(case)),
-        }
-        for model, run in runs.items():
-            style = {"color": COLOURS[model], "label": LABELS[model], "lw": 1.0}
-            ax.plot(run.time, np.degrees(run.phi), **style)
-        for sign in (1, -1):
-            study = STUDY[f"rotation_dataset_{name[1:]}"].number
-            study_line(ax, sign * study, "study's largest" if sign == 1 else "_")
-        largest = np.degrees(np.abs(runs["printed"].phi).max())
-        ax.set_title(f"dataset {name}: as printed up to {largest:.0f}°")
-        ax.set_xlabel("time, s")
-        ax.set_ylabel("φ, °")
-        ax.set_xlim(0.0, runs["printed"].time[-1])
-    figure.legend(*axes[0, 0].get_legend_handles_labels(), ncols=4, loc="outside upper center")
-    return figure
+    return figure_of([row], legend=4, height=2.7)

@@ -124,7 +124,7 @@ def exact_motion(
     start = {"initial.y": y if "y" in free else 0.0, "initial.phi": phi if "phi" in free else 0.0}
     run = simulate(exact_parameters(known, start | dict(values)), SETTLING + WINDOW, INTERVAL)
     motion = Motion.of_trajectory(run)
-    return motion.since(min(SETTLING, 0.5 * float(motion.time[-1])))
+    return motion.between(min(SETTLING, 0.5 * float(motion.time[-1])))
 
 
 # the scheme counts one spring of four in stick: in the catalogue's words, this part of the load
@@ -231,4 +231,4 @@ def study_motion(known: Mapping[str, Mapping], values: Mapping[str, float], seed
     duration = CYCLES * (LONGEST_SLIP + stick)
     run = scheme_of(numbers).run(cycles=CYCLES, duration=duration, seed=seed)
     motion = Motion.of_scheme(run)
-    return motion.since((1.0 - STEADY) * float(motion.time[-1]))
+    return motion.between((1.0 - STEADY) * float(motion.time[-1]))
