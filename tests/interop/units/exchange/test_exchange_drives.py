@@ -165,7 +165,8 @@ def drawn(seed):
     )
 
 
-DRAWN = range(50)
+#: The first 50 are those on which `SHRINKS` of the kernel was chosen, the others were kept from it.
+DRAWN = range(75)
 #: Kinks where a stick is near its limit: there a rate across the kink is a break-away that is none.
 KINKED = (13, 33, 37, 39, 47)
 SEEDS = [
@@ -178,10 +179,15 @@ GIVEN_ALWAYS, GIVEN_AT_EVENTS = (1e-9, 1e-6, 1e-5), (1e-10, 1e-4, 2e-4)
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_drawn_drives(fmu, tmp_path, host, seed):
-    """All slips at their times. Of 50 drives, in the median and at most:
+    """All slips at their times. Of the first 50 drives, in the median and at most:
 
     given at every time, at 1e-9: x 1.4e-8 and 3e-7 m, heat 5e-8 and 3e-6;
     given at events only, at 1e-10: x 8e-9 and 3e-5 m, heat 1.4e-8 and 7e-5.
+
+    Of the 25 behind them:
+
+    given at every time, at 1e-9: x 1.3e-8 and 1.8e-7 m, heat 4.5e-8 and 3.2e-7;
+    given at events only, at 1e-10: x 9.7e-9 and 2.7e-5 m, heat 1.2e-8 and 8.5e-5.
 
     A tolerance is that of one step, of which there are some hundred to a slip; the most is where a
     stick ends, or a slip, close to where it just would not: there an error grows. With inputs at
