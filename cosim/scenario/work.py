@@ -8,7 +8,6 @@ anything through that the models can do.
 from __future__ import annotations
 
 from stickslip import Parameters
-from stickslip.packing import GRAVITY
 from stickslip.status import (
     MOST_STEPS_PER_SECOND,
     SECONDS_PER_STEP,
@@ -17,10 +16,9 @@ from stickslip.status import (
     time_to_slide,
 )
 
+from cosim.scenario.durations import in_words
 from cosim.scenario.scenario import Scenario
 from cosim.scenario.validation import ScenarioError
-from thermal.model import MOST_LOOPS
-from thermal.work import ice_unknowns, internal_steps, seconds_to_prepare, seconds_to_run
 
 #: A run that takes longer says so when it starts, s.
 WORTH_SAYING = 60.0
@@ -51,53 +49,12 @@ def check_mechanics(parameters: Parameters, duration: float, patience: float) ->
     return seconds
 
 
-def check_heat(scenario: Scenario) -> float:
-    """Seconds that the heat of a coupled run will take; ScenarioError where it cannot, or as above.
-
-    Friction is taken as kinetic all along, at the surface's speed.
-    """
-    run, step, surface = scenario.run, scenario.coupling.macro_step, scenario.surface
-    speed, length = abs(surface.speed), scenario.belt.length
-    if speed * step > MOST_LOOPS * length:
-        raise ScenarioError(
-            f"coupling.macro_step: {step:g} s at surface.speed = {surface.speed:g} m/s is "
-            f"{speed * step / length:.3g} loops of the belt, allowed are up to {MOST_LOOPS} in a "
-            "macro step"
-        )
-    thermal, patience = scenario.thermal, run.patience
-    preparing = seconds_to_prepare(thermal)
-    if preparing > patience:
-        raise ScenarioError(
-            f"ice.radial_elements: {scenario.ice.radial_elements} by ice.axial_elements = "
-            f"{scenario.ice.axial_elements} are {ice_unknowns(thermal)} unknowns, which take some "
-            f"{in_words(preparing)} to prepare, allowed is what takes run.patience = "
-            f"{patience:g} s: fewer elements, or more patience"
-        )
-    heating = scenario.friction.mu_k * GRAVITY * scenario.rig.mass * speed
-    arguments = (thermal, run.duration, step, speed, heating)
-    seconds = seconds_to_run(*arguments)
-    if preparing + seconds > patience:
-        cuts = internal_steps(*arguments) * step / run.duration
-        raise ScenarioError(
-            f"run.duration: {run.duration:g} s takes some {in_words(preparing + seconds)} with "
-            f"{cuts:.3g} internal steps of the heat in each coupling.macro_step = {step:g} s "
-            f"(surface.speed = {surface.speed:g} m/s, ice.density = {scenario.ice.density:g} "
-            f"kg/m3), allowed is what takes run.patience = {patience:g} s: a shorter run, a "
-            "coarser mesh, or more patience"
-        )
-    return preparing + seconds
-
-
 def check_work(scenario: Scenario, *, coupled: bool) -> float:
     """Seconds that a run will take; ScenarioError where it cannot end within run.patience."""
     run = scenario.run
     seconds = check_mechanics(scenario.mechanics, run.duration, run.patience)
-    return seconds + check_heat(scenario) if coupled else seconds
+    if not coupled:
+        return seconds
+    from cosim.scenario.heat_work import check_heat  # the finite elements
 
-
-def in_words(seconds: float) -> str:
-    """A time as somebody would say it: "90 s", "20 min", "5 h", "3 days", "20 years"."""
-    for size, unit in ((3.156e7, "years"), (86400.0, "days"), (3600.0, "h"), (60.0, "min")):
-        if seconds >= 2.0 * size:
-            return f"{seconds / size:.2g} {unit}"
-    return f"{seconds:.2g} s"
+    return seconds + check_heat(scenario)

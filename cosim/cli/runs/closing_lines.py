@@ -22,7 +22,7 @@ from cosim.report.motion_text import (
     unstable_line,
 )
 from cosim.report.quantities import FOUND_RISE, ROUNDING, digits
-from cosim.scenario.work import in_words
+from cosim.scenario.durations import in_words
 
 
 def closing_lines(

@@ -35,8 +35,9 @@ from cosim.report.contents import attach_assessment, material_of
 from cosim.report.coupling import doubts
 from cosim.report.files import json_text
 from cosim.scenario import Scenario, ScenarioError, check_work
+from cosim.scenario.durations import in_words
 from cosim.scenario.units import doubted
-from cosim.scenario.work import WORTH_SAYING, in_words
+from cosim.scenario.work import WORTH_SAYING
 
 RESULTS = "results"
 RESULT_FILES = ("result.nc", "result.csv", "summary.json", "report.html", LOG)

@@ -9,10 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from ..parameters import Parameters
 from .live import DRY, Interface
+from .roots import root_between
 from .stability import GRAZING, Stability, cycle_stability
 from .work import Work
 
@@ -66,8 +66,8 @@ def pretension_borders(
     def at(pretension: float) -> Stability:
         return cycle_stability(with_pretension(parameters, pretension), duration, interface, work)
 
-    def excess(pretension: float) -> float:
-        return at(pretension).growth - 1.0 - ROUNDING
+    def excess(motion: Stability) -> float:
+        return motion.growth - 1.0 - ROUNDING
 
     steps = parameters.rig.spring_length * np.arange(0.0, MOST + 0.5 * step, step)
     found = [at(pretension) for pretension in steps]
@@ -77,10 +77,11 @@ def pretension_borders(
         if GRAZING in (found[i].verdict, found[i + 1].verdict):
             border, resolution = 0.5 * (steps[i] + steps[i + 1]), steps[1]
         else:
-            border = brentq(excess, steps[i], steps[i + 1], xtol=RESOLUTION)
+            ends = [(steps[n], excess(found[n])) for n in (i, i + 1)]
+            border = root_between(lambda pretension: excess(at(pretension)), *ends, RESOLUTION)
         borders.append(float(border))
-    ends = [*borders[1::2], None] if unstable[-1] else borders[1::2]
-    return PretensionBorders(tuple(zip(borders[::2], ends, strict=True)), float(resolution))
+    closed = [*borders[1::2], None] if unstable[-1] else borders[1::2]
+    return PretensionBorders(tuple(zip(borders[::2], closed, strict=True)), float(resolution))
 
 
 def with_pretension(parameters: Parameters, pretension: float) -> Parameters:

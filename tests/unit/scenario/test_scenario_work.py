@@ -17,7 +17,7 @@ from stickslip.status import (
 from cosim.cli.runs.running import scenario_to_run
 from cosim.coupling.case import run_scenario
 from cosim.scenario import Scenario, ScenarioError, check_work, read_scenario
-from cosim.scenario.work import in_words
+from cosim.scenario.durations import in_words
 from cosim.studies.sweep import Run, SweepError, product_grid
 from thermal.ice.ablation import LONGEST_RECESSION
 from thermal.model import BeltIceModel
