@@ -6,12 +6,12 @@ import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-import xarray as xr
-
 from .page import number
 from .quantities import Quantity
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from cosim.coupling import CoupledResult
 
 #: Key of the numbers -> its words on a page.

@@ -5,19 +5,18 @@ from __future__ import annotations
 import json
 import os
 import platform
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypedDict
 
-import xarray as xr
-
 from cosim.files import write_atomically, write_text
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
 
 #: What a spreadsheet takes a cell for a formula by.
 FORMULA = ("=", "+", "-", "@", "\t", "\r")
@@ -79,10 +78,11 @@ def _version(name: str) -> str:
 
 def write_netcdf(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path) -> Path:
     """netCDF 4 (through h5netcdf): a dataset, or several by the name of their group ("": root)."""
-    groups = {"": dataset} if isinstance(dataset, xr.Dataset) else dataset
+    groups: Any = {"": dataset} if hasattr(dataset, "to_netcdf") else dataset
 
     def write(partial: Path) -> None:
-        _require_room(partial, groups.values())
+        numbers = sum(one.nbytes for one in groups.values())
+        require_room(partial, numbers, sum(len(one.variables) for one in groups.values()))
         mode: Literal["w", "a"] = "w"
         for group, one in groups.items():
             one.to_netcdf(partial, mode=mode, group=group or None, engine="h5netcdf")
@@ -91,13 +91,15 @@ def write_netcdf(dataset: xr.Dataset | Mapping[str, xr.Dataset], path: Path) -> 
     return write_atomically(path, write)
 
 
-def _require_room(path: Path, datasets: Iterable[xr.Dataset]) -> None:
-    """OSError while there is nothing to lose: HDF5 does not survive a disk that fills up."""
+def require_room(path: Path, size: int, variables: int) -> None:
+    """OSError while there is nothing to lose: HDF5 does not survive a disk that fills up.
+
+    size : of all numbers, bytes
+    """
     if not hasattr(os, "posix_fallocate"):
         return
-    size = _OVERHEAD + sum(one.nbytes + _A_VARIABLE * len(one.variables) for one in datasets)
     with path.open("wb") as file:
-        os.posix_fallocate(file.fileno(), 0, size)
+        os.posix_fallocate(file.fileno(), 0, _OVERHEAD + size + _A_VARIABLE * variables)
 
 
 def write_csv(dataset: xr.Dataset, path: Path) -> Path:
@@ -109,12 +111,12 @@ def write_csv(dataset: xr.Dataset, path: Path) -> Path:
 
 def write_table(table: pd.DataFrame, path: Path, index: bool = True) -> Path:
     """A table as CSV, of which a spreadsheet takes no name and no text for a formula."""
-    texts = table.select_dtypes(exclude="number").map(_no_formula)
-    safe = table.assign(**texts).rename(columns=_no_formula)
+    texts = table.select_dtypes(exclude="number").map(no_formula)
+    safe = table.assign(**texts).rename(columns=no_formula)
     return write_atomically(path, lambda partial: safe.to_csv(partial, index=index))
 
 
-def _no_formula(cell: Any) -> Any:
+def no_formula(cell: Any) -> Any:
     """A text behind an apostrophe where it begins as a formula does and is no number."""
     if not (isinstance(cell, str) and cell.startswith(FORMULA)):
         return cell

@@ -51,8 +51,11 @@ class SystemRun:
         """The dataset that `stickslip couple` writes as ``result.nc``: every output and connected
         input as `unit.port` over ``time`` (n,), with units, and the macro steps over
         ``step_time``."""
-        dataset: xarray.Dataset = import_module(f"{SHOW}.dataset").system_dataset(self)
+        dataset: xarray.Dataset = self._columns().to_xarray()
         return dataset
+
+    def _columns(self) -> Any:
+        return import_module(f"{SHOW}.dataset").system_columns(self)
 
     def plot(self, figure: str = "signals") -> Figure:
         """One of the figures of the run's page: signals, system, energy or steps.
@@ -60,7 +63,7 @@ class SystemRun:
         Raises ValueError for a name that is none, or of which the run has nothing to show.
         """
         figures = import_module(f"{SHOW}.figures")
-        drawn: Figure = figures.figure_of(self, self.to_xarray(), figure)
+        drawn: Figure = figures.figure_of(self, self._columns(), figure)
         return drawn
 
 

@@ -83,7 +83,7 @@ KNOWN_BY = {
 OPEN = {
     "cosim.report": (
         *("cosim.report.style", "cosim.report.page", "cosim.report.live", "cosim.report.files"),
-        *("cosim.report.coupling", "cosim.report.material"),
+        *("cosim.report.coupling", "cosim.report.columns", "cosim.report.material"),
     ),
     "stickslip.kernel": ("stickslip.kernel.layout",),
 }

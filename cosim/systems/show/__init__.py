@@ -8,9 +8,10 @@ from typing import Any
 
 from cosim.coupling.record import LOG
 from cosim.files import write_bytes, write_text
-from cosim.report.files import PAGE_ALONE, Shown, write_csv, write_json, write_netcdf
+from cosim.report.columns import write_columns, write_columns_as_csv
+from cosim.report.files import PAGE_ALONE, Shown, write_json
 from cosim.systems.run import SystemRun
-from cosim.systems.show.dataset import system_dataset
+from cosim.systems.show.dataset import system_columns
 from cosim.systems.show.page import page
 from cosim.systems.show.summary import summary
 
@@ -35,17 +36,17 @@ def write_system(
     file once it is written. shown: whether there are figures as PNG files, and a page. Raises
     OutputError where the disk refuses.
     """
-    dataset = system_dataset(run)
-    numbers = summary(run, dataset)
+    columns = system_columns(run)
+    numbers = summary(run, columns)
     for path in (
-        write_netcdf(dataset, folder / "result.nc"),
-        write_csv(dataset, folder / "result.csv"),
+        write_columns(columns, folder / "result.nc"),
+        write_columns_as_csv(columns, "time", folder / "result.csv"),
         write_json(numbers, folder / "summary.json"),
     ):
         progress(path.name)
     from cosim.systems.show.figures import pictures  # matplotlib: after the data are on disk
 
-    figures = pictures(run, dataset)
+    figures = pictures(run, columns)
     for name, picture in figures.items() if shown["figures"] else ():
         progress(write_bytes(picture.png, folder / f"{name}.png").name)
     if shown["page"]:

@@ -1,13 +1,13 @@
-"""A run of a system as an xarray Dataset: what files, figures and summary are made of."""
+"""A run of a system as columns: what files, figures and summary are made of."""
 
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
 from cosim.coupling import Causality
 from cosim.coupling.conversion import told_dimension
+from cosim.report.columns import Column, Columns
 from cosim.report.files import provenance
 from cosim.systems.run import SystemRun
 
@@ -15,36 +15,46 @@ Array = NDArray[np.float64]
 RESIDUAL = "coupling_residual"
 
 
-def system_dataset(run: SystemRun) -> xr.Dataset:
+def system_columns(run: SystemRun) -> Columns:
     """All outputs and connected inputs as `unit.port` over ``time`` (n,), steps over ``step_time``.
 
     Attributes of a variable: units, participant, causality, fed_by for an input; where its unit is
     defined, base_units, si_factor and si_offset (value in them = factor * value + offset).
     """
-    result, sources = run.result, _sources(run)
+    result, sources, steps = run.result, _sources(run), run.steps
     variables = {
-        column(name): ("time", values, _attributes(run, name, sources))
+        column(name): Column("time", np.asarray(values), _attributes(run, name, sources))
         for name, values in result.values.items()
     }
     if result.ledger.flows or result.ledger.residuals:
-        attributes: dict[str, str | float] = {
-            "units": "J",
-            "long_name": "energy handed over and not taken up, and what units state to be off by",
-        }
-        variables[RESIDUAL] = ("time", result.ledger.residual, attributes)
-    time = {"units": "s", "long_name": "time"}
-    dataset = xr.Dataset(variables, coords={"time": ("time", np.asarray(result.time), time)})
-    dataset.attrs.update(
-        title=run.specification.name,
-        case="system",
-        status=result.status,
-        unconverged_steps=len(result.statistics.unconverged),
-        reason=result.reason,
-        system=run.specification.text,
-        wall_time=float(result.wall_time),
+        said = "energy handed over and not taken up, and what units state to be off by"
+        variables[RESIDUAL] = Column("time", result.ledger.residual, _told("J", said))
+    # an entry is one step or, in a long run, some neighbouring ones
+    for name, values, said in (
+        ("shortest_step", steps.shortest, "smallest macro step up to this time"),
+        ("longest_step", steps.longest, "largest macro step up to this time"),
+    ):
+        variables[name] = Column("step_time", np.asarray(values), _told("s", said))
+    ends = np.asarray(steps.ends)
+    axes = {
+        "time": Column("time", np.asarray(result.time), _told("s", "time")),
+        "step_time": Column("step_time", ends, _told("s", "end of a macro step")),
+    }
+    attributes = {
+        "title": run.specification.name,
+        "case": "system",
+        "status": result.status,
+        "unconverged_steps": len(result.statistics.unconverged),
+        "reason": result.reason,
+        "system": run.specification.text,
+        "wall_time": float(result.wall_time),
         **provenance(),
-    )
-    return dataset.merge(_steps(run))
+    }
+    return Columns(variables, axes, attributes)
+
+
+def _told(unit: str, text: str) -> dict[str, str]:
+    return {"units": unit, "long_name": text}
 
 
 def column(name: str) -> str:
@@ -73,25 +83,3 @@ def _attributes(run: SystemRun, name: str, sources: dict[str, str]) -> dict[str,
 
 def _sources(run: SystemRun) -> dict[str, str]:
     return {str(each.sink): str(each.source) for each in run.assembly.system.connections}
-
-
-def _steps(run: SystemRun) -> xr.Dataset:
-    """Sizes of the macro steps; an entry is one step or, in a long run, some neighbouring ones."""
-    steps = run.steps
-    sizes = {
-        "shortest_step": ("smallest macro step up to this time", steps.shortest),
-        "longest_step": ("largest macro step up to this time", steps.longest),
-    }
-    return xr.Dataset(
-        {
-            name: ("step_time", values, {"units": "s", "long_name": text})
-            for name, (text, values) in sizes.items()
-        },
-        coords={
-            "step_time": (
-                "step_time",
-                steps.ends,
-                {"units": "s", "long_name": "end of a macro step"},
-            )
-        },
-    )

@@ -8,12 +8,12 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosim.coupling import Ledger
 from cosim.names import unknown_name
+from cosim.report.columns import Columns
 from cosim.report.live import Curve, Live, Panel, over_time
 from cosim.report.page import Picture, number
 from cosim.report.style import (
@@ -47,7 +47,7 @@ NOTHING = 1e-6
 Drawer = tuple[Callable[..., Picture], tuple[Any, ...]]
 
 
-def pictures(run: SystemRun, dataset: xr.Dataset) -> dict[str, Picture]:
+def pictures(run: SystemRun, columns: Columns) -> dict[str, Picture]:
     """Every figure that the run has something for: name -> picture, in the page's order."""
     alive: dict[str, Callable[..., Picture]] = {
         "signals": signals,
@@ -56,37 +56,37 @@ def pictures(run: SystemRun, dataset: xr.Dataset) -> dict[str, Picture]:
     }
     return {
         name: alive.get(name, draw)(*arguments)
-        for name, (draw, arguments) in _drawers(run, dataset).items()
+        for name, (draw, arguments) in _drawers(run, columns).items()
     }
 
 
-def figure_of(run: SystemRun, dataset: xr.Dataset, name: str) -> Figure:
+def figure_of(run: SystemRun, columns: Columns, name: str) -> Figure:
     """One of them for a notebook; ValueError for a name that is none of this run's."""
-    found = _drawers(run, dataset)
+    found = _drawers(run, columns)
     if name not in found:
         raise ValueError(unknown_name("figure of this run", name, found))
     draw, arguments = found[name]
     return shown(draw, *arguments)
 
 
-def _drawers(run: SystemRun, dataset: xr.Dataset) -> dict[str, Drawer]:
+def _drawers(run: SystemRun, columns: Columns) -> dict[str, Drawer]:
     """Name -> what draws it, of what."""
     system, order = run.assembly.system, run.assembly.order
     found: dict[str, Drawer] = {
         "system": (diagram if is_legible(system, order) else matrix, (system, order))
     }
-    if any(each.attrs.get("causality") == "output" for each in dataset.data_vars.values()):
-        found["signals"] = _signals, (dataset,)
+    if any(each.attrs.get("causality") == "output" for each in columns.data_vars.values()):
+        found["signals"] = _signals, (columns,)
     if run.result.ledger.flows:
         found["energy"] = _energy, (run.result.time, run.result.ledger)
     if run.steps.count:
-        found["steps"] = _steps, (dataset, run.specification.run.start)
+        found["steps"] = _steps, (columns, run.specification.run.start)
     return found
 
 
-def signals(dataset: xr.Dataset) -> Picture:
+def signals(columns: Columns) -> Picture:
     """A panel for every output, up to `MOST_PANELS`."""
-    return _alive(_signals(dataset), "Outputs over time.", _signals_live(dataset))
+    return _alive(_signals(columns), "Outputs over time.", _signals_live(columns))
 
 
 def energy(time: NDArray[np.float64], ledger: Ledger) -> Picture:
@@ -95,10 +95,10 @@ def energy(time: NDArray[np.float64], ledger: Ledger) -> Picture:
     return _alive(_energy(time, ledger), alt, _energy_live(time, ledger))
 
 
-def steps(dataset: xr.Dataset, start: float) -> Picture:
+def steps(columns: Columns, start: float) -> Picture:
     """Step size over time, on a logarithmic axis where the steps differ much."""
     alt = "Sizes of the macro steps over time."
-    return _alive(_steps(dataset, start), alt, _steps_live(dataset, start))
+    return _alive(_steps(columns, start), alt, _steps_live(columns, start))
 
 
 def _alive(drawn: Picture, alt: str, live: Live) -> Picture:
@@ -110,13 +110,13 @@ def _alive(drawn: Picture, alt: str, live: Live) -> Picture:
     f"Outputs over time at the recorded times, those that are connected first, and of more than"
     f" {MOST_PANELS} the first; the numbers below and the files have all.",
 )
-def _signals(dataset: xr.Dataset) -> Figure:
-    names, flat = _drawn(dataset)
+def _signals(columns: Columns) -> Figure:
+    names, flat = _drawn(columns)
     rows = -(-len(names) // COLUMNS)
     figure, axes = panels(rows, COLUMNS, height=1.7, width=10.5, sharex=True)
-    time = dataset["time"].values
+    time = columns["time"].values
     for panel, name in zip(axes.flat, names, strict=False):
-        label, values, least = _signal(dataset, name)
+        label, values, least = _signal(columns, name)
         line(panel, time, values, color=BLUE)
         panel.set_title(label, fontsize=9)
         plain_ticks(panel)
@@ -127,40 +127,40 @@ def _signals(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-def _signals_live(dataset: xr.Dataset) -> Live:
-    names, flat = _drawn(dataset)
+def _signals_live(columns: Columns) -> Live:
+    names, flat = _drawn(columns)
     panels = []
     for name in names:
-        label, values, least = _signal(dataset, name)
+        label, values, least = _signal(columns, name)
         panels.append(Panel(label, [Curve(name, values, BLUE)], span=least))
-    return over_time(dataset["time"].values, panels, note=flat, columns=2)
+    return over_time(columns["time"].values, panels, note=flat, columns=2)
 
 
-def _signal(dataset: xr.Dataset, name: str) -> tuple[str, NDArray[np.float64], float]:
+def _signal(columns: Columns, name: str) -> tuple[str, NDArray[np.float64], float]:
     """Label, values in a readable unit, and the least that an axis spans.
 
     Else the last bits of what stays the same would fill the panel.
     """
-    values, unit = dataset[name].values, dataset[name].attrs["units"]
+    values, unit = columns[name].values, columns[name].attrs["units"]
     scaled = readable(values, unit) if unit in PREFIXED else Scaled(1.0, unit)
     least = NOTHING * scaled.factor * float(np.max(np.abs(values)))
     return f"{name} [{SPELLING.get(scaled.unit, scaled.unit)}]", scaled(values), least
 
 
-def _drawn(dataset: xr.Dataset) -> tuple[list[str], str]:
+def _drawn(columns: Columns) -> tuple[list[str], str]:
     """Outputs to draw, and a line of text on those that stay as they are."""
-    sources = {each.attrs.get("fed_by", "") for each in dataset.data_vars.values()}
+    sources = {each.attrs.get("fed_by", "") for each in columns.data_vars.values()}
     outputs = [
         str(name)
-        for name, each in dataset.data_vars.items()
+        for name, each in columns.data_vars.items()
         if each.attrs.get("causality") == "output"
     ]
-    connected = [name for name in outputs if dataset[name].attrs["long_name"] in sources]
+    connected = [name for name in outputs if columns[name].attrs["long_name"] in sources]
     ordered = [*connected, *(name for name in outputs if name not in connected)]
-    flat = [name for name in ordered if _is_flat(dataset[name].values)]
+    flat = [name for name in ordered if _is_flat(columns[name].values)]
     # a figure of nothing at all would be less than one of something flat
     shown = [name for name in ordered if name not in flat] or ordered[:1]
-    said = [_constant(dataset, name) for name in flat if name not in shown]
+    said = [_constant(columns, name) for name in flat if name not in shown]
     note = f"Not drawn, as they do not change: {'; '.join(said)}." if said else ""
     return shown[:MOST_PANELS], note
 
@@ -169,9 +169,9 @@ def _is_flat(values: NDArray[np.float64]) -> bool:
     return bool(np.ptp(values) <= NOTHING * np.max(np.abs(values)))
 
 
-def _constant(dataset: xr.Dataset, name: str) -> str:
-    unit = dataset[name].attrs["units"]
-    return f"{name} {number(float(dataset[name].values[-1]))} {SPELLING.get(unit, unit)}".strip()
+def _constant(columns: Columns, name: str) -> str:
+    unit = columns[name].attrs["units"]
+    return f"{name} {number(float(columns[name].values[-1]))} {SPELLING.get(unit, unit)}".strip()
 
 
 def _end(axes: NDArray[Any], used: int) -> None:
@@ -222,12 +222,12 @@ def _colours(count: int) -> Sequence[str]:
     "Sizes of the macro steps that were accepted. In a run of very many steps neighbours are drawn "
     "as one band, from the smallest to the largest of them.",
 )
-def _steps(dataset: xr.Dataset, start: float) -> Figure:
+def _steps(columns: Columns, start: float) -> Figure:
     figure, axes = panels(1, 1, height=2.4, width=9.0)
     panel = axes[0, 0]
-    ends = dataset["step_time"].values
+    ends = columns["step_time"].values
     edges = np.concatenate([[start], ends])
-    shortest, longest = dataset["shortest_step"].values, dataset["longest_step"].values
+    shortest, longest = columns["shortest_step"].values, columns["longest_step"].values
     if np.any(longest > shortest * (1.0 + 1e-6)):
         panel.fill_between(
             edges, np.append(shortest, shortest[-1]), np.append(longest, longest[-1]),
@@ -243,10 +243,10 @@ def _steps(dataset: xr.Dataset, start: float) -> Figure:
     return figure
 
 
-def _steps_live(dataset: xr.Dataset, start: float) -> Live:
-    edges = np.concatenate([[start], dataset["step_time"].values])
+def _steps_live(columns: Columns, start: float) -> Live:
+    edges = np.concatenate([[start], columns["step_time"].values])
     longest, shortest = (
-        np.append(dataset[name].values[:1], dataset[name].values)
+        np.append(columns[name].values[:1], columns[name].values)
         for name in ("longest_step", "shortest_step")
     )
     curves = [Curve("longest of neighbours", longest, BLUE, steps=True)]

@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from cosim.coupling import Connection, CoupledSystem
 from cosim.coupling.conversion import watts
 from cosim.coupling.messages import WARNING
 from cosim.coupling.system import ENERGY_UNIT, find_port
+from cosim.report.columns import Column, Columns
 from cosim.report.coupling import efforts, step_numbers
 from cosim.report.files import results_line
 from cosim.report.page import number
@@ -25,7 +25,7 @@ from cosim.systems.run import SystemRun
 MOST_NOTES = 4
 
 
-def summary(run: SystemRun, dataset: xr.Dataset) -> dict[str, Any]:
+def summary(run: SystemRun, columns: Columns) -> dict[str, Any]:
     """Status, steps, participants, connections, ledger, outputs, remarks, versions, the system, and
     what the units warned of.
 
@@ -35,8 +35,8 @@ def summary(run: SystemRun, dataset: xr.Dataset) -> dict[str, Any]:
     result, system = run.result, run.assembly.system
     time = result.time
     return {
-        "name": dataset.attrs["title"],
-        "case": dataset.attrs["case"],
+        "name": columns.attrs["title"],
+        "case": columns.attrs["case"],
         "status": result.status,
         "reason": result.reason,
         "time_reached": float(time[-1]) if time.size else None,
@@ -46,11 +46,11 @@ def summary(run: SystemRun, dataset: xr.Dataset) -> dict[str, Any]:
         "participants": {name: _participant(run, name) for name in system.participants},
         "connections": [_connection(system, each) for each in system.connections],
         "ledger": ledger(run),
-        "outputs": _outputs(run, dataset),
+        "outputs": _outputs(run, columns),
         "remarks": [*run.assembly.remarks, *result.remarks],
         "warnings": warnings(run),
-        "created": dataset.attrs["created"],
-        "versions": json.loads(dataset.attrs["versions"]),
+        "created": columns.attrs["created"],
+        "versions": json.loads(columns.attrs["versions"]),
         "source": run.specification.source,
         "system": run.specification.text,
     }
@@ -173,9 +173,9 @@ def _connection(system: CoupledSystem, connection: Connection) -> dict[str, Any]
     }
 
 
-def _outputs(run: SystemRun, dataset: xr.Dataset) -> dict[str, dict[str, Any]]:
+def _outputs(run: SystemRun, columns: Columns) -> dict[str, dict[str, Any]]:
     found = {}
-    for name, variable in dataset.data_vars.items():
+    for name, variable in columns.data_vars.items():
         if variable.attrs.get("causality") == "output":
             values = variable.values
             found[str(name)] = {
@@ -189,7 +189,7 @@ def _outputs(run: SystemRun, dataset: xr.Dataset) -> dict[str, dict[str, Any]]:
     return found
 
 
-def _nominal(run: SystemRun, variable: xr.DataArray) -> float:
+def _nominal(run: SystemRun, variable: Column) -> float:
     """Size that is typical of an output, in its units, as whoever made it states it."""
     participant, _, port = variable.attrs["long_name"].partition(".")
     return run.assembly.system.participants[participant].ports[port].nominal

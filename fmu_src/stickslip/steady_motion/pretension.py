@@ -77,8 +77,8 @@ def pretension_borders(
         if GRAZING in (found[i].verdict, found[i + 1].verdict):
             border, resolution = 0.5 * (steps[i] + steps[i + 1]), steps[1]
         else:
-            ends = [(steps[n], excess(found[n])) for n in (i, i + 1)]
-            border = root_between(lambda pretension: excess(at(pretension)), *ends, RESOLUTION)
+            low, high = ((float(steps[n]), excess(found[n])) for n in (i, i + 1))
+            border = root_between(lambda pretension: excess(at(pretension)), low, high, RESOLUTION)
         borders.append(float(border))
     closed = [*borders[1::2], None] if unstable[-1] else borders[1::2]
     return PretensionBorders(tuple(zip(borders[::2], closed, strict=True)), float(resolution))

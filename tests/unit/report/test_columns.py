@@ -1,0 +1,57 @@
+"""Columns as files: what xarray and pandas write of the same, without them."""
+
+import subprocess
+import sys
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from cosim.report.columns import Column, Columns, write_columns, write_columns_as_csv
+from cosim.report.files import write_csv, write_netcdf
+
+COLUMNS = Columns(
+    {
+        "a.x": Column("time", np.array([1.0, np.nan, 1e-300]), {"units": "m", "si_factor": 1.5}),
+        "=a": Column("time", np.array([1, 2, 3]), {"units": "1"}),
+        "size": Column("step_time", np.array([0.1, 0.2]), {"units": "s"}),
+    },
+    {
+        "time": Column("time", np.array([0.0, 0.1, 1.0 / 3.0]), {"units": "s"}),
+        "step_time": Column("step_time", np.array([0.1, 0.3])),
+    },
+    {"title": "made", "reason": "", "unconverged_steps": 2, "wall_time": 0.25},
+)
+
+
+def test_netcdf_is_what_xarray_reads_as_the_same(tmp_path):
+    dataset = COLUMNS.to_xarray()
+    ours, theirs = write_columns(COLUMNS, tmp_path / "a.nc"), tmp_path / "b.nc"
+    write_netcdf(dataset, theirs)
+    for path in (ours, theirs):
+        with xr.open_dataset(path, engine="h5netcdf") as read:
+            assert read.load().identical(dataset)
+            assert np.isnan(read["a.x"].encoding["_FillValue"])
+
+
+def test_csv_is_that_of_pandas(tmp_path):
+    dataset = COLUMNS.to_xarray()
+    ours = write_columns_as_csv(COLUMNS, "time", tmp_path / "a.csv")
+    assert ours.read_bytes() == write_csv(dataset, tmp_path / "b.csv").read_bytes()
+    assert list(pd.read_csv(ours)) == ["time", "a.x", "'=a"]
+
+
+def test_without_rows_there_are_files_all_the_same(tmp_path):
+    none = {name: Column("time", np.empty(0)) for name in ("time", "x")}
+    columns = Columns({"x": none["x"]}, {"time": none["time"]}, {})
+    with xr.open_dataset(write_columns(columns, tmp_path / "a.nc"), engine="h5netcdf") as read:
+        assert read.sizes["time"] == 0 and "x" in read
+    assert write_columns_as_csv(columns, "time", tmp_path / "a.csv").read_text() == "time,x\n"
+
+
+def test_a_system_is_run_and_written_without_xarray():
+    """And without pandas: together they take as long as a small system."""
+    code = "import sys, cosim.cli.runs.couple as c; c.refused(); import cosim.systems.show.figures"
+    code += "; print([name for name in ('xarray', 'pandas', 'scipy') if name in sys.modules])"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout == "[]\n"
