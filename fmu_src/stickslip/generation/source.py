@@ -12,7 +12,7 @@ from importlib import resources
 
 from ..effects import EFFECTS
 from ..effects.effect import Effect
-from ..kernel import MODULES
+from ..kernel import MODULES, terms
 from ..kernel.layout import constants
 from .places import ARRAY
 from .terms import terms_source
@@ -34,7 +34,9 @@ def _catalogue_source() -> str:
 
 
 def _source(effects: Sequence[Effect]) -> str:
-    made = {"layout": layout_source(effects), "terms": terms_source(effects)}
+    # those of the catalogue stand as functions in this process already
+    made_of = terms.TEXT if effects is EFFECTS else terms_source(effects)
+    made = {"layout": layout_source(effects), "terms": made_of}
     return "\n".join(
         f"# {name}\n{made[name] if name in made else _core(name)}\n" for name in MODULES
     )
