@@ -16,6 +16,7 @@ from typing import Any
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 ROOT = Path(__file__).resolve().parents[1]
+SOURCES = [str(ROOT), str(ROOT / "fmu_src")]
 IS_RELEASE = os.environ.get("STICKSLIP_PLATFORMS") == "all"
 
 
@@ -27,14 +28,16 @@ class NativeUnits(BuildHookInterface):
 
     def dependencies(self) -> list[str]:
         """What making a wheel needs, beside what pyproject.toml names."""
-        has_compiler = any(map(shutil.which, ("cc", "gcc", "clang")))
-        return ["ziglang>=0.17"] if IS_RELEASE or not has_compiler else []
+        sys.path[:0] = SOURCES
+        from stickslip.generation.compiler import system_compiler
+
+        return ["ziglang>=0.17"] if IS_RELEASE or not system_compiler() else []
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Before the wheel is filled."""
         if self.target_name != "wheel" or version == "editable":
             return
-        sys.path[:0] = [str(ROOT), str(ROOT / "fmu_src")]
+        sys.path[:0] = SOURCES
         from stickslip import compiled, machine_code
         from stickslip.generation.platforms import BROWSER, PLATFORMS, this_machine
         from stickslip.generation.source import kernel_source

@@ -8,7 +8,14 @@ from functools import cache
 from pathlib import Path
 from typing import IO
 
-from stickslip.generation.compiler import NO_COMPILER, CompilerError, compiled, joined, possible
+from stickslip.generation.compiler import (
+    NO_COMPILER,
+    CompilerError,
+    compile_into,
+    compiled,
+    joined,
+    possible,
+)
 from stickslip.generation.platforms import BROWSER, PLATFORMS, Platform, this_platform
 
 #: Versions of FMI, each with its own names of the folders in `binaries`.
@@ -48,7 +55,7 @@ def require_way(guid: str, platforms: Sequence[Platform]) -> None:
 
 def _prebuilt(guid: str) -> dict[Platform, Path]:
     folder = _prebuilt_folder() / guid
-    files = {each: folder / f"{each.name}{each.suffix}" for each in (*PLATFORMS, BROWSER)}
+    files = {each: folder / _file(each) for each in (*PLATFORMS, BROWSER)}
     return {each: file for each, file in files.items() if file.is_file()}
 
 
@@ -78,10 +85,12 @@ def prebuild(
 ) -> Path:
     """Compile for every platform that can be, for a wheel; the folder that it is to bring along."""
     target = folder / guid
-    target.mkdir(parents=True, exist_ok=True)
-    for platform, library in compiled(sources(), possible(platforms), name).items():
-        (target / f"{platform.name}{platform.suffix}").write_bytes(library)
+    compile_into(target, sources(), possible(platforms), name, file=_file)
     return target
+
+
+def _file(platform: Platform) -> str:
+    return f"{platform.name}{platform.suffix}"
 
 
 def binaries(made: Mapping[Platform, bytes], name: str, fmi: int = FMI2) -> dict[str, bytes]:

@@ -244,38 +244,20 @@ GET(fmi2GetReal, fmi2Real, REAL_TYPE)
 GET(fmi2GetInteger, fmi2Integer, INTEGER_TYPE)
 GET(fmi2GetBoolean, fmi2Boolean, BOOLEAN_TYPE)
 
-fmi2Status fmi2SetReal(fmi2Component handle, const fmi2ValueReference references[], size_t count,
-                       const fmi2Real values[])
-{
-    ENTER(handle, SETTABLE)
-    bool done = has_room(component, __func__, count, references, values);
-    for (size_t i = 0; done && i < count; i++) {
-        done = set_number(&component->instance, references[i], REAL_TYPE, values[i]);
+#define SET(function, value, asked)                                                                \
+    fmi2Status function(fmi2Component handle, const fmi2ValueReference references[], size_t count, \
+                        const value values[])                                                      \
+    {                                                                                              \
+        ENTER(handle, SETTABLE)                                                                    \
+        bool done = has_room(component, __func__, count, references, values);                      \
+        for (size_t i = 0; done && i < count; i++) {                                               \
+            done = set_number(&component->instance, references[i], asked, values[i]);              \
+        }                                                                                          \
+        return closed(component, done);                                                            \
     }
-    return closed(component, done);
-}
-
-fmi2Status fmi2SetInteger(fmi2Component handle, const fmi2ValueReference references[], size_t count,
-                          const fmi2Integer values[])
-{
-    ENTER(handle, SETTABLE)
-    bool done = has_room(component, __func__, count, references, values);
-    for (size_t i = 0; done && i < count; i++) {
-        done = set_number(&component->instance, references[i], INTEGER_TYPE, values[i]);
-    }
-    return closed(component, done);
-}
-
-fmi2Status fmi2SetBoolean(fmi2Component handle, const fmi2ValueReference references[], size_t count,
-                          const fmi2Boolean values[])
-{
-    ENTER(handle, SETTABLE)
-    bool done = has_room(component, __func__, count, references, values);
-    for (size_t i = 0; done && i < count; i++) {
-        done = set_number(&component->instance, references[i], BOOLEAN_TYPE, values[i]);
-    }
-    return closed(component, done);
-}
+SET(fmi2SetReal, fmi2Real, REAL_TYPE)
+SET(fmi2SetInteger, fmi2Integer, INTEGER_TYPE)
+SET(fmi2SetBoolean, fmi2Boolean, BOOLEAN_TYPE)
 
 /* No variable is a text. */
 

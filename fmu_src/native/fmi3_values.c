@@ -91,6 +91,16 @@ static bool set_real(Instance *instance, size_t reference, double value)
     return set_number(instance, reference, REAL_TYPE, value);
 }
 
+static bool set_integer(Instance *instance, size_t reference, double value)
+{
+    return set_number(instance, reference, INTEGER_TYPE, value);
+}
+
+static bool set_boolean(Instance *instance, size_t reference, double value)
+{
+    return set_number(instance, reference, BOOLEAN_TYPE, value);
+}
+
 #define GET(named, asked)                                                                          \
     fmi3Status fmi3Get##named(fmi3Instance handle, const fmi3ValueReference references[],          \
                               size_t many, fmi3##named values[], size_t count)                     \
@@ -113,20 +123,7 @@ GET(Float64, REAL_TYPE)
 GET(Int32, INTEGER_TYPE)
 GET(Boolean, BOOLEAN_TYPE)
 
-fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference references[], size_t many,
-                          const fmi3Float64 values[], size_t count)
-{
-    ENTER(handle, SETTABLE)
-    bool done = fits(component, __func__, references, many, values, count);
-    for (size_t i = 0; done && i < many; i++) {
-        for (size_t k = 0; done && k < elements_of(references[i]); k++) {
-            done = set_real(&component->instance, references[i] + k, *values++);
-        }
-    }
-    return closed3(component, done);
-}
-
-#define SET(named, asked)                                                                          \
+#define SET(named, set)                                                                            \
     fmi3Status fmi3Set##named(fmi3Instance handle, const fmi3ValueReference references[],          \
                               size_t many, const fmi3##named values[], size_t count)               \
     {                                                                                              \
@@ -134,13 +131,14 @@ fmi3Status fmi3SetFloat64(fmi3Instance handle, const fmi3ValueReference referenc
         bool done = fits(component, __func__, references, many, values, count);                    \
         for (size_t i = 0; done && i < many; i++) {                                                \
             for (size_t k = 0; done && k < elements_of(references[i]); k++) {                      \
-                done = set_number(&component->instance, references[i] + k, asked, *values++);      \
+                done = set(&component->instance, references[i] + k, *values++);                    \
             }                                                                                      \
         }                                                                                          \
         return closed3(component, done);                                                           \
     }
-SET(Int32, INTEGER_TYPE)
-SET(Boolean, BOOLEAN_TYPE)
+SET(Float64, set_real)
+SET(Int32, set_integer)
+SET(Boolean, set_boolean)
 
 /* --- types that no variable has --- */
 

@@ -23,7 +23,7 @@ from pathlib import Path
 
 import platformdirs
 
-from .generation.compiler import CALLED_BY_NAME, compiled, require_compiler
+from .generation.compiler import CALLED_BY_NAME, compile_into, compiled, require_compiler
 from .generation.platforms import Platform, this_machine
 from .scratch import scratch_folder
 
@@ -50,10 +50,8 @@ class Code:
 
     def prebuild(self, folder: Path, platforms: Sequence[Platform]) -> None:
         """Compile into ``folder``, for a package. Raises CompilerError."""
-        folder.mkdir(parents=True, exist_ok=True)
-        made = compiled(self.sources(), platforms, self.name, CALLED_BY_NAME)
-        for platform, content in made.items():
-            (folder / self.file(platform)).write_bytes(content)
+        sources = self.sources()
+        compile_into(folder, sources, platforms, self.name, CALLED_BY_NAME, file=self.file)
 
     def load(self) -> ctypes.CDLL:
         """The library, compiled where it is not kept. Raises CompilerError or OSError."""

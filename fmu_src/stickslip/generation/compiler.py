@@ -9,7 +9,7 @@ import shutil
 import struct
 import subprocess
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
@@ -59,7 +59,7 @@ def possible(platforms: Sequence[Platform]) -> list[Platform]:
     """Those that can be compiled for here: all with zig, else at most this machine's own."""
     if has_zig():
         return list(platforms)
-    own = this_machine() if _system_compiler() else None
+    own = this_machine() if system_compiler() else None
     return [each for each in platforms if each == own]
 
 
@@ -97,6 +97,24 @@ def compiled(
                 platforms,
             )
             return dict(zip(platforms, made, strict=True))
+
+
+def compile_into(
+    folder: Path,
+    sources: Mapping[str, bytes],
+    platforms: Sequence[Platform],
+    name: str,
+    options: Sequence[str] = (),
+    *,
+    file: Callable[[Platform], str],
+) -> None:
+    """Compile for a package that brings its libraries along, each as the name that ``file`` gives.
+
+    Raises CompilerError.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    for platform, library in compiled(sources, platforms, name, options).items():
+        (folder / file(platform)).write_bytes(library)
 
 
 @contextmanager
@@ -137,14 +155,15 @@ def _library(
 
 
 def _compiler(platform: Platform, stays: bool) -> list[str]:
-    system = _system_compiler() if platform == this_machine() else None
+    system = system_compiler() if platform == this_machine() else None
     if system and (stays or not has_zig()):
         return [system]
     require_compiler(platform)
     return [sys.executable, "-m", "ziglang", "cc", "-target", platform.target]
 
 
-def _system_compiler() -> str | None:
+def system_compiler() -> str | None:
+    """Path of the compiler of the system; None where it has none."""
     return next(filter(None, map(shutil.which, COMPILERS)), None)
 
 

@@ -69,7 +69,7 @@ from stickslip.effects import use
 use(sys.argv[1])
 from stickslip.generation import compiler
 compiler.has_zig = lambda: False
-compiler._system_compiler = lambda: None
+compiler.system_compiler = lambda: None
 from cosim.fmu.build import FmuBuildError, build_fmu
 try:
     build_fmu(sys.argv[2])

@@ -24,7 +24,7 @@ def without(tmp_path, monkeypatch):
     monkeypatch.setattr("cosim.fmu.libraries.PREBUILT", "none")  # an installed package has them
     monkeypatch.setattr("platformdirs.user_cache_path", lambda name: tmp_path / "cache" / name)
     monkeypatch.setattr("stickslip.generation.compiler.has_zig", lambda: False)
-    monkeypatch.setattr("stickslip.generation.compiler._system_compiler", lambda: None)
+    monkeypatch.setattr("stickslip.generation.compiler.system_compiler", lambda: None)
     return here
 
 
