@@ -53,18 +53,16 @@ class Attribution:
 
 def attribution(reading: Reading) -> Attribution:
     """The three claims under a reading."""
+
+    def fit(one: Reading, dataset: int) -> float:
+        return misfit(observed(lambda k: reading_figures(one, dataset, stiffness=k)))
+
     first, second = (reading_figures(reading, dataset).max_rotation for dataset in (1, 2))
-    misfits = _misfit(reading, 1), _misfit(reading, 2), _misfit(reading.mended("F1"), 1)
-    without = {
-        fault: reading_figures(reading.mended(fault), 1).max_rotation for fault in ("F2", "F13")
-    }
-    both = turns_far_and_near(first, second)
-    return Attribution(reading, first > ROTATES, without, misfits, both)
-
-
-def _misfit(reading: Reading, dataset: int) -> float:
-    """Of the five observations, in their spreads."""
-    return misfit(observed(lambda k: reading_figures(reading, dataset, stiffness=k)))
+    without = {f: reading_figures(reading.mended(f), 1).max_rotation for f in ("F2", "F13")}
+    misfits = fit(reading, 1), fit(reading, 2), fit(reading.mended("F1"), 1)
+    return Attribution(
+        reading, first > ROTATES, without, misfits, turns_far_and_near(first, second)
+    )
 
 
 @dataclass(frozen=True)
@@ -87,27 +85,24 @@ class Datasets:
         said = written["says"].format(
             printed=of[AS_PRINTED].values,
             balanced=of[BALANCED].values,
-            rounded=of[ROUNDED].values,
-            onset=of[ROUNDED].onset,
+            rounded=of[ROUNDED],
             marks=len(MARKS),
             most=most,
             closest=_names(one.reading for one in self.outcomes if sum(one.met) == most),
         )
-        if self.found:
-            return f"{written['found']} {said}"
-        return f"{written['none']} {said} {written['listing']}"
+        return written["found" if self.found else "none"].format(said=said)
 
     @property
     def bears(self) -> str:
         """What it does to the three claims, in sentences."""
         every = self.attributions
-        turning = [one for one in every if one.rotates]
+        turning = [one.without for one in every if one.rotates]
         others = _names(one.reading for one in every if not one.one_spring_explains)
         both = [one.reading for one in every if one.both]
         return WRITTEN["datasets"]["bears"].format(
             all=len(every),
             turning=len(turning),
-            ended=[sum(one.without[f] < ROTATES for one in turning) for f in ("F2", "F13")],
+            ended=[sum(one[fault] < ROTATES for one in turning) for fault in ("F2", "F13")],
             explained=sum(one.one_spring_explains for one in every),
             others=f"; not in: {others}" if others else "",
             both=len(both),

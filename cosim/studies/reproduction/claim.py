@@ -48,7 +48,7 @@ FAR = "far"  # the study says otherwise: only how far it is to the turn
 
 @dataclass(frozen=True)
 class Printed:
-    """A number of the study, or a range between two of its numbers.
+    """A number of the study, or in words a range between two of its numbers.
 
     place: section, then table, figure or equation. ValueError for a number without its place.
     """
@@ -62,10 +62,8 @@ class Printed:
 
     @property
     def number(self) -> float:
-        """The value; TypeError where the study prints words."""
-        if isinstance(self.value, str):
-            raise TypeError(f"{self.value!r} ({self.place}) is no number")
-        return self.value
+        """The value; ValueError where the study prints words."""
+        return float(self.value)
 
 
 @dataclass(frozen=True)

@@ -18,11 +18,7 @@ MODELS = ("printed", "mended", "exact")
 LABELS = ("scheme as printed", "scheme mended", "exact model")
 COLOURS = (RED, BLUE, GREEN)
 # the scheme mended and the exact model often coincide: the one shows as a rim about the other
-DOTTED: tuple[dict[str, Any], ...] = (
-    {"marker": "o"},
-    {"marker": "o", "linewidth": 4.0, "markersize": 9.0},
-    {"marker": "o"},
-)
+WIDER: dict[str, Any] = {"linewidth": 4.0, "markersize": 9.0}
 
 
 @dataclass(frozen=True)
@@ -36,40 +32,42 @@ class Curve:
 
 @dataclass(frozen=True)
 class Panel:
-    """Curves on one pair of axes; levels: label -> height of a broken line."""
+    """Curves on one pair of axes; levels: label -> height of a broken line; end: of the x axis."""
 
     curves: Sequence[Curve]
-    x: str = ""
-    y: str = ""
     title: str = ""
     levels: Mapping[str, float] = field(default_factory=dict)
-    end: float | None = None  # of the x axis, which then begins at 0
+    end: float | None = None
 
 
-def figure_of(rows: Sequence[Sequence[Panel]], *, legend: int = 3, **layout: Any) -> Figure:
-    """Panels in rows; legend: its columns; layout: of `report.style.panels`."""
+def figure_of(rows: Sequence[Sequence[Panel]], written: Mapping[str, Any]) -> Figure:
+    """Panels in rows; written: labels x and y (or one of each row), and the layout."""
+    layout = {key: written[key] for key in ("height", "width", "sharex", "sharey") & written.keys()}
     figure, axes = panels(len(rows), len(rows[0]), **layout)
-    for ax, panel in zip(axes.flat, (panel for row in rows for panel in row), strict=True):
-        for curve in panel.curves:
-            ax.plot(curve.x, curve.y, **curve.style)
-        for label, height in panel.levels.items():
-            ax.axhline(height, color=INK, linestyle="--", linewidth=1.0, label=label)
-        ax.set(xlabel=panel.x, ylabel=panel.y, title=panel.title)
-        if panel.end is not None:
-            ax.set_xlim(0.0, panel.end)
-        if "sharex" in layout:
-            ax.label_outer()
+    for number, (row, of_row) in enumerate(zip(rows, axes, strict=True)):
+        y = written["y"] if isinstance(written["y"], str) else written["y"][number]
+        for panel, ax in zip(row, of_row, strict=True):
+            for curve in panel.curves:
+                ax.plot(curve.x, curve.y, **curve.style)
+            for label, height in panel.levels.items():
+                ax.axhline(height, color=INK, linestyle="--", linewidth=1.0, label=label)
+            ax.set(xlabel=written["x"], ylabel=y, title=panel.title)
+            if panel.end is not None:
+                ax.set_xlim(0.0, panel.end)
+            if "sharex" in layout:
+                ax.label_outer()
     named = axes[0, 0].get_legend_handles_labels()
-    if named[0]:
-        figure.legend(*named, ncols=legend, loc="outside upper center")
+    figure.legend(*named, ncols=written.get("legend", 3), loc="outside upper center")
     return figure
 
 
 def by_model(x: Any, series: Iterable[Any]) -> list[Curve]:
     """A line with dots for each of the models."""
     return [
-        Curve(x, values, {"color": colour, "label": label, **dots})
-        for values, colour, label, dots in zip(series, COLOURS, LABELS, DOTTED, strict=True)
+        Curve(x, values, {"color": colour, "label": label, "marker": "o"} | wide)
+        for values, colour, label, wide in zip(
+            series, COLOURS, LABELS, ({}, WIDER, {}), strict=True
+        )
     ]
 
 
@@ -86,26 +84,25 @@ def over_time(
     return Curve(motion.time[keep] - begin, scale * getattr(motion, name)[keep], style)
 
 
-def over_mass(
-    values: np.ndarray, stiffnesses: Sequence[float], label: str, **layout: Any
-) -> Figure:
-    """Values (model, stiffness, mass, speed): a row a model, a column a stiffness."""
-    rows = [
-        [
-            Panel(
-                [
-                    Curve(MASSES, line, {"marker": "o", "ms": 2.5, "color": colour, "label": name})
-                    for line, colour, name in zip(cell.T, SERIES, SPEED_LABELS, strict=True)
-                ],
-                "mass, kg",
-                f"{model}\n{label}",
-                f"k {k:.2f} N/m" if model == LABELS[0] else "",
-            )
-            for k, cell in zip(stiffnesses, of_model, strict=True)
-        ]
-        for model, of_model in zip(LABELS, values, strict=True)
+def models_over_time(runs: Sequence[Motion], name: str, scale: float = 1.0, settled: float = 0.0):
+    """A quantity of each model's run, from a part of its time on."""
+    return [
+        over_time(run, name, scale, settled * run.time[-1], color=colour, label=label, lw=1.0)
+        for run, colour, label in zip(runs, COLOURS, LABELS, strict=True)
     ]
-    return figure_of(rows, legend=6, sharex=True, **layout)
 
 
-SPEED_LABELS = tuple(f"v {speed:.2f} m/s" for speed in SPEEDS)
+def over_mass(values: np.ndarray, stiffnesses: Sequence[float]) -> list[list[Panel]]:
+    """Values (model, stiffness, mass, speed): a row a model, a column a stiffness."""
+    styles = [
+        {"marker": "o", "ms": 2.5, "color": colour, "label": f"v {speed:.2f} m/s"}
+        for speed, colour in zip(SPEEDS, SERIES, strict=True)
+    ]
+    titles = [f"k {k:.2f} N/m" for k in stiffnesses]
+    return [
+        [
+            Panel([Curve(MASSES, *line) for line in zip(cell.T, styles, strict=True)], title)
+            for cell, title in zip(of_model, above, strict=True)
+        ]
+        for of_model, above in zip(values, (titles, *[[""] * len(titles)] * 2), strict=True)
+    ]

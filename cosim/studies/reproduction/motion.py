@@ -73,7 +73,7 @@ class MotionFigures:
 
     mean_x: float
     half_range_x: float
-    oscillations: float  # in 20 s
+    rate: float  # oscillations of x per second
     slip_share: float
     slip_time: float  # mean duration of a whole slip, and of a whole stick
     stick_time: float
@@ -81,6 +81,11 @@ class MotionFigures:
     mean_y: float
     mean_friction: float  # size of the force along x, in slip, N
     swing_rate: float  # of the fastest swing of phi: its angle by its duration, deg/s
+
+    @property
+    def oscillations(self) -> float:
+        """In 20 s."""
+        return WINDOW * self.rate
 
 
 def figures(motion: Motion, between_rows: bool = False, visible: float = 0.0) -> MotionFigures:
@@ -96,7 +101,7 @@ def figures(motion: Motion, between_rows: bool = False, visible: float = 0.0) ->
     return MotionFigures(
         mean_x=cycle_mean(time, x, upward),
         half_range_x=half_range,
-        oscillations=WINDOW * _rate(upward),
+        rate=_rate(upward),
         slip_share=float(lasting[slips].sum() / lasting.sum()),
         slip_time=mean(lasting[inner][slips[inner]]),
         stick_time=mean(lasting[inner][~slips[inner]]),

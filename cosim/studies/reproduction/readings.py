@@ -28,35 +28,19 @@ SEEN = 5.0  # deg: a rotation that shows in a plot of some hundred
 WRITTEN = tomllib.loads(Path(__file__).with_name("readings.toml").read_text(encoding="utf-8"))
 
 
-@dataclass(frozen=True)
-class Mark:
-    """A printed figure of a dataset, and what counts as it; low and high in the figure's unit.
-
-    A run turns by half as much again as another of the same kind; a window may cut an oscillation.
-    """
-
-    name: str
-    unit: str
-    dataset: int
-    figure: str  # of `MotionFigures`, or the onset of a rotation that is seen
-    printed: float | str
-    low: float
-    high: float
-    place: str
-
-    @classmethod
-    def of(cls, study: str = "", **written: Any) -> Mark:
-        """As it is written; the number is the study's of that name, where there is one."""
-        if study:
-            written |= {"printed": STUDY[study].value, "place": STUDY[study].place}
-        return cls(**written)
-
-    def met(self, value: float) -> bool:
-        """Whether a reading's figure counts as the printed one."""
-        return self.low <= value <= self.high
+def _mark(study: str = "", **written: Any) -> dict[str, Any]:
+    """A mark as it is written; the number is the study's of that name, where there is one."""
+    return (
+        (written | {"printed": STUDY[study].value, "place": STUDY[study].place})
+        if study
+        else written
+    )
 
 
-MARKS = tuple(Mark.of(**written) for written in WRITTEN["mark"])
+#: Printed figures of a dataset, and what counts as each, low to high in its unit: a run turns by
+#: half as much again as another of the same kind; a window may cut an oscillation. figure: of
+#: `MotionFigures`, or the onset of a rotation that is seen.
+MARKS = [_mark(**written) for written in WRITTEN["mark"]]
 
 
 @dataclass(frozen=True)
@@ -141,7 +125,8 @@ class Outcome:
     @property
     def met(self) -> tuple[bool, ...]:
         """Which marks it meets."""
-        return tuple(mark.met(value) for mark, value in zip(MARKS, self.values, strict=True))
+        pairs = zip(MARKS, self.values, strict=True)
+        return tuple(mark["low"] <= value <= mark["high"] for mark, value in pairs)
 
 
 def onset(motion: Motion, angle: float = 1.0) -> float:
@@ -153,15 +138,15 @@ def onset(motion: Motion, angle: float = 1.0) -> float:
 @cache
 def outcome(reading: Reading) -> Outcome:
     """A reading laid beside the marks."""
-    values = tuple(_value(reading, mark) for mark in MARKS)
+    values = tuple(_figure(reading, mark["dataset"], mark["figure"]) for mark in MARKS)
     return Outcome(reading, values, onset(reading.motion(2)))
 
 
-def _value(reading: Reading, mark: Mark) -> float:
-    """The reading's figure for a mark; an onset is the mean over seeds, NaN if one never turns."""
-    if mark.figure != "onset":
-        return getattr(reading_figures(reading, mark.dataset), mark.figure)
-    return float(np.mean([onset(reading.motion(mark.dataset, s), SEEN) for s in reading.seeds]))
+def _figure(reading: Reading, dataset: int, name: str) -> float:
+    """Of a reading; an onset is the mean over seeds, NaN if one never turns."""
+    if name != "onset":
+        return getattr(reading_figures(reading, dataset), name)
+    return float(np.mean([onset(reading.motion(dataset, s), SEEN) for s in reading.seeds]))
 
 
 def outcomes() -> list[Outcome]:

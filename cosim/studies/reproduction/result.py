@@ -56,10 +56,13 @@ def as_data(
     )
 
 
+def _named(one: object, *names: str) -> dict[str, Any]:
+    return {name: getattr(one, name) for name in names}
+
+
 def _referee(claim: Claim) -> dict[str, Any]:
     """A claim in the referee's table: how firm its verdict is."""
-    names = ("id", "place", "verdict", "scope", "steady")
-    return {name: getattr(claim, name) for name in names} | {
+    return _named(claim, "id", "place", "verdict", "scope", "steady") | {
         "claim": claim.title,
         "margins": [asdict(one) | {"text": one.text} for one in claim.margins],
         "turns": [asdict(one) for one in claim.turns],
@@ -68,8 +71,8 @@ def _referee(claim: Claim) -> dict[str, Any]:
 
 
 def _claim(claim: Claim) -> dict[str, Any]:
-    names = ("id", "title", "place", "first", "verdict", "scope", "word", "faults", "reason")
-    return {name: getattr(claim, name) for name in (*names, "remarks", "assumed")} | {
+    words = ("id", "title", "place", "first", "verdict", "scope", "word", "faults", "reason")
+    return _named(claim, *words, "remarks", "assumed") | {
         "checks": [asdict(check) | {"verdict": check.verdict} for check in claim.checks],
         "numbers": [_number(row) for row in claim.rows],
         "figures": [f"{picture.name}.png" for picture in claim.pictures],
@@ -78,35 +81,24 @@ def _claim(claim: Claim) -> dict[str, Any]:
 
 def _number(row: Row) -> dict[str, Any]:
     """The study's number stands beside its place, not in a tree of its own."""
-    names = ("quantity", "unit", "derived", "how", "printed", "mended", "exact")
-    return {name: getattr(row, name) for name in names} | {
-        "study": row.study and row.study.value,
-        "place": row.study.place if row.study else "",
-    }
+    study = (row.study.value, row.study.place) if row.study else (None, "")
+    ours = _named(row, "quantity", "unit", "derived", "how", "printed", "mended", "exact")
+    return ours | dict(zip(("study", "place"), study, strict=True))
 
 
 def _datasets(datasets: Datasets) -> dict[str, Any]:
     """The study's datasets in every reading of its scheme."""
-    return {name: getattr(datasets, name) for name in ("says", "bears", "found")} | {
-        "marks": [asdict(mark) for mark in MARKS],
+    judged = ("rotates", "without", "misfits", "both", "quarter_fits_better", "one_spring_explains")
+    return _named(datasets, "says", "bears", "found") | {
+        "marks": MARKS,
         "readings": [
-            {
-                "reading": one.reading.name,
-                "place": one.reading.place,
-                "values": one.values,
-                "met": one.met,
-                "turned_by_1deg_after_s": one.onset,
-            }
+            _named(one, "values", "met")
+            | {"reading": one.reading.name, "place": one.reading.place}
+            | {"turned_by_1deg_after_s": one.onset}
             for one in datasets.outcomes
         ],
         "attributions": [
-            vars(one)
-            | {
-                "reading": one.reading.name,
-                "quarter_fits_better": one.quarter_fits_better,
-                "one_spring_explains": one.one_spring_explains,
-            }
-            for one in datasets.attributions
+            _named(one, *judged) | {"reading": one.reading.name} for one in datasets.attributions
         ],
     }
 
@@ -122,16 +114,14 @@ def _plain(value: Any) -> Any:
 
 def page(claims: list[Claim], faults: dict[str, str], datasets: Datasets | None = None) -> str:
     """HTML with every picture inside; ``faults`` are the descriptions of the scheme's."""
+    words = [claim.word for claim in claims]
     return render(
         "report.html.j2",
         "cosim.studies.reproduction",
         claims=claims,
         classes={verdict: name for verdict, (name, _) in VERDICTS.items()},
+        counts={counted: words.count(word) for word, (_, counted) in VERDICTS.items()},
         faults=faults | OTHER_FAULTS,
-        counts={
-            counted: sum(claim.word == word for claim in claims)
-            for word, (_, counted) in VERDICTS.items()
-        },
         datasets=datasets,
         marks=MARKS,
         told=TOLD,

@@ -13,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from cosim.report.live import live_of
@@ -20,6 +21,7 @@ from cosim.report.page import Picture
 from cosim.report.style import picture
 
 from .claim import FAR, Check, Claim, Margin, Printed, Row, Turn
+from .drawing import Panel, figure_of
 
 WRITTEN: dict[str, Any] = tomllib.loads(
     Path(__file__).with_name("claims.toml").read_text(encoding="utf-8")
@@ -78,6 +80,11 @@ class Sheet:
             )
         )
 
+    def rows(self, name: str, table: Any, /, **said: Any) -> None:
+        """A row for each column of numbers (3, n); said: of each its own."""
+        for i, ours in enumerate(np.transpose(table)):
+            self.row(name, ours, **{key: values[i] for key, values in said.items()})
+
     def check(
         self,
         name: str,
@@ -125,7 +132,7 @@ class Sheet:
         value: float | None = None,
         /,
         *,
-        sound: bool | None = None,
+        sound: Any = None,
         weight: str = "",
         **said: Any,
     ) -> None:
@@ -144,11 +151,15 @@ class Sheet:
         self._checks[-1] = replace(last, turns=(*last.turns, turn))
 
     def picture(
-        self, name: str, draw: Callable[..., Figure], *drawn: Any, live: bool = False
+        self,
+        name: str,
+        rows: Sequence[Sequence[Panel]] = (),
+        draw: Callable[..., Figure] = figure_of,
     ) -> None:
-        """A figure with its caption; live: its curves over time can be hovered over."""
-        shown = picture(name, self._written["picture"][name], live=live_of if live else None)
-        self._pictures.append(shown(draw)(*drawn))
+        """A figure as it is written, of panels in rows; draw: what makes it of them."""
+        written = self._written["picture"][name]
+        live = live_of if written.get("live") else None
+        self._pictures.append(picture(name, written["caption"], live=live)(draw)(rows, written))
 
     def claim(self, **said: Any) -> Claim:
         """The judged claim; said: what its remarks, its scope and what is read first leave open."""

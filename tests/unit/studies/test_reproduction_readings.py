@@ -59,7 +59,7 @@ def test_the_rotation_does_not_need_f2_where_switching_is_clean():
 
 
 def test_what_is_said_follows_from_the_figures():
-    met = tuple(0.5 * (mark.low + mark.high) for mark in MARKS)
+    met = tuple(0.5 * (mark["low"] + mark["high"]) for mark in MARKS)
     of = [Outcome(one, met, 8.0) for one in (AS_PRINTED, ROUNDED, BALANCED)]
     bears = Attribution(AS_PRINTED, True, {"F2": 0.1, "F13": 50.0}, (3.0, 2.0, 1.0), True)
     found = Datasets(tuple(of), (bears,))

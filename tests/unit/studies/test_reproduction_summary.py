@@ -19,16 +19,9 @@ from cosim.studies.reproduction.summary.candidates import (
     not_felt,
     plain_candidate,
 )
-from cosim.studies.reproduction.summary.draws import (
-    Draw,
-    Target,
-    distances,
-    gap,
-    misfit,
-    observations,
-    predict,
-)
-from cosim.studies.reproduction.summary.models import exact_motion, figures
+from cosim.studies.reproduction.summary.draws import Draws, observations, predict
+from cosim.studies.reproduction.summary.models import figures, motion_of
+from cosim.studies.reproduction.summary.trial import Target, misfit
 
 FRICTION = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
 SDS = {"mean_x": 5e-4, "frequency": 0.02, "slip_share": 0.01, "amplitude_x": 5e-4}
@@ -41,33 +34,29 @@ def campaign(values=FRICTION, sds=SDS, points=POINTS) -> Campaign:
     runs = []
     for number, (speed, mass, stiffness) in enumerate(points, 1):
         run = MeasuredRun(f"run {number}", None, mass, stiffness, speed, -8.0, False)
-        seen = figures(exact_motion(empty.parameters(run), values, None))
+        seen = figures(motion_of(empty, run, values, None))
         runs.append(replace(run, summary={name: (seen[name], sd) for name, sd in sds.items()}))
     return replace(empty, runs=tuple(runs))
 
 
-def swing(amplitude=0.01, mean=0.02, frequency=1.3) -> Motion:
+@pytest.mark.parametrize(("amplitude", "frequency"), [(0.01, 1.3), (1e-4, 0.0)])
+def test_figures_of_a_swing(amplitude, frequency):
+    """One that nobody sees in a plot is none."""
     time = np.linspace(0.0, 20.0, 4001)
-    x = mean + amplitude * np.sin(2.0 * np.pi * frequency * time)
+    x = 0.02 + amplitude * np.sin(2.0 * np.pi * 1.3 * time)
     phases = np.array([[0.0, 5.0, 0], [5.0, 12.0, 1], [12.0, 13.0, 0], [13.0, 20.0, 1]])
     none = np.zeros_like(time)
     turned = np.radians(-7.0) * np.ones_like(time)
-    return Motion(time, x, none - 0.003, turned, none, none, phases)
-
-
-def test_figures_of_a_swing():
-    seen = figures(swing())
+    seen = figures(Motion(time, x, none - 0.003, turned, none, none, phases))
+    assert seen["frequency"] == pytest.approx(frequency, rel=1e-4)
     assert seen["mean_x"] == pytest.approx(0.02, abs=1e-6)  # whole swings, though 20 s are not
-    assert seen["frequency"] == pytest.approx(1.3, rel=1e-4)
-    assert seen["amplitude_x"] == pytest.approx(0.01, rel=1e-3)
+    assert seen["amplitude_x"] == pytest.approx(amplitude, rel=1e-3)
     assert seen["mean_y"] == pytest.approx(-0.003)
     assert seen["max_rotation_deg"] == pytest.approx(7.0)
     assert seen["slip_share"] == pytest.approx(14.0 / 20.0)
     assert (seen["slip_duration"], seen["stick_duration"]) == pytest.approx((7.0, 1.0))
-
-
-def test_a_swing_that_nobody_sees_is_none():
-    assert figures(swing(amplitude=1e-4))["frequency"] == 0.0
+    at = np.interp([5.0, 12.0], time, x)
+    assert (seen["break_away_x"], seen["restick_x"]) == pytest.approx(tuple(at))
 
 
 @pytest.mark.parametrize(
@@ -97,40 +86,41 @@ def test_every_effect_of_the_catalogue_is_tried_or_left_out_for_a_reason():
 
 
 def test_an_effect_that_is_off_leaves_the_plain_model():
-    one = campaign()
+    one = campaign(points=POINTS[:1])
     seen = observations(one)
     bare = predict(one, seen, FRICTION, 0)
     for candidate in extensions(one, plain_candidate(one)):
-        off = candidate.off | FRICTION
-        np.testing.assert_allclose(
-            predict(one, seen, off, 0), bare, atol=1e-12, err_msg=str(candidate)
-        )
+        off = predict(one, seen, candidate.off | FRICTION, 0)
+        np.testing.assert_allclose(off, bare, atol=1e-12, err_msg=str(candidate))
 
 
-def test_a_model_that_meets_everything_has_no_misfit():
-    target = Target(np.array([1.0, 2.0]), np.array([0.1, 0.2]))
-    met = Draw(np.zeros(1), {}, 0.0, np.tile(target.sizes, (4, 1)))
-    off = replace(met, shown=met.shown + target.sds)
-    assert misfit(met, target, np.zeros(2)) == 0.0
-    assert misfit(off, target, np.zeros(2)) == pytest.approx(2.0)
-    assert gap(off.mean, target) == pytest.approx(1.0)
-    assert misfit(off, target.without(0), np.zeros(2)) == pytest.approx(1.0)
+def drawn(*rows: list[float]) -> Draws:
+    """A draw for each row: its figure, seed by seed."""
+    shown = np.full((len(rows), 6, 1), np.nan)
+    for place, row in enumerate(rows):
+        shown[place, : len(row), 0] = row
+    return Draws(np.zeros((len(rows), 1)), ({},) * len(rows), np.zeros(len(rows)), shown)
 
 
-def test_a_scattering_model_pays_for_its_wide_prediction():
+def test_misfit_is_of_distance_and_of_scatter():
     target = Target(np.array([1.0]), np.array([0.1]))
-    rows = np.array([[0.5], [1.5], [0.5], [1.5]])
-    scattering = Draw(np.zeros(1), {}, 0.0, rows)  # right in the mean
-    near = Draw(np.zeros(1), {}, 0.0, np.full((4, 1), 1.15))  # 1.5 standard deviations off
-    assert misfit(scattering, target, np.zeros(1)) > misfit(near, target, np.zeros(1))
+    # met; a standard deviation off; right in the mean, at the price of a wide prediction
+    draws = drawn([1.0] * 4, [1.1] * 4, [0.5, 1.5, 0.5, 1.5])
+    met, off, scattering = misfit(draws, target, np.zeros(1))
+    assert (met, off) == pytest.approx((0.0, 1.0)) and scattering > 2.25
+    assert target.gap(draws.mean[1]) == pytest.approx(1.0)
+    assert misfit(draws, target.without(0), np.zeros(1)) == pytest.approx(np.zeros(3))
+    single = drawn([1.1])  # one seed: the scatter of its kin
+    assert misfit(single, target, np.array([0.1])) == pytest.approx(1 / 3 + np.log(3.0))
+    joined = draws + single
+    assert joined.seeds.tolist() == [4, 4, 4, 1] and len(joined.take(joined.seeds > 1)) == 3
 
 
 def test_residuals_vanish_at_the_truth_and_grow_away_from_it():
     one = campaign()
     seen = observations(one)
-    target = Target.of(seen)
     there, away = (
-        distances(predict(one, seen, values, 0), target)
+        Target.of(seen).distances(predict(one, seen, values, 0))
         for values in (FRICTION, FRICTION | {"friction.mu_k": 0.22})
     )
     assert there == pytest.approx(np.zeros(len(seen)), abs=1e-9)
@@ -138,13 +128,12 @@ def test_residuals_vanish_at_the_truth_and_grow_away_from_it():
 
 
 def test_nothing_is_missing_where_nothing_is_and_the_same_seed_says_the_same():
-    one = campaign()
-    first, second = (find_summary_gap(one, seed=3, jobs=2) for _ in range(2))
+    one = campaign(points=POINTS[:2])
+    first, second = (find_summary_gap(one, seed=3, jobs=jobs) for jobs in (1, 2))
     assert first.verdict == "none"
     assert first.gap_before[0] < 1.0
     assert first.effects == () and first.extended is None
     assert first.plain.shown.tolist() == second.plain.shown.tolist()
-    assert first.plain.residuals.tolist() == second.plain.residuals.tolist()
     assert first.plain.values["friction.mu_k"] == pytest.approx(0.2, abs=0.01)
 
 
@@ -165,7 +154,7 @@ def test_an_effect_is_found_in_figures_of_the_exact_model(monkeypatch):
 
 
 def test_no_figures_is_refused():
-    one = campaign()
+    one = campaign(points=POINTS[:1])
     bare = replace(one, runs=tuple(replace(run, summary=None) for run in one.runs))
     with pytest.raises(CampaignError, match="no run has a summary"):
         find_summary_gap(bare)

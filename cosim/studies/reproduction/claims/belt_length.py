@@ -6,13 +6,11 @@ import math
 from dataclasses import replace
 from functools import cache
 
-from matplotlib.figure import Figure
-
 from cosim.studies.belt_length import Case, Protocol
 from thermal.belt.single_pass import FROM_FACTORS, PRINTED, SinglePass
 
 from ..claim import Claim
-from ..drawing import COLOURS, Curve, Panel, figure_of
+from ..drawing import COLOURS, Curve, Panel
 from ..sheet import STUDY, Sheet
 
 #: Lengths of belt, m, and the temperature after one pass that the study prints of each, degC.
@@ -83,7 +81,8 @@ def judge_length() -> Claim:
     for name, limit in TRIED.items():
         sheet.turn(name, exact, sound=exact < limit)
     _other_runs(sheet)
-    sheet.picture("C13_belt", _draw, rises)
+    levels = {"camera's sensitivity": SENSITIVITY}
+    sheet.picture("C13_belt", [[Panel(_curves(rises), levels=levels)]])
     rate = belt_case(1.0).single_pass().cooling_rate
     return sheet.claim(
         passes=math.floor(RUN * SPEED),
@@ -105,17 +104,15 @@ def _other_runs(sheet: Sheet) -> None:
         sheet.turn(name, finite_elements(1.0, **of_case)[0])
 
 
-def _draw(rises: dict[float, list[float | None]]) -> Figure:
+def _curves(rises: dict[float, list[float | None]]) -> list[Curve]:
+    """Rises over the length; no line over lengths that were not computed."""
     curves = []
-    names = ("one pass, as printed", "mended check", "finite elements")
-    for i, name in enumerate(names):
+    for i, name in enumerate(("one pass, as printed", "mended check", "finite elements")):
         known = {length: one[i] for length, one in rises.items() if one[i] is not None}
-        joined = "-" if len(known) == len(rises) else ""  # no line over lengths not computed
+        joined = "-" if len(known) == len(rises) else ""
         style = {"marker": "o", "linestyle": joined, "color": COLOURS[i], "label": name}
         curves.append(Curve(list(known), list(known.values()), style))
-    levels = {"camera's sensitivity": SENSITIVITY}
-    panel = Panel(curves, "length of the belt, m", "rise, K", levels=levels)
-    return figure_of([[panel]], legend=2, height=2.8, width=5.5)
+    return curves
 
 
 def judge_table() -> Claim:

@@ -9,24 +9,8 @@ from stickslip.reference.scheme_errors import MENDED, PRINTED
 
 from cosim.studies.belt_length import Protocol
 
-from ..cases import (
-    DATASET_1,
-    DATASET_2,
-    GUIDED,
-    SEEDS,
-    SETTLING,
-    SPEEDS,
-    STEADY,
-    STIFFNESSES,
-    WEAKENING,
-    WINDOW,
-    Case,
-    exact_figures,
-    exact_motion,
-    exact_table,
-    scheme_motion,
-    tabulated,
-)
+from .. import cases
+from ..cases import DATASET_1, DATASET_2, GUIDED, SPEEDS, STIFFNESSES, WEAKENING, Case
 from ..claim import Claim
 from ..motion import Motion
 from ..sheet import Sheet
@@ -34,9 +18,10 @@ from .belt_length import belt_case
 
 #: Ice that is warmed to melting where it touches, and a film that is sheared: dry at rest alone.
 #: Assumed, as in the packaged scenario `melting_friction`.
+DRY = 0.50
 MELTING = {
     "rig": GUIDED,
-    "friction": {"mu_s": 0.55, "mu_k": 0.50},
+    "friction": {"mu_s": 0.55, "mu_k": DRY},
     "asperity_melting": {"length": 1e-2, "hardness": 2e7},
     "melt_film": {"wetted_share": 7e-4, "length": 1e-2},
 }
@@ -45,50 +30,48 @@ MELTED = 0.5  # part of the dry value below which friction is that of melting
 
 def _face_degC(case: Case) -> float:
     """Of the ice after a run of 30 s, all friction heat at the contact; finite elements."""
+    protocol = Protocol(ramp=0.0, run=cases.SETTLING + cases.WINDOW)
     belt = replace(belt_case(1.0, speed=case.speed), mass=case.mass, friction=case.mu_k)
-    belt = replace(belt, protocol=Protocol(ramp=0.0, run=SETTLING + WINDOW))
+    belt = replace(belt, protocol=protocol)
     return belt.ambient_degC + belt.follow(belt.sliding())[1].ice_face
 
 
 def judge_dry_friction() -> Claim:
     """C16: no melting of the face by finite elements; sticking of a block whose asperities melt."""
-    sheet, slowest, fastest = Sheet("C16"), DATASET_1, DATASET_1.changed(speed=SPEEDS[-1])
-    melting = exact_figures(slowest, **MELTING)
-    share, part = melting.slip_share, melting.mean_friction / (0.50 * slowest.weight)
-    sheet.row("dry", tabulated("slip_share", [slowest], SEEDS)[:, 0])
+    sheet, melting = Sheet("C16"), cases.exact_figures(DATASET_1, **MELTING)
+    share, part = melting.slip_share, melting.mean_friction / (DRY * DATASET_1.weight)
+    sheet.rows("dry", cases.tabulated("slip_share", [DATASET_1], cases.SEEDS))
     sheet.row("melting", [None, None, share])
     sheet.row("friction", [None, None, part])
-    faces = [_face_degC(case) for case in (slowest, fastest)]
-    for case, face in zip((slowest, fastest), faces, strict=True):
-        sheet.row("face", [None, None, face], v=case.speed)
+    faces = [_face_degC(case) for case in DATASET_1.over("speed", (SPEEDS[0], SPEEDS[-1]))]
+    for speed, face in zip((SPEEDS[0], SPEEDS[-1]), faces, strict=True):
+        sheet.row("face", [None, None, face], v=speed)
     sheet.check("face", [None, None, max(faces)])
     sheet.check("contact", answers=[None, None, not (share < 1.0 and part < MELTED)], margin=share)
-    for speed in SPEEDS[1:3]:
-        faster = exact_figures(slowest.changed(speed=speed), **MELTING).slip_share
-        sheet.turn("speed", faster, sound=faster == 1.0, v=speed)
+    for case in DATASET_1.over("speed", SPEEDS[1:3]):
+        faster = cases.exact_figures(case, **MELTING).slip_share
+        sheet.turn("speed", faster, sound=faster == 1.0, v=case.speed)
     return sheet.claim(sticks=100.0 * (1.0 - share), part=100.0 * part)
 
 
 def judge_falling_friction() -> Claim:
     """C17: mean slip times of the two approaches to friction, in three models."""
-    sheet, falling = Sheet("C17"), DATASET_1.changed(weakening=WEAKENING)
-    before, after = tabulated("slip_time", [DATASET_1, falling], SEEDS).T
+    sheet, both = Sheet("C17"), DATASET_1.over("weakening", (0.0, WEAKENING))
+    before, after = cases.tabulated("slip_time", both, cases.SEEDS).T
     sheet.row("steady", before)
     sheet.row("falling", after)
     sheet.check("longer", after / before)
-    # the figure's case is not printed
-    for speed in (SPEEDS[2], SPEEDS[-1]):
-        _turn_falling(sheet, "speed", DATASET_1.changed(speed=speed))
-    _turn_falling(sheet, "dataset", DATASET_2)
-    for fall in (0.2, 0.6):
-        _turn_falling(sheet, "fall", DATASET_1, fall)
+    turns = (
+        ("speed", DATASET_1.changed(speed=SPEEDS[2]), WEAKENING),
+        ("speed", DATASET_1.changed(speed=SPEEDS[-1]), WEAKENING),
+        ("dataset", DATASET_2, WEAKENING),
+        ("fall", DATASET_1, 0.2),
+        ("fall", DATASET_1, 0.6),
+    )  # the figure's case is not printed
+    for name, case, fall in turns:
+        pair = cases.exact_table("slip_time", case.over("weakening", (0.0, fall)), rig=GUIDED)
+        sheet.turn(name, pair[1] / pair[0], v=case.speed, fall=100.0 * fall, times=pair)
     return sheet.claim()
-
-
-def _turn_falling(sheet: Sheet, name: str, case: Case, fall: float = WEAKENING) -> None:
-    """Slip times of the exact model without and with a fall of friction."""
-    before, after = exact_table("slip_time", case.over("weakening", (0.0, fall)), rig=GUIDED)
-    sheet.turn(name, after / before, v=case.speed, fall=100.0 * fall, before=before, after=after)
 
 
 #: Hold by speed above which strengthening is told to be considerable, m.
@@ -112,24 +95,21 @@ def hold(motion: Motion) -> float:
     return float(np.median(lengths[lengths > 0.0]))  # the scheme has sticks that end as they begin
 
 
+def _holds(case: Case) -> list[float]:
+    """As printed, mended, exact, s."""
+    schemes = [cases.scheme_motion(case, faults).last(cases.STEADY) for faults in (PRINTED, MENDED)]
+    exact = cases.exact_motion(case, rig=GUIDED).between(cases.SETTLING)
+    return [hold(motion) for motion in (*schemes, exact)]
+
+
 def judge_strengthening() -> Claim:
     """C18: hold times of the series against the threshold, and what they would make of mu_s."""
     sheet, needed = Sheet("C18"), THRESHOLD / SPEEDS[0]
-    times = np.array(
-        [
-            [
-                hold(scheme_motion(case, PRINTED).last(STEADY)),
-                hold(scheme_motion(case, MENDED).last(STEADY)),
-                hold(exact_motion(case, rig=GUIDED).between(SETTLING)),
-            ]
-            for case in SERIES
-        ]
-    )
+    times = np.array([_holds(case) for case in SERIES])
     factors = times.max(axis=0) / times.min(axis=0)
     spreads = GROWTH * np.log10(factors)
     sheet.row("needed", derived=1e4 * needed)
-    for case, row in zip(SERIES, times, strict=True):
-        sheet.row("hold", row, k=case.stiffness, v=case.speed)
+    sheet.rows("hold", times.T, of=SERIES)
     sheet.row("spread", spreads)
     sheet.check("holds", times[0], limit=needed)
     sheet.turn("measured", sound=times[0, 2] > 0.3, hold=times[0, 2])

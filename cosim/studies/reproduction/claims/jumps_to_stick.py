@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from matplotlib.figure import Figure
 from stickslip.reference.linearised import SchemeRun
 from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
@@ -13,7 +12,7 @@ from cosim.report.style import INK
 
 from ..cases import CASE, CYCLES, Case, exact_motion, longest, many, plan, scheme
 from ..claim import Claim, responsible
-from ..drawing import COLOURS, LABELS, Curve, Panel, figure_of
+from ..drawing import COLOURS, LABELS, Curve, Panel
 from ..sheet import Sheet
 
 NAMED = CASE.changed(stiffness=68.22, mass=2.03).over("speed", (0.50, 0.63, 0.82))
@@ -78,7 +77,8 @@ def judge() -> Claim:
     witnesses = jumping[:WITNESSES]
     faults = responsible(lambda faults: sum(many(jumps, witnesses, faults)) > 0)
     located, uncut = (sum(many(jumps, witnesses, PRINTED.without(f))) for f in ("F6", "F14"))
-    sheet.picture("C14_jump", _draw, jumping[-1] if jumping else NAMED[0], live=True)
+    models = zip((PRINTED, MENDED), LABELS, COLOURS, strict=False)
+    sheet.picture("C14_jump", [[_panel((jumping or NAMED)[-1], *model)] for model in models])
     return sheet.claim(
         n=len(witnesses),
         faults=", ".join(faults) or "none",
@@ -98,16 +98,14 @@ def _check_named(sheet: Sheet, case: Case) -> None:
     sheet.turn("located", jumps(case, PRINTED.without("F6")))
 
 
-def _draw(case: Case) -> Figure:
-    rows = []
-    for faults, label, colour in zip((PRINTED, MENDED), LABELS, COLOURS, strict=False):
-        run = _run(case, faults)
-        ends = _ends(case, run)
-        marks = {"marker": "x", "ls": "", "color": INK, "ms": 7, "label": "jump to stick"}
-        curves = [
-            Curve(run.time, run.velocity[:, 0], {"color": colour, "lw": 0.8, "label": label}),
-            Curve(ends, np.full(len(ends), case.speed), marks),
-        ]
-        title = f"{label}, k {case.stiffness:.2f} N/m, m {case.mass:.2f} kg, v {case.speed:.2f} m/s"
-        rows.append([Panel(curves, "time, s", "x', m/s", title, end=16.0)])
-    return figure_of(rows, height=1.9, sharex=True, sharey=True)
+def _panel(case: Case, faults: Faults, label: str, colour: str) -> Panel:
+    """x' of a run, and where it jumps."""
+    run = _run(case, faults)
+    ends = _ends(case, run)
+    marks = {"marker": "x", "ls": "", "color": INK, "ms": 7, "label": "jump to stick"}
+    curves = [
+        Curve(run.time, run.velocity[:, 0], {"color": colour, "lw": 0.8, "label": label}),
+        Curve(ends, np.full(len(ends), case.speed), marks),
+    ]
+    numbers = f"k {case.stiffness:.2f} N/m, m {case.mass:.2f} kg, v {case.speed:.2f} m/s"
+    return Panel(curves, f"{label}, {numbers}", end=16.0)

@@ -6,7 +6,6 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from matplotlib.figure import Figure
 from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import TREATMENTS
 
@@ -14,7 +13,7 @@ from cosim.report.style import SERIES
 
 from ..cases import DATASET_1, DATASETS, Case, exact_motion, scheme, scheme_motion
 from ..claim import FAR, OPEN, Claim, responsible, responsible_pairs
-from ..drawing import COLOURS, LABELS, Panel, figure_of, over_time
+from ..drawing import LABELS, Curve, Panel, models_over_time, over_time
 from ..motion import Motion, figures
 from ..readings import AS_PRINTED, MARKS, READINGS, onset, outcome, reading_figures
 from ..sheet import STUDY, Sheet
@@ -22,8 +21,6 @@ from ..sheet import STUDY, Sheet
 CYCLES, SEED = 40, 0
 ROTATES = 30.0  # deg: half of "three times" the measured 20
 SIDES = CYCLES // 10  # y comes back: more changes of its sign than one in every ten cycles
-#: Drawn: of `Motion`, the label of its axis, its scale.
-QUANTITIES = (("x", "x, cm", 100.0), ("phi_deg", "φ, °", 1.0), ("y", "y, cm", 100.0))
 EXACT_DURATION, SHOWN = 40.0, 20.0  # s
 #: What the study leaves open of the exact rig: pretension, m, and rotation at the start, deg.
 FREER = ((0.0, 1.0), (0.0, 5.0), (0.004, 5.0))
@@ -39,12 +36,7 @@ def treated(faults: Faults, **changes: Any) -> dict[str, Motion]:
     }
 
 
-def _only_updated_rotates(runs: dict[str, Motion]) -> bool:
-    others = max(run.rotation for name, run in runs.items() if name != "updated")
-    return runs["updated"].rotation > ROTATES and others < 0.1 * ROTATES
-
-
-def _only_updated_comes_back(runs: dict[str, Motion]) -> bool:
+def _comes_back(runs: dict[str, Motion]) -> bool:
     """With constant angles y moves away for good; with updated ones it comes back."""
     away = max(_sides(runs["constant"]), _sides(runs["opposed"]))
     return _sides(runs["updated"]) > SIDES >= away
@@ -59,7 +51,19 @@ def _sides(run: Motion) -> int:
 def _parts(faults: Faults) -> tuple[bool, bool]:
     """Whether only the updated angles rotate, and whether with them alone y comes back."""
     runs = treated(faults)
-    return _only_updated_rotates(runs), _only_updated_comes_back(runs)
+    updated, *others = sorted((run.rotation for run in runs.values()), reverse=True)
+    only = updated == runs["updated"].rotation > ROTATES and others[0] < 0.1 * ROTATES
+    return only, _comes_back(runs)
+
+
+def rotates(faults: Faults) -> bool:
+    """Whether only the updated angles rotate."""
+    return _parts(faults)[0]
+
+
+def comes_back(faults: Faults) -> bool:
+    """Whether y comes back with the updated angles alone."""
+    return _parts(faults)[1]
 
 
 def _apart(runs: dict[str, Motion]) -> float:
@@ -91,10 +95,10 @@ def judge_treatments() -> Claim:
     free, back = max(exact.rotation, loose.rotation), treated(MENDED.only("F1", "F13"))["updated"]
     sheet.check(
         "rotates",
-        answers=[_parts(PRINTED)[0], _parts(MENDED)[0], free > ROTATES],
+        answers=[rotates(PRINTED), rotates(MENDED), free > ROTATES],
         margin=free,
         limit=ROTATES,
-        faults=responsible(lambda faults: _parts(faults)[0]),
+        faults=responsible(rotates),
     )
     for pretension, start in FREER:
         run = exact_motion(
@@ -102,40 +106,39 @@ def judge_treatments() -> Claim:
         )
         sheet.turn("freer", run.rotation, pretension=1e3 * pretension, start=start)
     sheet.turn("put_back", back.rotation)
-    alone = responsible(lambda faults: _parts(faults)[1])
+    alone = responsible(comes_back)
     sheet.check(
         "comes_back",
-        answers=[_parts(PRINTED)[1], _parts(MENDED)[1], None],
+        answers=[comes_back(PRINTED), comes_back(MENDED), None],
         margin=max(_sides(mended[name]) for name in ("constant", "opposed")),
         limit=SIDES,
         faults=alone,
-        together=() if alone else responsible_pairs(lambda faults: _parts(faults)[1]),
+        together=() if alone else responsible_pairs(comes_back),
     )
     scattered = treated(MENDED, scatter=0.2)
-    sound = _only_updated_comes_back(scattered)
+    sound = _comes_back(scattered)
     sheet.turn("scatter", _sides(scattered["updated"]), sound=sound)
-    schemes = {"as printed": printed, "mended": mended}
-    sheet.picture("C5_spring_angles", _draw_treatments, schemes, live=True)
+    sheet.picture("C5_spring_angles", _drawn(printed, mended))
     return sheet.claim(back=back.rotation, loose=loose.rotation, y=100 * np.abs(loose.y).max())
 
 
-def _draw_treatments(schemes: dict[str, dict[str, Motion]]) -> Figure:
+def _drawn(*schemes: dict[str, Motion]) -> list[list[Panel]]:
     """A row a quantity, a column a scheme; a line a treatment."""
-    # thinner one by one: those that coincide are all seen
-    widths = np.linspace(3.0, 0.8, len(TREATMENTS))
-    rows: list[list[Panel]] = []
-    for name, label, scale in QUANTITIES:
-        rows.append([])
-        for title, runs in schemes.items():
-            lines = [
-                over_time(run, name, scale, end=SHOWN, color=colour, lw=width, label=treatment)
-                for (treatment, run), colour, width in zip(
-                    runs.items(), SERIES, widths, strict=False
-                )
-            ]
-            above = f"scheme {title}" if name == "x" else ""
-            rows[-1].append(Panel(lines, "time, s", label, above, end=SHOWN))
-    return figure_of(rows, legend=4, height=2.0, sharex="col", sharey="row")
+    rows = []
+    for quantity, scale in (("x", 100.0), ("phi_deg", 1.0), ("y", 100.0)):
+        titles = LABELS[:2] if quantity == "x" else ("", "")
+        lines = [_lines(runs, quantity, scale) for runs in schemes]
+        rows.append([Panel(*pair, end=SHOWN) for pair in zip(lines, titles, strict=True)])
+    return rows
+
+
+def _lines(runs: dict[str, Motion], quantity: str, scale: float) -> list[Curve]:
+    """Thinner one by one: those that coincide are all seen."""
+    widths = np.linspace(3.0, 0.8, len(runs))
+    return [
+        over_time(run, quantity, scale, 0.0, SHOWN, color=colour, lw=width, label=name)
+        for (name, run), colour, width in zip(runs.items(), SERIES, widths, strict=False)
+    ]
 
 
 RUNS = tuple(range(8))
@@ -164,10 +167,9 @@ def judge_datasets() -> Claim:
     }
     turned = {dataset: [one.rotation for one in three] for dataset, three in runs.items()}
     for dataset, three in runs.items():
-        swings = [figures(one).swing_rate for one in three]
-        study = f"rotation_dataset_{dataset}", f"swing_dataset_{dataset}"
-        sheet.row("rotation", turned[dataset], study=study[0], dataset=dataset)
-        sheet.row("swing", swings, study=study[1], dataset=dataset)
+        found = {"rotation": turned[dataset], "swing": [figures(one).swing_rate for one in three]}
+        for name, ours in found.items():
+            sheet.row(name, ours, study=f"{name}_dataset_{dataset}", dataset=dataset)
     # once by more than chance could make of 150 degrees, and again
     least = FAR_TURN / FACTOR**2
     sheet.check(
@@ -188,17 +190,12 @@ def judge_datasets() -> Claim:
     with_both = []
     for reading in READINGS:
         first, second = (reading_figures(reading, dataset).max_rotation for dataset in DATASETS)
-        sheet.turn(
-            "reading",
-            sum(outcome(reading).met),
-            weight=OPEN if reading.place else FAR,
-            name=reading.name,
-            first=first,
-            second=second,
-        )
+        met, weight = sum(outcome(reading).met), OPEN if reading.place else FAR
+        said = {"name": reading.name, "first": first, "second": second}
+        sheet.turn("reading", met, weight=weight, **said)
         if turns_far_and_near(first, second):
             with_both.append(reading.name)
-    sheet.picture("C7_rotation", _draw_datasets, runs, live=True)
+    sheet.picture("C7_rotation", [[_turned(dataset, *three) for dataset, three in runs.items()]])
     return sheet.claim(
         first=turned[1][0],
         second=turned[2][0],
@@ -209,21 +206,8 @@ def judge_datasets() -> Claim:
     )
 
 
-def _draw_datasets(runs: dict[int, list[Motion]]) -> Figure:
-    row = []
-    for dataset, three in runs.items():
-        study = STUDY[f"rotation_dataset_{dataset}"].number
-        row.append(
-            Panel(
-                [
-                    over_time(run, "phi_deg", color=colour, label=label, lw=1.0)
-                    for run, colour, label in zip(three, COLOURS, LABELS, strict=True)
-                ],
-                "time, s",
-                "φ, °",
-                f"dataset #{dataset}: as printed up to {three[0].rotation:.0f}°",
-                {"study's largest": study, "_": -study},
-                end=three[0].time[-1],
-            )
-        )
-    return figure_of([row], legend=4, height=2.7)
+def _turned(dataset: int, *runs: Motion) -> Panel:
+    study = STUDY[f"rotation_dataset_{dataset}"].number
+    title = f"dataset #{dataset}: as printed up to {runs[0].rotation:.0f}°"
+    levels = {"study's largest": study, "_": -study}
+    return Panel(models_over_time(runs, "phi_deg"), title, levels, end=runs[0].time[-1])

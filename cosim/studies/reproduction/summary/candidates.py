@@ -1,14 +1,10 @@
-"""What may be added to the model: every effect of the catalogue, with the ranges of its numbers.
-
-The ranges are the catalogue's own (where an effect shows in a rig of this kind), so that nothing
-here prefers one effect to another.
-"""
+"""What may be added to the model: every effect of the catalogue, with the ranges of its numbers."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from scipy.stats import norm
 from stickslip.effects import EFFECTS
@@ -16,13 +12,16 @@ from stickslip.quantity import details
 
 from cosim.gap.data import Campaign
 
-from .models import PRINTED_RATIO, has_meaning
+from .models import CATALOGUE, has_meaning
 
 # the study's coefficients, the four figures that it prints; how well they are known it does not
 # say, a tenth is what its scatter is taken to be
 STUDY_FRICTION = {"mu_s": (0.2815, 0.028), "mu_k": (0.2086, 0.021)}
 UNKNOWN_FRICTION = (0.02, 0.8)
 FURTHEST = 3.0  # standard deviations that a known number may be off
+# the scheme counts one spring of four in stick: in the catalogue's words, this part of the load
+PRINTED_RATIO = 0.25
+TABLES = {entry.id: entry.table for entry in EFFECTS}
 
 
 @dataclass(frozen=True)
@@ -38,11 +37,16 @@ class Span:
     prior: tuple[float, float] | None = None
     log: bool = False
 
+    @property
+    def of_friction(self) -> bool:
+        """Is it a coefficient that every model has?"""
+        return self.key.startswith("friction.")
+
     def at(self, share: float) -> float:
         """The number below which ``share`` (0 ... 1) of what is expected lies."""
         if self.prior:
             value, sd = self.prior
-            low, high = norm.cdf((self.low - value) / sd), norm.cdf((self.high - value) / sd)
+            low, high = norm.cdf([(self.low - value) / sd, (self.high - value) / sd])
             return float(value + sd * norm.ppf(low + share * (high - low)))
         if self.log:
             return math.exp(math.log(self.low) + share * math.log(self.high / self.low))
@@ -65,92 +69,59 @@ class Candidate:
     @property
     def off(self) -> dict[str, float]:
         """Values of what is searched with which the last effect is not there."""
-        tables = {entry.id: entry.table for entry in EFFECTS}
-        keys = [span.key.split(".") for span in self.spans] if self.effects else []
-        return {
-            f"{table}.{name}": float(tables[table].model_fields[name].default)
-            for table, name in keys
-            if table == self.effects[-1]
-        }
+        own = [span.key for span in self.spans if span.key.split(".")[0] in self.effects[-1:]]
+        fields = TABLES[self.effects[-1]].model_fields if own else {}
+        return {key: float(fields[key.split(".")[1]].default) for key in own}
 
     @property
     def added(self) -> int:
         """Numbers that it has beside friction."""
-        return sum(not span.key.startswith("friction.") for span in self.spans)
+        return sum(not span.of_friction for span in self.spans)
+
+    @property
+    def free(self) -> Candidate:
+        """The same model, with friction that nothing is known of."""
+        spans = [_unknown(span.key) if span.of_friction else span for span in self.spans]
+        return replace(self, spans=tuple(spans))
 
 
-def friction_spans(campaign: Campaign) -> tuple[Span, ...]:
-    """mu_s and mu_k: known as the campaign says, or as the study does; else free."""
-    given = STUDY_FRICTION if campaign.scheme == "study" else {}
-    spans = []
-    for name, known in (given | dict(campaign.friction)).items():
-        value, sd = known
-        low, high = max(value - FURTHEST * sd, 1e-3), value + FURTHEST * sd
-        spans.append(Span(f"friction.{name}", low, high, prior=(value, sd)))
-    there = {span.key for span in spans}
-    for name in ("mu_s", "mu_k"):
-        if f"friction.{name}" not in there:
-            spans.append(Span(f"friction.{name}", *UNKNOWN_FRICTION, log=True))
-    return tuple(sorted(spans, key=lambda span: span.key, reverse=True))
+def _unknown(coefficient: str) -> Span:
+    return Span(coefficient, *UNKNOWN_FRICTION, log=True)
 
 
 def plain_candidate(campaign: Campaign) -> Candidate:
-    """The model as it is, friction refitted within what is known of it."""
-    settings = {}
-    if campaign.scheme == "study":
-        settings["stick_stiffness.ratio"] = PRINTED_RATIO
-    return Candidate((), "", friction_spans(campaign), settings)
-
-
-Form = tuple[tuple[str, ...], dict[str, float]]
-#: effect -> forms: what is searched (log: evenly over decades), what is set
-_ACROSS = {"lateral_friction.ratio": 1.0}
-_FORMS: dict[str, dict[str, Form]] = {
-    "lateral_friction": {"isotropic": ((), _ACROSS)},
-    "turning_surface": {"disc friction": (("curvature",), _ACROSS)},
-    "static_strengthening": {"logarithmic": (("rate log",), {})},
-    "velocity_weakening": {"linear": (("linear",), {})},
-    "film_drag": {"linear": (("coefficient log",), {})},
-    "thermal_weakening": {"relaxing": (("per_joule log", "relaxation_time log"), {})},
-    "run_in": {"exponential": (("change", "distance log"), {})},
-    "spring_hardening": {"cubic": (("cubic log",), {})},
-    "structural_damping": {
-        "along": (("coefficient log",), {}),
-        "in rotation": (("rotational log",), {}),
-    },
-    "speed_ripple": {"sine": (("amplitude", "frequency log"), {})},
-    "surface_pattern": {"sine": (("amplitude", "wavelength log"), {})},
-    "load_dependence": {"power law": (("exponent",), {})},
-    "spring_misalignment": {"angle": (("angle_deg",), {}), "offset": (("lateral_offset",), {})},
-    "stick_stiffness": {"part of the springs": (("ratio",), {})},
-}
-#: numbers for which the catalogue names no typical range, or one for another purpose
-_RANGES = {
-    "run_in.distance": (0.1, 10.0),
-    # from the study's one spring to all four: whichever the model starts from
-    "stick_stiffness.ratio": (PRINTED_RATIO, 1.0),
-}
+    """The model as it is; mu_s and mu_k known as the campaign says, or as the study does."""
+    study = campaign.scheme == "study"
+    known = (STUDY_FRICTION if study else {}) | dict(campaign.friction)
+    spans = []
+    for name in ("mu_s", "mu_k"):
+        span = _unknown(f"friction.{name}")
+        if name in known:
+            value, sd = known[name]
+            low, high = max(value - FURTHEST * sd, 1e-3), value + FURTHEST * sd
+            span = Span(span.key, low, high, prior=(value, sd))
+        spans.append(span)
+    return Candidate(
+        (), "", tuple(spans), {"stick_stiffness.ratio": PRINTED_RATIO} if study else {}
+    )
 
 
 def extensions(campaign: Campaign, base: Candidate) -> tuple[Candidate, ...]:
     """``base`` with each effect that is not in it, in the catalogue's order, form by form."""
+    left_out = {*base.effects, *not_felt(campaign)}
+    if campaign.rig.surface == "slab":
+        left_out.add("turning_surface")  # known: the rig says how far its centre is
     found = []
-    for effect in EFFECTS:
-        if effect.id in base.effects:
+    for form in CATALOGUE["form"]:
+        settings = form.get("set", {})
+        spans = tuple(_span(form["effect"], number) for number in form.get("searched", ()))
+        keys = [span.key for span in spans] + list(settings)
+        if campaign.scheme == "study" and not all(map(has_meaning, keys)):
             continue
-        for form, (numbers, settings) in _FORMS.get(effect.id, {}).items():
-            spans = tuple(_span(effect.id, number) for number in numbers)
-            keys = [span.key for span in spans] + list(settings)
-            if campaign.scheme == "study" and not all(map(has_meaning, keys)):
-                continue
-            if effect.id in not_felt(campaign):
-                continue
-            if effect.id == "turning_surface" and campaign.rig.surface == "slab":
-                continue  # known: the rig says how far its centre is
+        if form["effect"] not in left_out:
             kept = {key: value for key, value in base.settings.items() if key not in keys}
-            found.append(
-                Candidate((*base.effects, effect.id), form, base.spans + spans, kept | settings)
-            )
+            effects = (*base.effects, form["effect"])
+            found.append(Candidate(effects, form["name"], base.spans + spans, kept | settings))
     return tuple(found)
 
 
@@ -165,20 +136,8 @@ def not_felt(campaign: Campaign) -> dict[str, str]:
     return found
 
 
-def free_candidate(candidate: Candidate) -> Candidate:
-    """The same model, with friction that nothing is known of."""
-    free = tuple(
-        Span(s.key, *UNKNOWN_FRICTION, log=True) if s.key.startswith("friction.") else s
-        for s in candidate.spans
-    )
-    return Candidate(candidate.effects, candidate.form, free, candidate.settings)
-
-
 def _span(effect: str, number: str) -> Span:
     name, _, scale = number.partition(" ")
     key = f"{effect}.{name}"
-    if key in _RANGES:
-        return Span(key, *_RANGES[key], log=scale == "log")
-    tables = {entry.id: entry.table for entry in EFFECTS}
-    low, high = details(tables[effect].model_fields[name])["typical"]
+    low, high = CATALOGUE["range"].get(key) or details(TABLES[effect].model_fields[name])["typical"]
     return Span(key, low, high, log=scale == "log")

@@ -8,40 +8,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from cosim.gap.data import Campaign
-from cosim.studies.reproduction.summary.search import (
-    BOOTSTRAPS,
-    WITHIN,
-    Trial,
-    fitted,
-    p_of_the_best,
-)
 
-from .candidates import Candidate, extensions, free_candidate, not_felt, plain_candidate
-from .draws import (
-    Bench,
-    Draw,
-    Observation,
-    Target,
-    draw,
-    gap,
-    misfit,
-    observations,
-    scatter_of_kin,
-    without_effect,
-)
-from .result import SummaryGap, open_figures, ranked, remarks, where
+from .candidates import Candidate, extensions, not_felt, plain_candidate
+from .draws import SEEDS, Bench, Draws, observations
+from .result import SummaryGap, open_figures, ranked, where
 from .search import (
     FIRST,
-    SEEDS,
     even_shares,
     near,
     ordered,
     polished,
     refined,
     screening,
-    widen,
+    widened,
     with_all_seeds,
 )
+from .trial import BOOTSTRAPS, Target, Trial, misfit, p_of_the_best, scatter_of_kin
 
 PLAIN_DRAWS, PLAIN_CLOSELY = 32, 6
 ROBUST_DRAWS = 32
@@ -55,11 +37,12 @@ REPAIRED = 0.01  # lack of fit below which an extended model has not repaired th
 # difference of BIC (Kass & Raftery 1995: strong evidence) within which effects form a class
 APART = 6.0
 MOST_EFFECTS = 2
+FIRST_ONE = slice(0, 1)
 
 
 @dataclass(frozen=True)
 class Found:
-    """Effects found so far: the trial before, all that were tried on top of it, p of chance."""
+    """An effect on top of a trial: all that were tried, the least BIC first, p of chance."""
 
     before: Trial
     tried: tuple[Trial, ...]
@@ -68,7 +51,7 @@ class Found:
     @property
     def best(self) -> Trial:
         """The tried model of least BIC."""
-        return min(self.tried, key=lambda trial: trial.bic)
+        return self.tried[0]
 
     @property
     def gained(self) -> float:
@@ -83,8 +66,7 @@ class Found:
     @property
     def rivals(self) -> tuple[str, ...]:
         """Effects that do as well as the best, itself included, best first."""
-        order = sorted(self.tried, key=lambda trial: trial.bic)
-        close = [t.candidate.effects[-1] for t in order if t.bic - self.best.bic <= APART]
+        close = [t.candidate.effects[-1] for t in self.tried if t.bic - self.best.bic <= APART]
         return tuple(dict.fromkeys(close))
 
 
@@ -93,7 +75,7 @@ def find_summary_gap(
     *,
     seed: int = 0,
     jobs: int = 2,
-    step: Callable[[int], None] | None = None,
+    step: Callable[[int], object] = lambda _count: None,
 ) -> SummaryGap:
     """What is missing in the campaign's model, as far as the figures of its runs tell.
 
@@ -101,17 +83,8 @@ def find_summary_gap(
     after every model run. CampaignError where no run has a summary.
     """
     seen = observations(campaign)
-    bench = Bench(campaign, seen, seed, jobs, step)
-    target = Target.of(seen)
-    candidate = plain_candidate(campaign)
-    known, *draws = screening(bench, candidate, PLAIN_DRAWS)
-    known = bench.run([known], SEEDS - 1)[0]
-    none = np.zeros(len(seen))
-    if bench.smooth:
-        best = ordered(draws, target, none)[:2]
-        draws += [polished(bench, candidate, one, target) for one in best]
-    draws = with_all_seeds(bench, draws, target, none, PLAIN_CLOSELY)
-    plain = Trial.of(candidate, [known, *draws], target, scatter_of_kin(draws))
+    bench, target = Bench(campaign, seen, seed, jobs, step), Target.of(seen)
+    plain = _plain(bench, target)
     found: list[Found] = []
     trial = plain
     while len(found) < MOST_EFFECTS and trial.lack_of_fit < (FITS if not found else REPAIRED):
@@ -122,7 +95,7 @@ def find_summary_gap(
             break
         trial = one.best
     free = _with_free_friction(bench, plain, target) if found else None
-    answer = _answer(campaign, seen, plain, free, known, found)
+    answer = _answer(bench, plain, free, found)
     if bench.smooth or answer.extended is None:
         return answer
     share = _share_that_fits(bench, trial, target)
@@ -133,36 +106,49 @@ def find_summary_gap(
     return replace(answer, fits_share=share, remarks=(*answer.remarks, line))
 
 
+def _plain(bench: Bench, target: Target) -> Trial:
+    """The model as it is; its first draw has friction as it is known."""
+    candidate, none = plain_candidate(bench.campaign), np.zeros(len(target.sizes))
+    draws = screening(bench, candidate, PLAIN_DRAWS)
+    known, draws = (bench.run(draws.take(FIRST_ONE), SEEDS - 1), draws.take(slice(1, None)))
+    if bench.smooth:
+        for start in ordered(draws, target, none).shares[:2]:
+            draws += polished(bench, candidate, start, target)
+    draws = with_all_seeds(bench, draws, target, none, PLAIN_CLOSELY)
+    return Trial(candidate, known + draws, target, scatter_of_kin(draws))
+
+
 def _add(bench: Bench, before: Trial, target: Target) -> Found:
     """Every effect on top of ``before``; those in the running searched to the end."""
     none = np.zeros(len(target.sizes))  # one seed does not tell a scatter
     share = 1.0 if before.candidate.effects else NEAR_PLAIN[bench.smooth]
-    screened = [
-        (candidate, ordered(screening(bench, candidate, FIRST, before.best, share), target, none))
-        for candidate in extensions(bench.campaign, before.candidate)
-    ]
-    screened.sort(key=lambda one_screened: misfit(one_screened[1][0], target, none))
+    screened = []
+    for candidate in extensions(bench.campaign, before.candidate):
+        draws = screening(bench, candidate, FIRST, before.best, share)
+        screened.append((misfit(draws, target, none).min(), candidate, draws))
+    screened.sort(key=lambda one: one[0])
     tried = []
-    for place, (candidate, draws) in enumerate(screened):
+    for place, (_, candidate, draws) in enumerate(screened):
         draws = refined(bench, candidate, draws, target, none, place < IN_THE_RUNNING)
-        tried.append(_nested(candidate, draws, before, target))
+        tried.append(_nested(candidate, draws, before))
     tried.sort(key=lambda trial: trial.bic)
-    tried[0] = _with_ranges(bench, tried[0], before, target)
+    tried[0] = _with_ranges(bench, tried[0], before)
+    tried.sort(key=lambda trial: trial.bic)
     return Found(before, tuple(tried), p_of_the_best(before, tried, bench.seed))
 
 
-def _nested(candidate: Candidate, draws: Sequence[Draw], before: Trial, target: Target) -> Trial:
+def _nested(candidate: Candidate, draws: Draws, before: Trial) -> Trial:
     """The trial of ``candidate``; an effect may also be off, so it is never worse than without."""
-    off = [without_effect(candidate, one) for one in before.close]
-    return Trial.of(candidate, [*draws, *off], target, scatter_of_kin(draws))
+    every = draws + before.close.without_effect(candidate)
+    return Trial(candidate, every, before.target, scatter_of_kin(draws))
 
 
-def _with_ranges(bench: Bench, trial: Trial, before: Trial, target: Target) -> Trial:
+def _with_ranges(bench: Bench, trial: Trial, before: Trial) -> Trial:
     """The trial with more draws about its good ones: its intervals, and perhaps a better best."""
-    own = [one for one in trial.draws if len(one.shares) == len(trial.candidate.spans)]
-    draws = widen(bench, trial.candidate, own, target, WITHIN, RANGE_DRAWS)
-    draws = with_all_seeds(bench, draws, target, trial.kin, SEEDS)
-    return _nested(trial.candidate, draws, before, target)
+    own = trial.draws.take(np.isfinite(trial.draws.shares).all(axis=1))
+    draws = widened(bench, trial.candidate, own, trial.target, RANGE_DRAWS)
+    draws = with_all_seeds(bench, draws, trial.target, trial.kin, SEEDS)
+    return _nested(trial.candidate, draws, before)
 
 
 def _share_that_fits(bench: Bench, trial: Trial, target: Target) -> float:
@@ -170,67 +156,67 @@ def _share_that_fits(bench: Bench, trial: Trial, target: Target) -> float:
 
     As well: within twice the best gap. A small share says that the fit hangs on exact numbers.
     """
-    own = len(trial.friction_spans)
+    own = sum(span.of_friction for span in trial.candidate.spans)
     table = even_shares(trial.candidate, ROBUST_DRAWS, bench.seed + 3)
-    table[:, own:] = trial.best.shares[own:]
-    draws = bench.run([draw(trial.candidate, shares, len(bench.seen)) for shares in table])
-    limit = 2.0 * gap(trial.best.mean, target)
-    return float(np.mean([gap(one.mean, target) <= limit for one in draws]))
+    table[:, own:] = trial.best.shares[0, own:]
+    gaps = target.gap(bench.draw(trial.candidate, table).mean)
+    return float(np.mean(gaps <= 2.0 * target.gap(trial.best.mean[0])))
 
 
 def _with_free_friction(bench: Bench, plain: Trial, target: Target) -> Trial | None:
     """The plain model with friction set free: would other coefficients do instead of an effect?"""
-    candidate = free_candidate(plain.candidate)
+    candidate, none = plain.candidate.free, np.zeros(len(target.sizes))
     if candidate == plain.candidate:
         return None
-    none = np.zeros(len(target.sizes))
     draws = screening(bench, candidate, PLAIN_DRAWS)
-    draws += near(bench, candidate, ordered(draws, target, none)[:3], PLAIN_DRAWS // 2)
+    good = ordered(draws, target, none).take(slice(3))
+    draws += near(bench, candidate, good, PLAIN_DRAWS // 2)
     draws = refined(bench, candidate, draws, target, none, running=False)
-    return Trial.of(candidate, draws, target, scatter_of_kin(draws))
+    return Trial(candidate, draws, target, scatter_of_kin(draws))
 
 
-def _answer(
-    campaign: Campaign,
-    seen: tuple[Observation, ...],
-    plain: Trial,
-    free: Trial | None,
-    known: Draw,
-    found: Sequence[Found],
-) -> SummaryGap:
+def _answer(bench: Bench, plain: Trial, free: Trial | None, found: Sequence[Found]) -> SummaryGap:
     held = [one for one in found if one.holds]
-    last = held[-1].best if held else None
-    before = fitted(plain.best, plain)
-    after = last.fitted() if last else before
+    extended = held[-1].best.fitted() if held else None
+    before = plain.fitted()
+    after = extended or before
     verdict, effects, classes = _judge(plain, held)
-    first = found[0] if found else None
+    chance = {"p": 1.0, "draws": 0, "delta_bic": 0.0}
+    if found:
+        chance = {"p": found[0].p, "draws": BOOTSTRAPS, "delta_bic": found[0].gained}
+    intervals = plain.intervals().items()
     return SummaryGap(
-        campaign=campaign,
-        observations=seen,
+        campaign=bench.campaign,
+        observations=bench.seen,
         verdict=verdict,
         effects=effects,
-        found=last.candidate.effects if last else (),
+        found=held[-1].best.candidate.effects if held else (),
         classes=classes,
-        where=where(seen, before),
-        ranking=ranked(first.tried, plain) if first else (),
+        where=where(bench.seen, before),
+        ranking=ranked(found[0].tried, plain) if found else (),
         gap_before=(before.gap, before.held_out_gap),
         gap_after=(after.gap, after.held_out_gap),
-        printed=fitted(known, plain),
+        printed=plain.fitted(plain.draws.take(FIRST_ONE)),
         plain=before,
-        extended=after if last else None,
-        chance={
-            "p": first.p if first else 1.0,
-            "draws": BOOTSTRAPS if first else 0,
-            "delta_bic": first.gained if first else 0.0,
-        },
-        determined={
-            key: (plain.best.values[key], *interval) for key, interval in plain.intervals().items()
-        },
+        extended=extended,
+        chance=chance,
+        determined={key: (before.values[key], *interval) for key, interval in intervals},
         free_friction=free.fitted() if free else None,
-        not_felt=not_felt(campaign),
-        open_figures=open_figures(seen, after),
-        remarks=remarks(campaign, found),
+        not_felt=not_felt(bench.campaign),
+        open_figures=open_figures(bench.seen, after),
+        remarks=_remarks(bench.campaign, found),
     )
+
+
+def _remarks(campaign: Campaign, found: Sequence[Found]) -> tuple[str, ...]:
+    scheme = "the source study's scheme as printed; 25 cycles, of which the last 60 % count"
+    lines = [f"model: {scheme}"] if campaign.scheme == "study" else []
+    for one in found:
+        lines.append(
+            f"{one.best.candidate.effects[-1]}: BIC lower by {one.gained:.1f}, chance {one.p:.3g}, "
+            f"lack of fit afterwards {one.best.lack_of_fit:.2g}"
+        )
+    return tuple(lines)
 
 
 def _judge(

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from cosim.gap.data import Campaign
 from cosim.gap.result import Ranked, Score
-from cosim.studies.reproduction.summary.search import FittedSummary, Trial
 
 from .draws import Observation
+from .trial import FittedSummary, Trial
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class SummaryGap:
     open_figures: Mapping[str, str]
     next_experiment: Mapping | None = None
     empirical: Mapping | None = None
-    remarks: tuple[str, ...] = field(default=())
+    remarks: tuple[str, ...] = ()
     fits_share: float | None = None
 
 
@@ -92,28 +92,26 @@ def where(seen: Sequence[Observation], plain: FittedSummary) -> Where:
 
 
 def ranked(tried: Sequence[Trial], plain: Trial) -> tuple[Ranked, ...]:
-    """The best form of every effect, the least BIC first."""
-    rows: dict[str, Ranked] = {}
-    for trial in sorted(tried, key=lambda one: one.bic):
-        effect = trial.candidate.effects[-1]
-        if effect in rows:
-            continue
+    """The best form of every effect, the least BIC first, of trials in that order."""
+    best: dict[str, Trial] = {}
+    for trial in tried:
+        best.setdefault(trial.candidate.effects[-1], trial)
+    weights = [math.exp(0.5 * (tried[0].bic - trial.bic)) for trial in best.values()]
+    rows = []
+    for (effect, trial), weight in zip(best.items(), weights, strict=True):
         fit = trial.fitted()
-        rows[effect] = Ranked(
-            effect=effect,
-            form=trial.candidate.form,
-            evidence=0.5 * (plain.bic - trial.bic),
-            probability=0.0,
-            gap=Score(fit.gap, fit.held_out_gap),
-            parameters=dict(fit.values),
-            intervals=trial.intervals(),
+        rows.append(
+            Ranked(
+                effect=effect,
+                form=trial.candidate.form,
+                evidence=0.5 * (plain.bic - trial.bic),
+                probability=weight / sum(weights),
+                gap=Score(fit.gap, fit.held_out_gap),
+                parameters=dict(fit.values),
+                intervals=trial.intervals(),
+            )
         )
-    least = min((trial.bic for trial in tried), default=0.0)
-    weights = {
-        effect: math.exp(row.evidence - 0.5 * (plain.bic - least)) for effect, row in rows.items()
-    }
-    total = sum(weights.values())
-    return tuple(replace(row, probability=weights[row.effect] / total) for row in rows.values())
+    return tuple(rows)
 
 
 def open_figures(seen: Sequence[Observation], after: FittedSummary) -> dict[str, str]:
@@ -132,19 +130,3 @@ def open_figures(seen: Sequence[Observation], after: FittedSummary) -> dict[str,
                 f"{abs(after.residuals[i]):.1f} standard deviations off"
             )
     return found
-
-
-def remarks(campaign: Campaign, found: Sequence) -> tuple[str, ...]:
-    """What the reader should know, a line each."""
-    lines = []
-    if campaign.scheme == "study":
-        lines.append(
-            "model: the source study's scheme as printed; 25 cycles, of which the last 60 % count"
-        )
-    for one in found:
-        best = one.best
-        lines.append(
-            f"{best.candidate.effects[-1]}: BIC lower by {one.gained:.1f}, chance {one.p:.3g}, "
-            f"lack of fit afterwards {best.lack_of_fit:.2g}"
-        )
-    return tuple(lines)

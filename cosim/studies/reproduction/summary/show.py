@@ -21,30 +21,33 @@ from cosim.gap.show.numbers import ranked, tree
 from cosim.report.files import json_text
 from cosim.report.page import Picture, render
 from cosim.report.style import BLUE, GREY, INK, PALE_GREY, RED, panels, picture
-from cosim.scenario import Scenario
 
+from .models import SETTLING, WINDOW
 from .result import SummaryGap
 
-#: s; of a run whose time series is not known.
-DURATION = 30.0
+#: What is written as it stands in an answer.
+AS_IT_IS = (
+    "verdict", "effects", "classes", "where", "next_experiment", "empirical", "chance", "printed",
+    "plain", "extended", "free_friction", "not_felt", "open_figures", "fits_share",
+)  # fmt: skip
 
 
 def sentence(gap: SummaryGap) -> str:
     """The answer in a sentence."""
-    if gap.verdict == "none":
-        return "The plain model meets these figures."
-    if gap.verdict == "class":
-        groups = "; ".join(" or ".join(group) for group in gap.classes)
-        return f"{groups}: these figures cannot tell which."
-    if gap.verdict == "named":
-        said = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS}
-        return f"{'; '.join(f'{one}: {said[one]}' for one in gap.effects)}."
-    if gap.effects:
-        return (
-            f"With {' and '.join(gap.effects)} the model comes nearer, but a disagreement is left "
-            "that no effect of the catalogue repairs."
-        )
-    return "The plain model does not fit, and no effect of the catalogue repairs it."
+    said = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS}
+    groups = "; ".join(" or ".join(group) for group in gap.classes)
+    named = "; ".join(f"{one}: {said[one]}" for one in gap.effects)
+    nearer = (
+        f"With {' and '.join(gap.effects)} the model comes nearer, but a disagreement is left "
+        "that no effect of the catalogue repairs."
+    )
+    nothing = "The plain model does not fit, and no effect of the catalogue repairs it."
+    return {
+        "none": "The plain model meets these figures.",
+        "class": f"{groups}: these figures cannot tell which.",
+        "named": f"{named}.",
+        "unknown": nearer if gap.effects else nothing,
+    }[gap.verdict]
 
 
 def gap_line(gap: SummaryGap) -> str:
@@ -58,12 +61,11 @@ def gap_line(gap: SummaryGap) -> str:
 
 def quantities(gap: SummaryGap) -> list[Quantity]:
     """The numbers of the model that is left."""
-    model = gap.extended or gap.plain
     intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
     for row in gap.ranking:
-        if row.effect in gap.found:
-            intervals |= row.intervals
-    return [quantity(key, value, intervals.get(key)) for key, value in model.values.items()]
+        intervals |= row.intervals if row.effect in gap.found else {}
+    values = (gap.extended or gap.plain).values
+    return [quantity(key, value, intervals.get(key)) for key, value in values.items()]
 
 
 def closing_lines(gap: SummaryGap) -> list[str]:
@@ -90,16 +92,11 @@ def model_text(gap: SummaryGap) -> str:
     ]
     if gap.campaign.scheme == "study":
         header.append("Fitted in the source study's scheme: the exact model moves otherwise on it.")
-    return file_text(_scenario(gap), header)
-
-
-def _scenario(gap: SummaryGap) -> Scenario:
-    run = gap.campaign.runs[0]
     tables = known_tables(gap.campaign, run)
     put(tables, (gap.extended or gap.plain).values)
     tables["initial"] = {"vx": run.surface_speed}
-    tables["run"] = {"duration": DURATION}
-    return scenario_from(gap.campaign, tables)
+    tables["run"] = {"duration": SETTLING + WINDOW}
+    return file_text(scenario_from(gap.campaign, tables), header)
 
 
 def write_data(gap: SummaryGap, result: Path, model: Path) -> str:
@@ -115,29 +112,17 @@ def write_corrected(gap: SummaryGap, folder: Path) -> list[Path]:
     return []
 
 
-#: What is written as it stands in an answer.
-AS_IT_IS = (
-    "verdict", "effects", "classes", "where", "next_experiment", "empirical", "chance", "printed",
-    "plain", "extended", "free_friction", "not_felt", "open_figures", "fits_share",
-)  # fmt: skip
-
-
 def as_json(gap: SummaryGap, model: str) -> str:
     """JSON text without NaN; the same answer gives the same bytes. model: name of its file."""
     ends = {"before": gap.gap_before, "after": gap.gap_after}
-    data: dict[str, Any] = {"campaign": gap.campaign.name}
-    data |= {name: getattr(gap, name) for name in AS_IT_IS}
+    data: dict[str, Any] = {name: getattr(gap, name) for name in AS_IT_IS}
     data |= {
-        "gap": {
-            end: dict(zip(("fit", "held_out"), pair, strict=True)) for end, pair in ends.items()
-        },
+        "campaign": gap.campaign.name,
+        "gap": {end: _named(pair, "fit", "held_out") for end, pair in ends.items()},
         "ranking": [ranked(row) for row in gap.ranking],
-        "determined": {
-            key: dict(zip(("value", "low", "high"), numbers, strict=True))
-            for key, numbers in gap.determined.items()
-        },
+        "determined": {k: _named(v, "value", "low", "high") for k, v in gap.determined.items()},
         "observations": [
-            {"run": one.name, "figure": one.figure, "value": one.size, "sd": one.sd}
+            _named((one.name, one.figure, one.size, one.sd), "run", "figure", "value", "sd")
             for one in gap.observations
         ],
         "model": model,
@@ -145,6 +130,15 @@ def as_json(gap: SummaryGap, model: str) -> str:
         "remarks": _remarks(gap),
     }
     return json_text(tree(data))
+
+
+def _named(values: Sequence[object], *names: str) -> dict[str, object]:
+    return dict(zip(names, values, strict=True))
+
+
+def _remarks(gap: SummaryGap) -> list[str]:
+    """Of the campaign and of the answer, each once."""
+    return list(dict.fromkeys((*gap.campaign.remarks, *gap.remarks)))
 
 
 def write_page(
@@ -200,13 +194,6 @@ def draw_observations(gap: SummaryGap) -> Figure:
     axis.set_yticks(places, names)
     axis.invert_yaxis()
     axis.set_xscale("symlog", linthresh=3.0)
-    axis.set_xticks([-30, -10, -3, 0, 3, 10, 30], ["−30", "−10", "−3", "0", "3", "10", "30"])
-    axis.minorticks_off()
     axis.set_xlabel("modelled less observed (standard deviations)")
     figure.legend(loc="outside upper right", ncols=3)
     return figure
-
-
-def _remarks(gap: SummaryGap) -> list[str]:
-    """Of the campaign and of the answer, each once."""
-    return list(dict.fromkeys((*gap.campaign.remarks, *gap.remarks)))

@@ -1,0 +1,225 @@
+"""How far off a model's draws are from the observed figures, and what a whole trial amounts to.
+
+Two measures. The *gap* is the root mean square distance of the model's mean figures from the
+observed ones, in the observations' standard deviations: what is drawn and reported. The
+*misfit* is -2 log likelihood less that of a perfect model: it takes the scatter of the model's own
+figures from seed to seed (the study's scheme is chaotic) as part of what the model predicts, at the
+price of a wider prediction, and adds how far the known numbers were stretched.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from scipy.stats import chi2
+
+from .candidates import Candidate
+from .draws import Array, Draws, Observation
+
+# seeds from which a draw's own scatter is taken; below, that of its kin
+ENOUGH_SEEDS = 4
+#: misfit by which a draw may be worse than the best and still lie in the 95 % interval (one number)
+WITHIN = 3.84
+BOOTSTRAPS = 999
+
+
+@dataclass(frozen=True)
+class Target:
+    """What is to be met: sizes and standard deviations (n,) of the figures."""
+
+    sizes: Array
+    sds: Array
+
+    @classmethod
+    def of(cls, seen: Sequence[Observation]) -> Target:
+        """The observed figures."""
+        return cls(np.array([one.size for one in seen]), np.array([one.sd for one in seen]))
+
+    def without(self, i: int) -> Target:
+        """All but the i-th figure: that one counts for nothing."""
+        return replace(self, sds=np.where(np.arange(len(self.sds)) == i, np.inf, self.sds))
+
+    def distances(self, mean: Array) -> Array:
+        """(..., n) of figures from the observed ones, in standard deviations."""
+        return (mean - self.sizes) / self.sds
+
+    def gap(self, mean: Array) -> Array:
+        """(...) root mean square distance, in standard deviations."""
+        return np.sqrt(np.mean(self.distances(mean) ** 2, axis=-1))
+
+
+def scatter(draws: Draws, kin: Array) -> Array:
+    """(d, n) standard deviation of each draw's figures from seed to seed."""
+    n = draws.seeds[:, None]
+    squares = np.nansum((draws.shown - draws.mean[:, None]) ** 2, axis=1)
+    return np.where(n >= ENOUGH_SEEDS, np.sqrt(squares / np.maximum(n - 1, 1)), kin)
+
+
+def scatter_of_kin(draws: Draws) -> Array:
+    """(n,) typical scatter of a figure from seed to seed: median over the draws that tell it."""
+    told = draws.take(draws.seeds >= ENOUGH_SEEDS)
+    return np.median(scatter(told, np.zeros(draws.shown.shape[-1])), axis=0)
+
+
+def spread(draws: Draws, kin: Array) -> Array:
+    """(d, n) variance of the next realisation about a draw's mean.
+
+    Mean and scatter are both from a few seeds: Student's t, whose variance counts here.
+    """
+    n = draws.seeds[:, None]
+    wider = (1.0 + 1.0 / n) * (n - 1) / np.where(n > 3, n - 3, 1)
+    return np.where(n < ENOUGH_SEEDS, 2.0 * kin**2, scatter(draws, kin) ** 2 * wider)
+
+
+def misfit(draws: Draws, target: Target, kin: Array) -> Array:
+    """(d,) -2 log likelihood, less that of a draw that meets every figure without scatter."""
+    wider = 1.0 + spread(draws, kin) / target.sds**2  # variance of the prediction, in sds squared
+    terms = target.distances(draws.mean) ** 2 / wider + np.log(wider)
+    return terms.sum(axis=1) + draws.surprise
+
+
+def ordered(draws: Draws, target: Target, kin: Array) -> Draws:
+    """The draws from the least misfit on."""
+    return draws.take(np.argsort(misfit(draws, target, kin), kind="stable"))
+
+
+@dataclass(frozen=True)
+class FittedSummary:
+    """A model beside the observed figures.
+
+    values: block.parameter -> number. shown, scatter (n,): mean of each figure over the seeds and
+    its standard deviation from seed to seed. residuals (n,): distance in the observations'
+    standard deviations. gap: their root mean square. lack_of_fit: probability of figures this far
+    off or farther, were the model (its scatter included) true.
+    """
+
+    values: Mapping[str, float]
+    shown: Array
+    scatter: Array
+    residuals: Array
+    gap: float
+    held_out_gap: float
+    lack_of_fit: float
+
+
+@dataclass(frozen=True)
+class Trial:
+    """A candidate, everything that was tried of it, and the scatter of its kin (n,).
+
+    At least one draw has several seeds.
+    """
+
+    candidate: Candidate
+    draws: Draws
+    target: Target
+    kin: Array
+
+    @cached_property
+    def close(self) -> Draws:
+        """Draws that were run with all seeds, from the least misfit on."""
+        several = self.draws.take(self.draws.seeds > 1)
+        return ordered(several, self.target, self.kin)
+
+    @property
+    def best(self) -> Draws:
+        """The first of those, by itself."""
+        return self.close.take(slice(1))
+
+    @property
+    def misfit(self) -> float:
+        """Of the best."""
+        return float(misfit(self.best, self.target, self.kin)[0])
+
+    @property
+    def price(self) -> float:
+        """ln n for each number that was added."""
+        return self.candidate.added * math.log(len(self.target.sizes))
+
+    @property
+    def bic(self) -> float:
+        """Misfit plus the price of the numbers that were added."""
+        return self.misfit + self.price
+
+    @cached_property
+    def held_out_gap(self) -> float:
+        """Root mean square distance of the figures, each predicted by the fit to the others."""
+        found = []
+        for i in range(len(self.target.sizes)):
+            other = np.argmin(misfit(self.close, self.target.without(i), self.kin))
+            found.append(self.target.distances(self.close.mean[other])[i])
+        return float(np.sqrt(np.mean(np.square(found))))
+
+    @cached_property
+    def lack_of_fit(self) -> float:
+        """Probability of figures this far off, were the best draw's model true.
+
+        Of coefficients a known one brings its own observation.
+        """
+        spans = self.candidate.spans
+        free = sum(span.of_friction and span.prior is None for span in spans)
+        freedom = len(self.target.sizes) - self.candidate.added - free
+        variance = self.target.sds**2 + spread(self.best, self.kin)
+        off = np.sum((self.best.mean - self.target.sizes) ** 2 / variance) + self.best.surprise[0]
+        return float(chi2.sf(off, max(freedom, 1)))
+
+    def intervals(self) -> dict[str, tuple[float, float]]:
+        """block.parameter -> range over the draws that are nearly as good as the best."""
+        good = misfit(self.draws, self.target, self.kin) <= self.misfit + WITHIN
+        values = self.draws.take(good).values
+        keys = [span.key for span in self.candidate.spans]
+        return {
+            key: (min(one[key] for one in values), max(one[key] for one in values)) for key in keys
+        }
+
+    def fitted(self, draw: Draws | None = None) -> FittedSummary:
+        """A draw beside the observed figures, the best where none is given."""
+        draw = self.best if draw is None else draw
+        return FittedSummary(
+            values=dict(draw.values[0]),
+            shown=draw.mean[0],
+            scatter=scatter(draw, self.kin)[0],
+            residuals=self.target.distances(draw.mean[0]),
+            gap=float(self.target.gap(draw.mean[0])),
+            held_out_gap=self.held_out_gap,
+            lack_of_fit=self.lack_of_fit,
+        )
+
+
+def p_of_the_best(plain: Trial, others: Sequence[Trial], seed: int) -> float:
+    """Probability, under the plain model, of an improvement like that of the best of ``others``.
+
+    A parametric bootstrap: figures are drawn from the plain model (its own scatter and the
+    observations' standard deviations), and everything that was drawn is fitted to them again, so
+    that choosing the best of many is part of what chance may do.
+    """
+    rng = np.random.default_rng(seed)
+    sds, rows = plain.target.sds, plain.best.shown[0, : plain.best.seeds[0]]
+    before, after = _table([plain]), _table(others)
+
+    def gained(sizes: Array) -> float:
+        return _least_bic(before, sizes, sds) - _least_bic(after, sizes, sds)
+
+    found = gained(plain.target.sizes)
+    as_good = 0
+    for _ in range(BOOTSTRAPS):
+        row = rows[rng.integers(len(rows))]
+        as_good += gained(row + sds * rng.standard_normal(len(row))) >= found
+    return (1 + as_good) / (1 + BOOTSTRAPS)
+
+
+def _table(trials: Sequence[Trial]) -> tuple[Array, Array, Array]:
+    """Of all draws of all trials: means (d, n), variances of a realisation (d, n), prices (d,)."""
+    means = np.concatenate([trial.draws.mean for trial in trials])
+    variances = np.concatenate([spread(trial.draws, trial.kin) for trial in trials])
+    return means, variances, np.concatenate([t.draws.surprise + t.price for t in trials])
+
+
+def _least_bic(table: tuple[Array, Array, Array], sizes: Array, sds: Array) -> float:
+    means, variances, prices = table
+    wider = 1.0 + variances / sds**2
+    terms = ((means - sizes) / sds) ** 2 / wider + np.log(wider)
+    return float((terms.sum(axis=1) + prices).min())
