@@ -1,4 +1,4 @@
-"""What a command says beside its results: notes, bars, and with `-v` more of what it does.
+"""What a command says beside its results: notes, and with `-v` more of what it does.
 
 Results go to stdout, everything else to stderr. `-q` leaves results, warnings and errors.
 """
@@ -9,9 +9,6 @@ import logging
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
-
-from tqdm import tqdm
 
 #: Loggers of the product: what computes says there what a user waits for (WARNING: once, a note),
 #: and what it does (INFO).
@@ -20,17 +17,21 @@ LOGGERS = ("stickslip", "thermal", "cosim")
 _quiet = False
 
 
-class Bar(tqdm):
-    """A bar on stderr: none with `-q`, and none where stderr is no terminal."""
-
-    def __init__(self, *given: Any, **further: Any) -> None:
-        super().__init__(*given, **{"disable": True if _quiet else None, "leave": False, **further})
+def is_quiet() -> bool:
+    """Whether nothing but results, warnings and errors is wanted."""
+    return _quiet
 
 
 def note(text: str) -> None:
     """A line that helps and changes nothing; not with `-q`."""
     if not _quiet:
-        Bar.write(f"note: {text}", file=sys.stderr)
+        _write(f"note: {text}")
+
+
+def _write(text: str) -> None:
+    from tqdm import tqdm  # a bar that is there goes on below the line
+
+    tqdm.write(text, file=sys.stderr)
 
 
 class _Notes(logging.Handler):
@@ -40,7 +41,7 @@ class _Notes(logging.Handler):
         if record.levelno >= logging.WARNING:
             note(record.getMessage())
         else:
-            Bar.write(record.getMessage(), file=sys.stderr)
+            _write(record.getMessage())
 
 
 @contextmanager

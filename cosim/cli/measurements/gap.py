@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
-from cosim.cli.console import Bar, note
+from cosim.cli.bar import Bar
+from cosim.cli.console import note
 from cosim.cli.numbers import numbers_asked
 from cosim.files import OutputRefused, writable
 from cosim.interrupts import held_interrupts

@@ -10,7 +10,8 @@ from typing import Any
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
-from cosim.cli.console import Bar, note
+from cosim.cli.bar import Bar
+from cosim.cli.console import note
 from cosim.cli.numbers import numbers_asked
 from cosim.files import OutputRefused, writable, write_text
 from cosim.interrupts import held_interrupts

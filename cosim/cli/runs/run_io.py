@@ -14,7 +14,8 @@ from typing import Any
 from xml.etree import ElementTree
 
 from cosim.cli import DONE, FAILED, BadInput
-from cosim.cli.console import Bar, note
+from cosim.cli.bar import Bar
+from cosim.cli.console import note
 from cosim.coupling.messages import SMALLEST, UNCONVERGED, Message
 from cosim.coupling.record import LOG, MessageLog, RunFolder
 from cosim.coupling.system import MASTER

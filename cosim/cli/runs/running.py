@@ -15,7 +15,8 @@ from stickslip.steady_motion import Interface, assess
 from stickslip.steady_motion.assessment import MOST_STEPS
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.console import Bar, note
+from cosim.cli.bar import Bar
+from cosim.cli.console import note
 from cosim.cli.numbers import NOT_ASKED, Numbers
 from cosim.cli.runs.closing_lines import closing_lines
 from cosim.cli.runs.run_io import (

@@ -14,7 +14,7 @@ from pathlib import Path
 
 from cosim.cli import DONE, FAILED, BadInput
 from cosim.cli.arguments import add_force, add_json, add_output, add_set
-from cosim.cli.console import Bar as tqdm
+from cosim.cli.bar import Bar as tqdm
 from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken

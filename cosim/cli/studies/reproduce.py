@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_force, add_json, add_output
-from cosim.cli.console import Bar
+from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.files import OutputRefused, writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts

@@ -13,7 +13,7 @@ import numpy as np
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_force, add_json, add_output, add_set
-from cosim.cli.console import Bar
+from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import OutputRefused, writable, write_bytes, write_text

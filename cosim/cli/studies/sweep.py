@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_force, add_json, add_output, add_set
-from cosim.cli.console import Bar as tqdm
+from cosim.cli.bar import Bar as tqdm
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import (

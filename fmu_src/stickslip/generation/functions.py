@@ -7,7 +7,8 @@ import inspect
 import linecache
 import sys
 from collections.abc import Callable, Iterable
-from functools import cached_property
+from copy import deepcopy
+from functools import cache, cached_property
 from typing import Any
 
 from ..effects.effect import Effect
@@ -109,16 +110,21 @@ class EffectFunctions:
                     return ast.parse(repr(numbers[node.id]), mode="eval").body
                 return node
 
-        copy = ast.parse(ast.unparse(function)).body[0]
-        assert isinstance(copy, ast.FunctionDef)
-        copy.body = [Rename().visit(part) for part in copy.body]
-        copy.name = f"{self.effect.id}_{function.name}"
-        return ast.unparse(ast.fix_missing_locations(copy))
+        renamed = deepcopy(function)
+        renamed.body = [Rename().visit(part) for part in renamed.body]
+        renamed.name = f"{self.effect.id}_{function.name}"
+        return ast.unparse(ast.fix_missing_locations(renamed))
 
 
 def arguments(function: Callable[..., object]) -> list[str]:
     """Names by which a term takes its numbers."""
-    return list(inspect.signature(function).parameters)
+    return list(_parameters(function))
+
+
+@cache
+def _parameters(function: Callable[..., object]) -> tuple[str, ...]:
+    """A term is asked for them by every place that might call it."""
+    return tuple(inspect.signature(function).parameters)
 
 
 def define(text: str, name: str, namespace: dict[str, Any]) -> None:

@@ -12,7 +12,8 @@ from stickslip import Parameters, compiled, machine_code, simulate
 
 from cosim.cli import main
 from cosim.cli.arguments import COMMANDS, parser
-from cosim.cli.console import Bar, note, saying
+from cosim.cli.bar import Bar
+from cosim.cli.console import note, saying
 from cosim.cli.runs import run_io
 
 SHORT = "[run]\nduration = 0.5\n"
