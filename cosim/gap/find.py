@@ -23,7 +23,7 @@ from cosim.gap.judge import (
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
 from cosim.gap.plan.next_run import next_experiment
-from cosim.gap.rates import by_direction, rates_of, scatter_of
+from cosim.gap.rates import Scatter, by_direction, rates_of
 from cosim.gap.report_of_findings import (
     exponents_of,
     law_of,
@@ -121,7 +121,9 @@ def _answer(campaign: Campaign, agreed: _Agreed, doubts: Sequence[Doubt]) -> Gap
         rates=rates and by_direction(rates, known),
         doubts=doubts,
         next_experiment=(
-            next_experiment(ladder, named.unknowns, verdict.classes[0], scatter_of(rung)[0])
+            next_experiment(
+                ladder, named.unknowns, verdict.classes[0], Scatter.of(rung).expected[0]
+            )
             if verdict.classes else None
         ),
         rejected=agreed.rejected,
@@ -150,8 +152,9 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
     while True:
         named = naming.named([one.effect for one in rejected])
         parts = [part_of(campaign, named.system, named.rung, finding) for finding in named.findings]
+        most = max((part.finding.gain for part in parts), default=0.0)
         faint = {part.finding.name for part in parts
-                 if may_be_spurious(part.finding, alone=len(parts) == 1)}  # fmt: skip
+                 if may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
         doubted = fitting.rejected(parts, named, faint)
         if doubted is None:
             found, models = fitting.best_of(parts, named)
@@ -186,8 +189,12 @@ class _Fitting:
     def rejected(
         self, parts: Sequence[Part], named: Named, asked: Collection[str]
     ) -> Rejected | None:
-        """The first of the findings asked for that the simulated runs do without."""
-        for part in parts:
+        """The least of the findings asked for that the simulated runs do without.
+
+        The least first: what a greater one leaves may pretend a small one, and with it gone the
+        greater one is seldom in doubt.
+        """
+        for part in sorted(parts, key=lambda part: part.finding.gain):
             if part.finding.name in asked:
                 needed, gained = self.needs(part, parts, named)
                 if not needed:
@@ -200,9 +207,11 @@ class _Fitting:
         if not part.in_kernel:
             return leaves(without.ladder[-1].gap), None
         gained = without.gained(part)
-        if runs_ask(gained - price_of(part.finding.name)):
+        asked, alone = runs_ask(gained - price_of(part.finding.name)), len(parts) == 1
+        if asked and (alone or leaves(without.ladder[-1].gap)):
             return True, gained
-        if not (is_scattered(part.finding) and leaves(without.unscattered)):
+        may_halve = is_scattered(part.finding) or asked
+        if not (may_halve and leaves(without.unscattered)):
             return False, gained
         return halves(self._fitted(named, parts).unscattered, without.unscattered), gained
 

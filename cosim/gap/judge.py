@@ -12,10 +12,10 @@
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
- 8. A finding below e^500, or beside others, or that does not explain the runs, goes, and the rows
-    are not asked for it again, where the simulated runs are not e^6 times as probable with it, nor
-    does it halve what the contact alone leaves; `none` is no finding left, and held-out runs at 1.1
-    at most; without any nothing tells.
+ 8. A finding below e^500, or beside a greater one, or that does not explain the runs, goes, and the
+    rows are not asked for it again, where the simulated runs are not e^6 times as probable with it,
+    or reach noise without a lesser one, unless it halves what the contact alone leaves; `none` is
+    no finding left, and held-out runs at 1.1 at most; without any nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
     where they are better but stay above that, and most of the misfit is gone.
 10. Everything else is `unknown`.
@@ -90,12 +90,12 @@ def explains(ladder: Sequence[Rung]) -> bool:
     return judged(ladder[-1].gap) <= EXPLAINED
 
 
-def may_be_spurious(finding: Finding, alone: bool) -> bool:
+def may_be_spurious(finding: Finding, greatest: bool) -> bool:
     """Whether a contact that is no switch, or what another finding leaves, may make the rows ask.
 
-    Not of what moves the block across, which nothing along x does. alone : no other was found
+    Not of what moves the block across, which nothing along x does. greatest : of those found
     """
-    return bool(finding.added) and (finding.gain < SURE or not alone)
+    return bool(finding.added) and (finding.gain < SURE or not greatest)
 
 
 def runs_ask(gained: float) -> bool:

@@ -10,11 +10,12 @@ import numpy as np
 
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part, contact_numbers, scatter_numbers, started_from
-from cosim.gap.rates import scatter_of
+from cosim.gap.quantities import scatter_text
+from cosim.gap.rates import Scatter
 from cosim.gap.report_of_findings import text_of
 from cosim.gap.result import Rung, Score
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.constants import SCATTER_PRIOR
+from cosim.gap.weak_form.constants import STICK_SCATTER
 from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
 from cosim.gap.windows import Fitted, Number, fit, user_model, windows_of_campaign
@@ -37,7 +38,9 @@ class Models:
 
     system : rows of the fitted runs; jobs : runs simulated at a time
     fits, ladder : one a rung; free : its numbers, its settings and how much friction scatters
-    scatter : of friction, with its 90 % interval; last : ln evidence of the last rung's rows
+    scatter : of friction, with its 90 % interval, as the rows alone have it
+    last : ln evidence of the last rung's rows
+    known : what was fitted to these windows before, by its numbers, settings and scatter
     """
 
     campaign: Campaign
@@ -50,6 +53,7 @@ class Models:
     ladder: list[Rung] = field(default_factory=list)
     scatter: tuple[float, float, float] | None = None
     last: float | None = None
+    known: dict[frozenset, Fitted] = field(default_factory=dict)
 
     @classmethod
     def fitted(
@@ -58,19 +62,18 @@ class Models:
     ) -> Models:  # fmt: skip
         """The user's model, then the findings, then contact and scatter where they are felt.
 
-        rows : with all findings; others : whose windows and user's model these have as well
+        rows : with all findings; others : whose windows and fits these have as well
         """
         windows = others.windows if others else windows_of_campaign(campaign)
-        models = cls(campaign, system, windows, parts, jobs)
+        models = cls(campaign, system, windows, parts, jobs, known=others.known if others else {})
         weak = system.rung(contact=False, scatter=False)
-        first = others.fits[0] if others else None
-        models._add("user's model", "the model as stated", user_model(campaign), weak, first)
+        models._add("user's model", "the model as stated", user_model(campaign), weak)
         step()
         models._add_parts()
         step()
         models._try_contact()
         step()
-        models._try_scatter(scatter_of(rows))
+        models._try_scatter(Scatter.of(rows))
         return models
 
     @property
@@ -95,13 +98,13 @@ class Models:
         rung = self.system.rung(self._added, scatter=False)
         self._try("contact", "the contact is not a switch", more, rung)
 
-    def _try_scatter(self, scatter: tuple[float, float, float]) -> None:
-        self.scatter = scatter
-        spread = scatter[2]  # a run may lie at the far end of what is probable
-        text = f"friction scatters from run to run by {100.0 * scatter[0]:.2g} %"
+    def _try_scatter(self, scatter: Scatter) -> None:
+        self.scatter = scatter.seen
+        spread = scatter.expected[2]  # a run may lie at the far end of what is probable
+        text = scatter_text(scatter.seen)
         numbers, settings, _ = self.free[-1]
         more = [*numbers, *scatter_numbers(self.campaign, spread)]
-        settings = {**settings, BREAK_AWAY: SCATTER_PRIOR}
+        settings = {**settings, BREAK_AWAY: STICK_SCATTER}
         if self._try("scatter", text, (more, settings), self.system.rung(self._added), spread):
             sticks = 100.0 * self.fits[-1].stick_scatter
             text += f", from stick to stick by {sticks:.2g} %"
@@ -131,6 +134,13 @@ class Models:
         return found.gain_over(near) - len(near.runs) * wider
 
     def _fit(self, free: _Free, scatter: float, rows: Rows) -> Fitted:
+        """The same numbers are fitted once, wherever the rows would have them set out from."""
+        same = _same(*free, scatter)
+        if same not in self.known:
+            self.known[same] = self._fitted_from(free, scatter, rows)
+        return self.known[same]
+
+    def _fitted_from(self, free: _Free, scatter: float, rows: Rows) -> Fitted:
         near = self.fits[-1] if self.fits else None
         own = {label: value for part in self.parts for label, value in part.starts.items()}
         before = {**own, **(near.values if near else {})}
@@ -169,6 +179,12 @@ class Models:
         if felt:
             self._add(name, text, free, rows, fitted, scatter)
         return felt
+
+
+def _same(numbers: Sequence[Number], settings: Mapping[str, float], scatter: float) -> frozenset:
+    """What tells one least-squares problem from another: a start alone does not."""
+    terms = ((n.key, n.scope, n.low, n.high, n.prior and (n.start, n.prior)) for n in numbers)
+    return frozenset([*terms, *settings.items(), scatter])
 
 
 def score_of(fitted: Fitted) -> Score:

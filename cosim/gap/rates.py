@@ -177,11 +177,22 @@ def drawn(
     return rows
 
 
-def scatter_of(rung: Rung) -> tuple[float, float, float]:
-    """Scatter of friction from run to run, and its 90 % interval."""
-    spreads, weights = rung.scatter_posterior()
-    low, middle, high = np.interp([0.05, 0.5, 0.95], np.cumsum(weights), spreads)
-    return float(middle), float(low), float(high)
+@dataclass(frozen=True)
+class Scatter:
+    """Of friction from run to run, a part of it: median and 90 % interval, (3,) each.
+
+    seen : as the rows alone have it; expected : with what the campaign expects beforehand
+    """
+
+    seen: tuple[float, float, float]
+    expected: tuple[float, float, float]
+
+    @classmethod
+    def of(cls, rung: Rung) -> Scatter:
+        """As a rung's rows have it."""
+        spreads, *weights = rung.scatter_posterior()
+        shares = [np.interp([0.5, 0.05, 0.95], np.cumsum(w), spreads).tolist() for w in weights]
+        return cls(*(tuple(share) for share in shares))
 
 
 def rates_of(
@@ -199,7 +210,7 @@ def rates_of(
         rung = ladder.system.rung(rest)
         truths = _truths(ladder, unknowns, finding, rung)
         decision = Decision(rung, _asked(ladder, unknowns, finding))
-        scatter, zeros = scatter_of(ladder.rung)[0], rung.settings[0][rung.best][1]
+        scatter, zeros = Scatter.of(ladder.rung).expected[0], rung.settings[0][rung.best][1]
         rows = drawn(rung, each * len(truths), random, scatter, zeros)
         for place, truth in enumerate(truths):
             rows[:, place * each : (place + 1) * each] += truth.rows(rung.system)[:, None]

@@ -11,7 +11,7 @@ import numpy as np
 from cosim.coupling import FmuParticipant
 from cosim.files import write_bytes, write_text
 from cosim.fmu.build import FmuBuildError, own_fmu
-from cosim.gap.quantities import digits, fitted_quantities, with_digits
+from cosim.gap.quantities import digits, fitted_quantities, scatter_text, with_digits
 from cosim.gap.result import Gap
 from cosim.gap.windows.camera import seen, true_time
 from cosim.interrupts import held_interrupts
@@ -70,7 +70,8 @@ def _page(gap: Gap, pictures: Sequence[Picture], corrected: Sequence[Path]) -> s
     quantities = fitted_quantities(gap)
     return render(
         "gap.html.j2", "cosim.gap.show", gap=gap, text=text, digits=digits,
-        with_digits=with_digits, remarks=gap.campaign.remarks, reproduction=reproduction_line(gap),
+        with_digits=with_digits, scatter_text=scatter_text, remarks=gap.campaign.remarks,
+        reproduction=reproduction_line(gap),
         corrected=corrected, quantities=quantities, runs=shown_runs(gap),
         rig=rig_rows(gap), setups={gap.campaign.setup_of(run) for run in shown_runs(gap)},
         owned=[one for one in quantities if one.owner and one.key not in STATED],

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, is_dataclass
 from typing import Any
 
-from cosim.gap.quantities import undetermined
+from cosim.gap.quantities import scatter_is_determined, undetermined
 from cosim.gap.result import NINETY, Gap, Law, Ranked
 from cosim.gap.windows import Fitted
 from cosim.report.files import json_text
@@ -36,7 +36,7 @@ def as_data(gap: Gap, model: str) -> dict[str, Any]:
         "gap": {"before": gap.before, "after": gap.after},
         "ranking": [ranked(row) for row in gap.ranking],
         "curves": [_curve(law) for law in gap.laws],
-        "scatter": gap.scatter and dict(zip(("value", "low", "high"), gap.scatter, strict=True)),
+        "scatter": gap.scatter and _scatter(gap.scatter),
         "model": model,
         "remarks": gap.campaign.remarks,
         "noise": {
@@ -57,6 +57,11 @@ def ranked(row: Ranked) -> dict[str, Any]:
         "fit_gap": row.gap and row.gap.fit,
         "delta_bic": 2.0 * row.evidence,
     }
+
+
+def _scatter(scatter: tuple[float, float, float]) -> dict[str, Any]:
+    numbers = dict(zip(("value", "low", "high"), scatter, strict=True))
+    return numbers | {"determined": scatter_is_determined(scatter)}
 
 
 def _curve(law: Law) -> dict[str, Any]:

@@ -67,8 +67,9 @@ CREEP_SPEED = 1e-3
 OWN_STATIC = 0.25
 #: To what part of itself a break-away's force is read off in a run, beside its scatter.
 STATIC_FLOOR = 3e-3
-#: Scatter of friction from run to run: half-normal prior, and the values asked.
-SCATTER_PRIOR = 0.02
+#: Scatter of friction from stick to stick: standard deviation beforehand.
+STICK_SCATTER = 0.02
+#: Scatter of friction from run to run: the values asked.
 SCATTER_ASKED = (0.002, 0.006, 0.02, 0.06)
 #: Spread of the tracker's zeros in parts of what is stated.
 ZERO_PARTS_ASKED = (0.1, 0.3, 1.0)
@@ -159,7 +160,8 @@ STARTS_ASKED = (1e-5, 3e-4, 3e-3, 2e-2)
 #: How far it may be turned then, rad: a degree where only friction over the disc tells of it, and
 #: five.
 START_TURN = (0.02, 0.1)
-#: Scatter of friction for which its probability is worked out: range, and steps of a fifth.
+#: Scatter of friction for which its probability is worked out: range, and steps of a fifth; a
+#: scatter whose interval reaches the least is not determined.
 SCATTER_RANGE, SCATTER_STEPS = (5e-4, 0.2), 33
 #: Phases of a ripple that are tried in a run that seldom sticks.
 PHASES_TRIED = 12

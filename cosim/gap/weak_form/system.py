@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 from scipy.linalg import block_diag
-from scipy.special import logsumexp
+from scipy.special import logsumexp, softmax
 
 from cosim.gap.data import Campaign
 from cosim.gap.weak_form.added import Added, Beside, factor_of, factors_of
@@ -25,7 +25,6 @@ from cosim.gap.weak_form.constants import (
     BENDS_ASKED,
     SCALES_ASKED,
     SCATTER_ASKED,
-    SCATTER_PRIOR,
     SCATTER_RANGE,
     SCATTER_STEPS,
     ZERO_PARTS_ASKED,
@@ -144,7 +143,8 @@ class Rung:
         """
         spreads = np.array(SCATTER_ASKED) if self.kinds[1] else np.zeros(1)
         pairs = np.array([(s, z) for s in spreads for z in ZERO_PARTS_ASKED])
-        log_weights = -0.5 * np.square(pairs[:, 0] / SCATTER_PRIOR)
+        expected = self.system.campaign.errors.friction
+        log_weights = -0.5 * np.square(pairs[:, 0] / expected)
         return pairs, log_weights - logsumexp(log_weights)
 
     @cached_property
@@ -311,12 +311,15 @@ class Rung:
         """Sum of squares beyond the noise's."""
         return float(max(self.residuals @ self.residuals - self.residuals.size, 0.0))
 
-    def scatter_posterior(self) -> tuple[np.ndarray, np.ndarray]:
-        """(s,) values of the scatter of friction and their probabilities, at the best zeros."""
+    def scatter_posterior(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """(s,) values of the scatter of friction; their probabilities as the rows alone have them,
+        and with what is expected beforehand.
+
+        Over all spreads of the zeros: a block that slides one way only is pushed aside alike by its
+        own friction and by its tracker's zero.
+        """
         spreads = np.geomspace(*SCATTER_RANGE, SCATTER_STEPS)
-        zeros = np.full(spreads.size, self.settings[0][self.best][1])
-        values = (
-            self._at(np.column_stack([spreads, zeros]))[2] - 0.5 * (spreads / SCATTER_PRIOR) ** 2
-        )
-        weights = np.exp(values - values.max())
-        return spreads, weights / weights.sum()
+        pairs = np.array([(s, z) for s in spreads for z in ZERO_PARTS_ASKED])
+        values = logsumexp(self._at(pairs)[2].reshape(spreads.size, -1), axis=1)
+        expected = values - 0.5 * np.square(spreads / self.system.campaign.errors.friction)
+        return spreads, softmax(values), softmax(expected)

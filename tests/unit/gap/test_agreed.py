@@ -1,6 +1,6 @@
 """What the rows ask for and the simulated runs do without is not asked of the rows again."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,11 +9,13 @@ import pytest
 from cosim.gap import find
 from cosim.gap.extended import Part
 from cosim.gap.judge import SURE
+from cosim.gap.models import _same
 from cosim.gap.result import Doubt, Rejected, Score
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.ladder import Finding
 from cosim.gap.weak_form.unknowns import Unknown
 from cosim.gap.windows.fitted import Fitted, FittedRun
+from cosim.gap.windows.numbers import Number
 
 
 def finding(name, gain):
@@ -21,33 +23,39 @@ def finding(name, gain):
 
 
 class Rows:
-    """Ask for the first of some findings that is not barred."""
+    """Ask for the first of some findings that is not barred, or for so many of them."""
 
-    def __init__(self, *findings):
-        self.findings, self.asked = findings, []
+    def __init__(self, *findings, most=1):
+        self.findings, self.most, self.asked = findings, most, []
 
     def named(self, without):
         self.asked.append(tuple(without))
         left = [one for one in self.findings if one.name not in without]
-        return SimpleNamespace(findings=tuple(left[:1]), system=None, rung=None)
+        return SimpleNamespace(findings=tuple(left[: self.most]), system=None, rung=None)
 
 
-def agreed(monkeypatch, rows, gained, reached=1.0):
-    """Findings and what was pretended; gained : name -> what simulated runs gain by it."""
+def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0)):
+    """Findings and what was pretended; gained : name -> what simulated runs gain by it.
+
+    reached : gap at the end of every ladder; halved : what the contact leaves, without and with
+    """
     monkeypatch.setattr(find.Naming, "of", lambda campaign: rows)
     monkeypatch.setattr(
         find, "part_of", lambda campaign, system, rung, one: Part(one, None, (), (), {"on": 1.0})
     )
 
     class Models:
-        parts, unscattered = (), Score(1.0, 1.0)
         ladder = [SimpleNamespace(name="user's model", gap=Score(reached, reached))]
+
+        def __init__(self, parts):
+            left = halved[len(parts) == len(rows.findings)]
+            self.unscattered = Score(left, left)
 
         def gained(self, part):
             return gained[part.finding.name]
 
     fitting = find._Fitting(None, lambda: None, 1)
-    monkeypatch.setattr(fitting, "_fitted", lambda named, parts: Models())
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts: Models(parts))
     answer = find._agreed(None, fitting)
     return [part.finding.name for part in answer.parts], answer.spurious
 
@@ -76,6 +84,37 @@ def test_a_fault_of_the_camera_is_less_probable_beforehand(monkeypatch, gained, 
 def test_what_is_sure_is_asked_of_runs_that_it_does_not_explain(monkeypatch, reached, names):
     rows = Rows(finding("run_in", 2.0 * SURE))
     assert agreed(monkeypatch, rows, {"run_in": 0.0}, reached)[0] == names
+
+
+@pytest.mark.parametrize(
+    ("reached", "halved", "named"),
+    [(1.0, (1.0, 1.0), 1), (1.2, (1.0, 1.0), 2), (1.0, (2.0, 1.48), 2), (1.0, (2.0, 1.6), 1)],
+)
+def test_a_lesser_finding_is_missed_or_halves_what_the_contact_leaves(
+    monkeypatch, reached, halved, named
+):
+    """Simulated runs may be more probable with it, and come to their noise without it."""
+    rows = Rows(finding("run_in", 2.0 * SURE), finding("surface_pattern", 80.0), most=2)
+    found, _ = agreed(monkeypatch, rows, {"surface_pattern": 15.0}, reached, halved)
+    assert found == ["run_in", "surface_pattern"][:named]
+
+
+def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monkeypatch):
+    """With what it leaves gone the greatest is beyond doubt: no model is fitted without it."""
+    rows = Rows(finding("run_in", 2.0 * SURE), finding("film_drag", 9.0 * SURE),
+                finding("surface_pattern", 80.0), most=3)  # fmt: skip
+    gained = {"surface_pattern": 0.0, "run_in": 0.0}  # film_drag: KeyError
+    assert agreed(monkeypatch, rows, gained) == (["film_drag"], ("surface_pattern", "run_in"))
+
+
+def test_a_problem_of_least_squares_is_the_same_from_any_start():
+    free = Number("friction.mu_k", 0.2, None, 0.0, 1.0)
+    known = Number("offset.x", 0.0, 1e-3, -3e-3, 3e-3, "run")
+    same = _same([free, known], {"a.b": 1.0}, 0.02)
+    assert _same([known, replace(free, start=0.3)], {"a.b": 1.0}, 0.02) == same
+    assert _same([free, replace(known, start=1e-4)], {"a.b": 1.0}, 0.02) != same  # of its prior
+    assert _same([free, known], {"a.b": 2.0}, 0.02) != same
+    assert _same([free, known], {"a.b": 1.0}, 0.03) != same
 
 
 def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):

@@ -1,5 +1,7 @@
 """Rows of the equation of motion: exact integrals, unit noise, evidence, and what they ask for."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from gap_campaigns import KNOWN, NOISE, motion, noisy, write_campaign
@@ -7,8 +9,11 @@ from scipy.special import logsumexp
 from scipy.stats import multivariate_normal
 
 from cosim.gap import read_campaign
+from cosim.gap.quantities import scatter_text
+from cosim.gap.rates import Scatter
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.arguments import Arguments
+from cosim.gap.weak_form.constants import SCATTER_RANGE
 from cosim.gap.weak_form.evidence import posterior
 from cosim.gap.weak_form.ladder import Search
 from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
@@ -174,6 +179,33 @@ def test_evidence_of_a_campaign_is_that_of_its_dense_covariance(system):
         white = np.linalg.solve(lower, system.rows)
         densities.append(weight - 0.5 * white @ white - np.log(np.diag(lower)).sum())
     assert rung.evidence == pytest.approx(logsumexp(densities), rel=1e-9)
+
+
+def test_what_is_expected_of_scatter_is_what_the_campaign_states(system):
+    """Half-normal, of `errors.friction`: 2 % where nothing is said."""
+    wider = replace(system.campaign, errors=system.campaign.errors.model_copy(
+        update={"friction": 0.06}))  # fmt: skip
+    settings, narrow = system.rung().settings
+    wide = System(wider, system.runs).rung().settings[1]
+    at = [int(np.flatnonzero(np.isclose(settings[:, 0], part))[0]) for part in (0.002, 0.06)]
+    expected = -0.5 * (0.06**2 - 0.002**2) / np.square([0.02, 0.06])
+    found = [weights[at[1]] - weights[at[0]] for weights in (narrow, wide)]
+    assert found == pytest.approx(list(expected))
+
+
+@pytest.mark.parametrize("zero", [1e-4, 5e-4])
+@pytest.mark.parametrize("size", [0.0, 0.03])
+def test_scatter_lies_in_its_interval_whatever_the_zeros_may_be(tmp_path, size, zero):
+    """Zeros of half a millimetre push a block aside as 3 % of its friction do."""
+    parts = 1.0 + size * np.array([1.2, -0.9, 0.4, -1.3, 0.6])
+    campaign = written(tmp_path, parts=parts)
+    errors = campaign.errors.model_copy(update={"zero": zero / NOISE})
+    scatter = Scatter.of(system_of(replace(campaign, errors=errors)).rung())
+    _, low, high = scatter.seen
+    assert (low < 1e-3 and high < 0.02) if size == 0.0 else low < np.std(parts) < high
+    assert scatter.expected[2] <= high
+    text = scatter_text(scatter.seen)
+    assert ("at most" in text) == (low < 2.0 * SCATTER_RANGE[0])
 
 
 def test_a_run_that_no_fit_has_seen_is_left_with_its_noise(system, tmp_path):
