@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from .cases import many
 from .claims.friction_level import misfit, observed
 from .claims.rotation import ROTATES, turns_far_and_near
 from .readings import (
@@ -117,4 +116,4 @@ def _names(readings: Iterable[Reading]) -> str:
 def datasets() -> Datasets:
     """Every reading beside the marks, and the claims as printed and under those that stand."""
     bearing = [AS_PRINTED, *(one for one in standing() if one != AS_PRINTED)]
-    return Datasets(tuple(outcomes()), tuple(many(attribution, bearing)))
+    return Datasets(tuple(outcomes()), tuple(map(attribution, bearing)))

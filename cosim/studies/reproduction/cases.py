@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from itertools import product
@@ -88,17 +87,9 @@ def plan(stiffnesses: Sequence[float] = STIFFNESSES) -> list[Case]:
 def scheme(case: Case, faults: Faults, **changes: Any) -> Scheme:
     """The study's scheme for a case; friction scatters, or depends on speed, never both."""
     changes = {"scatter": 0.0 if case.weakening else SCATTER} | changes
-    return Scheme(
-        mass=case.mass,
-        stiffness=case.stiffness,
-        speed=case.speed,
-        mu_s=case.mu_s,
-        mu_k=case.mu_k,
-        mu_slope=case.mu_slope,
-        mu_k_speed=SPEEDS[0],
-        faults=faults,
-        **changes,
-    )
+    names = ("mass", "stiffness", "speed", "mu_s", "mu_k", "mu_slope")
+    numbers = {name: getattr(case, name) for name in names}
+    return Scheme(mu_k_speed=SPEEDS[0], faults=faults, **numbers, **changes)
 
 
 def exact_parameters(case: Case, *, pretension: float = PRETENSION, **tables: Any) -> Parameters:
@@ -181,25 +172,24 @@ def _exact_figures(parameters: Parameters) -> MotionFigures:
     return figures(_exact_motion(parameters, SETTLING + WINDOW).between(SETTLING))
 
 
-def many(call: Callable[..., Any], cases: Iterable[Any], *rest: Any) -> list[Any]:
-    """``call(case, *rest)`` for each case, on two cores: the scheme's loop runs without the GIL.
+def three_figures(
+    case: Case, seeds: tuple[int, ...] = SEEDS, **model: Any
+) -> tuple[MotionFigures, MotionFigures, MotionFigures]:
+    """Steady figures as printed, mended, exact; model: of `exact_parameters`."""
+    printed, mended = (scheme_figures(case, faults, seeds) for faults in (PRINTED, MENDED))
+    return printed, mended, exact_figures(case, **model)
 
-    Threads, not `cosim.processes`: runs are cached for the claims that follow, and a call may be a
-    closure, which no process can be sent.
-    """
-    with ThreadPoolExecutor(max_workers=2) as pool:
-        return list(pool.map(lambda case: call(case, *rest), cases))
+
+def three_motions(case: Case, **model: Any) -> tuple[Motion, Motion, Motion]:
+    """Whole runs as printed, mended, exact; model: of `exact_parameters`."""
+    printed, mended = (scheme_motion(case, faults) for faults in (PRINTED, MENDED))
+    return printed, mended, exact_motion(case, **model)
 
 
 def tabulated(figure: str, cases: Sequence[Case], seeds: tuple[int, ...] = SEEDS[:1]) -> Array:
     """A steady figure of each case: (3, n), as printed, mended, exact with the block guided."""
-    return np.array(
-        [
-            [getattr(one, figure) for one in many(scheme_figures, cases, PRINTED, seeds)],
-            [getattr(one, figure) for one in many(scheme_figures, cases, MENDED, seeds)],
-            exact_table(figure, cases, rig=GUIDED),
-        ]
-    )
+    found = [three_figures(case, seeds, rig=GUIDED) for case in cases]
+    return np.array([[getattr(one, figure) for one in three] for three in found]).T
 
 
 def exact_table(figure: str, cases: Sequence[Case], **model: Any) -> Array:

@@ -47,47 +47,23 @@ FAR = "far"  # the study says otherwise: only how far it is to the turn
 
 
 @dataclass(frozen=True)
-class Printed:
-    """A number of the study, or in words a range between two of its numbers.
-
-    place: section, then table, figure or equation. ValueError for a number without its place.
-    """
-
-    value: float | str
-    place: str
-
-    def __post_init__(self) -> None:
-        if not self.place:
-            raise ValueError(f"{self.value}: where does the study print it?")
-
-    @property
-    def number(self) -> float:
-        """The value; ValueError where the study prints words."""
-        return float(self.value)
-
-
-@dataclass(frozen=True)
 class Row:
     """One quantity: the study's figure, what follows from the study's numbers, and ours.
 
-    derived: computed from the study's numbers, not printed there; how: in what way. None: there is
-    none. digits: significant ones that are shown of ours. ValueError for one without the other.
+    study: what the study prints; place: where. derived: computed from the study's numbers, not
+    printed there; how: in what way. None: there is none. digits: significant ones that are shown.
     """
 
     quantity: str
     unit: str
-    study: Printed | None = None
+    study: float | str | None = None
+    place: str = ""
+    derived: float | str | None = None
+    how: str = ""
+    digits: int = 4
     printed: float | None = None
     mended: float | None = None
     exact: float | None = None
-    _: KW_ONLY
-    digits: int = 4
-    derived: float | str | None = None
-    how: str = ""
-
-    def __post_init__(self) -> None:
-        if (self.derived is not None) != bool(self.how):
-            raise ValueError(f"{self.quantity}: a derived figure and its way go together")
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ the print leaves it open, and is laid beside all five.
 from __future__ import annotations
 
 import tomllib
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from stickslip.reference.scheme_errors import PRINTED, Faults
 
-from .cases import DATASETS, SEEDS, Case, many, scheme
+from .cases import DATASETS, SEEDS, Case, scheme
 from .motion import Motion, MotionFigures, average, figures
 from .sheet import STUDY
 
@@ -43,42 +43,36 @@ def _mark(study: str = "", **written: Any) -> dict[str, Any]:
 MARKS = [_mark(**written) for written in WRITTEN["mark"]]
 
 
-@dataclass(frozen=True)
+Numbers = dict[str, Any]
+
+
+@dataclass(frozen=True, eq=False)
 class Reading:
     """A way to read the scheme.
 
     name: what is taken otherwise; place: where the study says so, empty where it leaves it open.
-    faults: of the scheme; changes: of its other numbers; case: numbers of both datasets, and of #2
-    alone; turned: rad, at the start: the last digit of a double is what sums in another order leave
-    of a perfect balance.
+    faults: of the scheme; changes: of its other numbers; both, second: numbers of both datasets,
+    and of #2 alone; turned: rad, at the start: the last digit of a double is what sums in another
+    order leave of a perfect balance.
     """
 
     name: str
     place: str = ""
     faults: Faults = PRINTED
-    changes: tuple[tuple[str, Any], ...] = ()
-    both: tuple[tuple[str, float], ...] = ()
-    second: tuple[tuple[str, float], ...] = ()
+    changes: Numbers = field(default_factory=dict)
+    both: Numbers = field(default_factory=dict)
+    second: Numbers = field(default_factory=dict)
     turned: float = 1e-15
-
-    @classmethod
-    def of(cls, name: str, mended: list[str], **written: Any) -> Reading:
-        """As it is written: tables are kept as pairs, by which runs are remembered."""
-        pairs: dict[str, Any] = {
-            key: tuple(value.items()) if isinstance(value, dict) else value
-            for key, value in written.items()
-        }
-        return cls(name, faults=PRINTED.without(*mended), **pairs)
 
     def case(self, dataset: int, **changes: float) -> Case:
         """The dataset as this reading has it, with further changes."""
-        own = dict(self.both) | (dict(self.second) if dataset == 2 else {})
+        own = self.both | (self.second if dataset == 2 else {})
         return DATASETS[dataset].changed(**own | changes)
 
     @property
     def seeds(self) -> tuple[int, ...]:
         """One where there is no chance in the reading."""
-        chance = dict(self.changes).get("scatter") != 0.0 and "weakening" not in dict(self.both)
+        chance = self.changes.get("scatter") != 0.0 and "weakening" not in self.both
         return SEEDS if chance else SEEDS[:1]
 
     def mended(self, *faults: str) -> Reading:
@@ -87,13 +81,16 @@ class Reading:
 
     def motion(self, dataset: int, seed: int = 0, **case: float) -> Motion:
         """A whole run."""
-        one = scheme(self.case(dataset, **case), self.faults, **dict(self.changes))
+        one = scheme(self.case(dataset, **case), self.faults, **self.changes)
         return Motion.of_scheme(
             one.run(cycles=CYCLES, duration=LONGEST, seed=seed, turned=self.turned)
         )
 
 
-READINGS = tuple(Reading.of(**{"mended": [], **written}) for written in WRITTEN["reading"])
+READINGS = [
+    Reading(faults=PRINTED.without(*written.pop("mended", ())), **written)
+    for written in WRITTEN["reading"]
+]
 AS_PRINTED, ROUNDED, BALANCED = READINGS[0], READINGS[3], READINGS[4]
 
 
@@ -151,7 +148,7 @@ def _figure(reading: Reading, dataset: int, name: str) -> float:
 
 def outcomes() -> list[Outcome]:
     """Every reading laid beside the marks, in the order of `READINGS`."""
-    return many(outcome, READINGS)
+    return [outcome(reading) for reading in READINGS]
 
 
 def standing() -> list[Reading]:

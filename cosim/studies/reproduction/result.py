@@ -11,16 +11,7 @@ from stickslip.reference.scheme_errors import DESCRIPTIONS
 from cosim.report.page import render
 
 from .attributions import Datasets
-from .claim import (
-    CANNOT_BE_CHECKED,
-    DOES_NOT_HOLD,
-    FOLLOWS,
-    HOLDS,
-    ONLY_WITH_FAULT,
-    UNDECIDED,
-    Claim,
-    Row,
-)
+from .claim import Claim
 from .readings import MARKS
 
 #: The study's faults that are no switch of the scheme but stand behind a verdict.
@@ -28,17 +19,6 @@ OTHER_FAULTS = {
     "F9": "one pass of the belt is counted, all heat goes to it, a conductivity is used as a rate",
     "F11": "the product of the friction force is misprinted: 4.0349 N by its own factors",
 }
-#: Verdict -> its class on the page, and the verdict after a number of claims.
-VERDICTS = {
-    HOLDS: ("holds", "hold"),
-    FOLLOWS: ("follows", "follow from an assumption"),
-    ONLY_WITH_FAULT: ("fault", "hold only with a fault"),
-    UNDECIDED: ("undecided", "are undecided"),
-    DOES_NOT_HOLD: ("fails", "do not hold"),
-    CANNOT_BE_CHECKED: ("unknown", "cannot be checked"),
-}
-#: Changes of assumptions that are told of a claim in the referee's table.
-TOLD = 3
 
 
 def as_data(
@@ -74,16 +54,9 @@ def _claim(claim: Claim) -> dict[str, Any]:
     words = ("id", "title", "place", "first", "verdict", "scope", "word", "faults", "reason")
     return _named(claim, *words, "remarks", "assumed") | {
         "checks": [asdict(check) | {"verdict": check.verdict} for check in claim.checks],
-        "numbers": [_number(row) for row in claim.rows],
+        "numbers": [asdict(row) for row in claim.rows],
         "figures": [f"{picture.name}.png" for picture in claim.pictures],
     }
-
-
-def _number(row: Row) -> dict[str, Any]:
-    """The study's number stands beside its place, not in a tree of its own."""
-    study = (row.study.value, row.study.place) if row.study else (None, "")
-    ours = _named(row, "quantity", "unit", "derived", "how", "printed", "mended", "exact")
-    return ours | dict(zip(("study", "place"), study, strict=True))
 
 
 def _datasets(datasets: Datasets) -> dict[str, Any]:
@@ -114,15 +87,7 @@ def _plain(value: Any) -> Any:
 
 def page(claims: list[Claim], faults: dict[str, str], datasets: Datasets | None = None) -> str:
     """HTML with every picture inside; ``faults`` are the descriptions of the scheme's."""
-    words = [claim.word for claim in claims]
     return render(
-        "report.html.j2",
-        "cosim.studies.reproduction",
-        claims=claims,
-        classes={verdict: name for verdict, (name, _) in VERDICTS.items()},
-        counts={counted: words.count(word) for word, (_, counted) in VERDICTS.items()},
-        faults=faults | OTHER_FAULTS,
-        datasets=datasets,
-        marks=MARKS,
-        told=TOLD,
-    )
+        "report.html.j2", "cosim.studies.reproduction", claims=claims, datasets=datasets,
+        faults=faults | OTHER_FAULTS, marks=MARKS, words=[claim.word for claim in claims],
+    )  # fmt: skip

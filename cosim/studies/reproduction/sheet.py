@@ -11,7 +11,7 @@ import tomllib
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -20,14 +20,28 @@ from cosim.report.live import live_of
 from cosim.report.page import Picture
 from cosim.report.style import picture
 
-from .claim import FAR, Check, Claim, Margin, Printed, Row, Turn
-from .drawing import Panel, figure_of
+from .claim import FAR, Check, Claim, Margin, Row, Turn
+from .drawing import MODELS, Panel, figure_of
 
 WRITTEN: dict[str, Any] = tomllib.loads(
     Path(__file__).with_name("claims.toml").read_text(encoding="utf-8")
 )
-#: Every number of the study that is compared with, by name; the place stands in `claims.toml`.
-STUDY: dict[str, Printed] = {
+
+
+class Printed(NamedTuple):
+    """A number of the study, or in words a range between two of its numbers, and its place."""
+
+    value: float | str
+    place: str
+
+    @property
+    def number(self) -> float:
+        """The value; ValueError where the study prints words."""
+        return float(self.value)
+
+
+#: Every number of the study that is compared with, by name.
+STUDY = {
     name: Printed(value, place)
     for place, numbers in WRITTEN["study"].items()
     for name, value in numbers.items()
@@ -39,8 +53,8 @@ COMPARED = {
     "at most": operator.le,
     "at least": operator.ge,
 }
-#: As printed, mended, exact; None: the model has no such number, or cannot tell.
-Numbers = Iterable[float | None]
+#: As printed, mended, exact; None, or nothing: the model has no such number, or cannot tell.
+Numbers = Sequence[float | None] | np.ndarray
 Answers = Iterable[bool | None]
 NONE = (None, None, None)
 
@@ -55,30 +69,18 @@ class Sheet:
         self._pictures: list[Picture] = []
 
     def row(
-        self,
-        name: str,
-        ours: Numbers = NONE,
-        /,
-        *,
-        study: str = "",
-        derived: Any = None,
-        **said: Any,
+        self, name: str, ours: Numbers = (), /, *, study: str = "", derived: Any = None, **said: Any
     ) -> None:
         """A row of numbers; study: name of the study's, where the text does not say it."""
         written = self._written["row"][name]
-        study = study or written.get("study", "")
+        told, place = STUDY.get(study or written.get("study", ""), (None, ""))
         derived = written.get("derived") if derived is None else derived
-        self._rows.append(
-            Row(
-                written["says"].format(**said),
-                written.get("unit", "1"),
-                STUDY[study] if study else None,
-                *(None if one is None else float(one) for one in ours),
-                digits=written.get("digits", 4),
-                derived=derived,
-                how=written.get("how", "").format(**said) if derived is not None else "",
-            )
-        )
+        how = "" if derived is None else written["how"]
+        numbers = [None if one is None else float(one) for one in (*ours, *NONE)[:3]]
+        told_by = dict(zip(MODELS, numbers, strict=True))
+        text, unit = written["says"].format(**said), written.get("unit", "1")
+        digits = written.get("digits", 4)
+        self._rows.append(Row(text, unit, told, place, derived, how, digits, **told_by))
 
     def rows(self, name: str, table: Any, /, **said: Any) -> None:
         """A row for each column of numbers (3, n); said: of each its own."""
@@ -88,7 +90,7 @@ class Sheet:
     def check(
         self,
         name: str,
-        ours: Numbers = NONE,
+        ours: Numbers = (),
         /,
         *,
         answers: Answers | None = None,
@@ -103,28 +105,19 @@ class Sheet:
         margin: the number beside the limit, where it is not that of the model that decides.
         """
         written = self._written["check"][name]
-        compare = COMPARED[written.get("so", "below")]
-        at = written.get("limit", 0.0) if limit is None else limit
-        self._passes = lambda value: bool(compare(value, at))
-        self._said = said | {"limit": at}
-        ours = list(ours)
-        if answers is None:
-            answers = [None if one is None else self._passes(one) for one in ours]
-        if margin is None:
-            margin = next((one for one in reversed(ours) if one is not None), None)
+        limit = written.get("limit", 0.0) if limit is None else limit
+        compare, unit = COMPARED[written.get("so", "below")], written.get("unit", "1")
+        self._said = said = said | {"limit": limit}
+        self._passes = lambda one: None if one is None else bool(compare(one, limit))
+        known = [one for one in (*ours, margin) if one is not None]
         shown = None
-        if margin is not None:
-            what = written["margin"].format(**self._said)
-            shown = Margin(what, float(margin), float(at), written.get("unit", "1"))
-        self._checks.append(
-            Check(
-                written["says"].format(**self._said),
-                *(None if one is None else bool(one) for one in answers),
-                faults=faults,
-                margin=shown,
-                together=together,
-            )
-        )
+        if known:
+            shown = Margin(written["margin"].format(**said), float(known[-1]), float(limit), unit)
+        if answers is None:
+            answers = map(self._passes, ours)
+        told = [None if one is None else bool(one) for one in (*answers, *NONE)[:3]]
+        part = Check(written["says"].format(**said), *told, faults=faults, margin=shown)
+        self._checks.append(replace(part, together=together))
 
     def turn(
         self,
@@ -138,15 +131,10 @@ class Sheet:
     ) -> None:
         """What the last check comes to under a change: a number against the same limit."""
         written = self._written["turn"][name]
-        if sound is None and value is not None:
-            sound = self._passes(value)
         said = self._said | said | {"value": value}
-        turn = Turn(
-            written["change"].format(**said),
-            written["figure"].format(**said),
-            bool(sound),
-            weight or written.get("weight", FAR),
-        )
+        change, figure = (written[text].format(**said) for text in ("change", "figure"))
+        sound = self._passes(value) if sound is None else sound
+        turn = Turn(change, figure, bool(sound), weight or written.get("weight", FAR))
         last = self._checks[-1]
         self._checks[-1] = replace(last, turns=(*last.turns, turn))
 
@@ -164,22 +152,15 @@ class Sheet:
     def claim(self, **said: Any) -> Claim:
         """The judged claim; said: what its remarks, its scope and what is read first leave open."""
         written, shared = self._written, WRITTEN["assumed"]
-        said = {"scope": written.get("scope", "")} | said
+        names = ("title", "place", "rests", "first", "scope")
+        assumed = [shared.get(one, one) for one in written.get("assumed", ())]
         return Claim(
             self.id,
-            written["title"],
-            tuple(self._rows),
-            tuple(self._checks),
-            remarks=_filled(written.get("remarks", ()), said),
-            assumed=_filled([shared.get(one, one) for one in written.get("assumed", ())], said),
+            rows=tuple(self._rows),
+            checks=tuple(self._checks),
             pictures=tuple(self._pictures),
             leading=written.get("leading", 0),
-            place=written["place"],
-            rests=written["rests"].format(**said),
-            first=written.get("first", "").format(**said),
-            scope=said["scope"].format(**said),
+            remarks=tuple(text.format(**said) for text in written.get("remarks", ())),
+            assumed=tuple(text.format(**said) for text in assumed),
+            **{name: written[name].format(**said) for name in names if name in written},
         )
-
-
-def _filled(texts: Sequence[str], said: dict[str, Any]) -> tuple[str, ...]:
-    return tuple(text.format(**said) for text in texts)

@@ -9,10 +9,8 @@ from stickslip.reference.scheme_errors import MENDED, PRINTED
 
 from cosim.studies.reproduction import reproduce
 from cosim.studies.reproduction.cases import (
-    CASE,
     DATASET_1,
     DATASET_2,
-    MASSES,
     exact_figures,
     scheme_figures,
 )
@@ -20,9 +18,7 @@ from cosim.studies.reproduction.claims import (
     belt_length,
     friction_level,
     jumps_to_stick,
-    rotation,
     run_times,
-    trends,
     verification,
 )
 from cosim.studies.reproduction.sheet import STUDY, Printed
@@ -98,27 +94,12 @@ def test_scheme_against_an_independent_implementation(case, mended, expected):
     assert np.all(np.abs(np.subtract(found, expected)) < (5e-4, 1e-3, 0.3, 0.03))
 
 
-def test_a_rotation_that_is_the_farthest_is_that_of_the_study():
-    """C7: 161 degrees of eight runs, the study's 150."""
-    assert rotation.farthest(DATASET_1, PRINTED).rotation == pytest.approx(161.0, abs=1.0)
-
-
 def test_jumps_hang_on_the_assumed_slope():
     """C14: each named run jumps at some slope near the assumed one, so neither yes nor no."""
     for case in jumps_to_stick.NAMED:
         assert jumps_to_stick.jumps(case, PRINTED) == 0
         others = case.over("weakening", jumps_to_stick.OTHER_WEAKENINGS)
         assert {jumps_to_stick.jumps(other, PRINTED) > 0 for other in others} == {True, False}
-
-
-def test_the_spread_is_of_the_speeds():
-    """C10: friction that falls linearly differs between the speeds by what the law differs."""
-    guided = {"degrees_of_freedom": ("x",)}
-    softest, stiffest = trends._spreads(
-        lambda case: exact_figures(case, rig=guided), CASE, MASSES[:1]
-    )
-    assert softest == pytest.approx(CASE.mu_k * CASE.weakening, rel=0.05)
-    assert stiffest == pytest.approx(softest, rel=0.05)
 
 
 def test_misfit_counts_in_spreads():
@@ -149,8 +130,8 @@ def test_friction_level_against_the_measurements():
 def test_what_cannot_be_compared_is_not_judged(monkeypatch):
     """C12: a time of this machine is no figure of the study's, whatever it is."""
     for ratio in (1.0, 15.0):
-        times = {"python": [ratio, 1.0], "numpy": [ratio, 2.0], "compiled": [0.1] * 2}
-        monkeypatch.setattr(run_times, "measured", lambda times=times: times | {"exact": [0.01]})
+        times = {"script": [ratio, 1.0], "compiled": [0.1, 0.1]}
+        monkeypatch.setattr(run_times, "measured", lambda times=times: times)
         assert run_times.judge().verdict == "cannot be checked"
 
 
@@ -173,7 +154,7 @@ def test_one_pass_repeated_once_is_the_single_pass():
 def test_the_belt_table_follows_from_the_misprint(quick):
     """C15: from the printed force, not from its factors."""
     for row in quick["C15"].rows[:4]:
-        assert abs(row.printed - row.study.value) < 1e-4 < abs(row.mended - row.study.value)
+        assert abs(row.printed - row.study) < 1e-4 < abs(row.mended - row.study)
 
 
 def test_sticks_do_not_show_that_friction_is_dry(quick):

@@ -25,7 +25,7 @@ def answer():
     with pytest.MonkeyPatch.context() as patch:
         for module, name, value in (
             (find, "PLAIN_DRAWS", 8), (find, "PLAIN_CLOSELY", 2), (find, "RANGE_DRAWS", 8),
-            (find, "IN_THE_RUNNING", 1), (find, "FIRST", 8),
+            (find, "IN_THE_RUNNING", 1), (search, "FIRST", 8),
             (search, "MORE", 32), (search, "CLOSELY", 4),
         ):  # fmt: skip
             patch.setattr(module, name, value)
@@ -47,7 +47,7 @@ def test_the_gap_shrinks_by_far_more_than_with_any_other_effect(answer):
     assert answer.gap_before[0] > 12.0
     assert answer.gap_after[0] < 3.0
     assert answer.gap_after[1] < 4.0  # each figure predicted by the others
-    assert all(row.fit_gap > 3.0 * answer.gap_after[0] for row in answer.ranking[1:])
+    assert all(row.gap.fit > 3.0 * answer.gap_after[0] for row in answer.ranking[1:])
 
 
 def test_other_friction_is_no_way_out(answer):

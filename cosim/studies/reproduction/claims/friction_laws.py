@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from stickslip.reference.scheme_errors import MENDED, PRINTED
 
 from cosim.studies.belt_length import Protocol
 
@@ -97,9 +96,9 @@ def hold(motion: Motion) -> float:
 
 def _holds(case: Case) -> list[float]:
     """As printed, mended, exact, s."""
-    schemes = [cases.scheme_motion(case, faults).last(cases.STEADY) for faults in (PRINTED, MENDED)]
-    exact = cases.exact_motion(case, rig=GUIDED).between(cases.SETTLING)
-    return [hold(motion) for motion in (*schemes, exact)]
+    printed, mended, exact = cases.three_motions(case, rig=GUIDED)
+    steady = printed.last(cases.STEADY), mended.last(cases.STEADY), exact.between(cases.SETTLING)
+    return [hold(motion) for motion in steady]
 
 
 def judge_strengthening() -> Claim:

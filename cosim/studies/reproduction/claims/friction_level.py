@@ -125,14 +125,12 @@ def judge() -> Claim:
     sound = abs(mean - OBSERVED[MEAN_X]) <= CLOSE
     sheet.turn("other_pretension", 1e3 * mean, sound=sound, instead=1e3 * cut[2, MEAN_X])
     sheet.picture("C6_observations", draw=_draw_observations)
-    runs = [
-        ("printed_full", cases.scheme_motion(cases.DATASET_1, PRINTED)),
-        ("printed_cut", cases.scheme_motion(cases.DATASET_2, PRINTED)),
-        ("mended_full", cases.scheme_motion(cases.DATASET_1, MENDED)),
-        ("exact_full", cases.exact_motion(cases.DATASET_1)),
-    ]
-    drawn = [_in_motion(*run) for run in runs]
-    sheet.picture("C6_displacements", [drawn[:2], drawn[2:]])
+    printed, *mended = (
+        _in_motion(f"{model}_full", run)
+        for model, run in zip(MODELS, cases.three_motions(cases.DATASET_1), strict=True)
+    )
+    cut_run = cases.scheme_motion(cases.DATASET_2, PRINTED)
+    sheet.picture("C6_displacements", [[printed, _in_motion("printed_cut", cut_run)], mended])
     return sheet.claim(faults=", ".join(faults) or "none", **_remarked(of))
 
 

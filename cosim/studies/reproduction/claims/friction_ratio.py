@@ -7,17 +7,9 @@ from functools import cache
 from itertools import product
 
 import numpy as np
-from stickslip.reference.scheme_errors import MENDED, PRINTED
+from stickslip.reference.scheme_errors import PRINTED
 
-from ..cases import (
-    DATASET_2,
-    Case,
-    exact_figures,
-    exact_motion,
-    many,
-    scheme_figures,
-    scheme_motion,
-)
+from ..cases import DATASET_2, exact_figures, scheme_figures, three_figures, three_motions
 from ..claim import FAR, OPEN, Claim
 from ..drawing import LABELS, Panel, models_over_time
 from ..readings import Reading, standing, steady_figures
@@ -55,10 +47,7 @@ def _counts_29(counts: Array) -> Array:
 def judge() -> Claim:
     """Counts in 20 s by model."""
     sheet = Sheet("C11")
-    found = [
-        [scheme_figures(case, PRINTED), scheme_figures(case, MENDED), exact_figures(case)]
-        for case in CASES
-    ]
+    found = [three_figures(case) for case in CASES]
     counts = np.array([[one.oscillations for one in models] for models in found]).T
     for ratio, ours in zip(RATIOS, counts.T, strict=True):
         sheet.row(f"count_{ratio:g}", ours)
@@ -68,7 +57,10 @@ def judge() -> Claim:
     _turn(sheet, _counts_more)
     sheet.check("one", np.abs(counts[:, 2] - COUNTED))
     _turn(sheet, _counts_29)
-    sheet.picture("C11_ratio", [[_panel(*pair)] for pair in zip(RATIOS, CASES, strict=True)])
+    lines = [models_over_time(three_motions(case), "x", 100.0, 0.4) for case in CASES]
+    titles = [f"µ_k/µ_s = {ratio:g}" for ratio in RATIOS]
+    rows = [[Panel(*pair, end=12.0)] for pair in zip(lines, titles, strict=True)]
+    sheet.picture("C11_ratio", rows)
     near, at = np.unravel_index(np.abs(counts - MEASURED).argmin(), counts.shape)
     nearest = f"{LABELS[near]} at {RATIOS[at]:g} with {counts[near, at]:.1f}"
     return sheet.claim(more=gaps(_mended("F1")), nearest=nearest)
@@ -83,10 +75,11 @@ def _mended(fault: str) -> Array:
 def _singles(reading: Reading) -> Array:
     """(3, runs): counts of single runs of each ratio, which draw their own scatter."""
 
-    def count(one: tuple[float, int]) -> float:
-        return steady_figures(reading.motion(2, one[1], mu_k=one[0])).oscillations
-
-    return np.reshape(many(count, product(COEFFICIENTS, SINGLE_RUNS)), (len(RATIOS), -1))
+    counts = [
+        steady_figures(reading.motion(2, seed, mu_k=mu_k)).oscillations
+        for mu_k, seed in product(COEFFICIENTS, SINGLE_RUNS)
+    ]
+    return np.reshape(counts, (len(RATIOS), -1))
 
 
 def _turn(sheet: Sheet, holds: Callable[[Array], Array]) -> None:
@@ -103,9 +96,3 @@ def _turn(sheet: Sheet, holds: Callable[[Array], Array]) -> None:
     for fault in ("F2", "F1"):
         counts = _mended(fault)
         sheet.turn("mended", sound=holds(counts), fault=fault, counts=counts)
-
-
-def _panel(ratio: float, case: Case) -> Panel:
-    """x of the three models, steady."""
-    runs = (scheme_motion(case, PRINTED), scheme_motion(case, MENDED), exact_motion(case))
-    return Panel(models_over_time(runs, "x", 100.0, 0.4), f"µ_k/µ_s = {ratio:g}", end=12.0)

@@ -10,7 +10,7 @@ from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
 from cosim.report.style import INK
 
-from ..cases import CASE, CYCLES, Case, exact_motion, longest, many, plan, scheme
+from ..cases import CASE, CYCLES, Case, exact_motion, longest, plan, scheme
 from ..claim import Claim, responsible
 from ..drawing import COLOURS, LABELS, Curve, Panel
 from ..sheet import Sheet
@@ -46,7 +46,7 @@ def jumps(case: Case, faults: Faults) -> int:
 
 def _jumping(cases: list[Case], faults: Faults) -> list[Case]:
     """The runs with a jump."""
-    return [case for case, n in zip(cases, many(jumps, cases, faults), strict=True) if n]
+    return [case for case in cases if jumps(case, faults)]
 
 
 def _exact_jumps(case: Case) -> int:
@@ -68,22 +68,25 @@ def judge() -> Claim:
     sheet.check("anomaly", answers=[some, some and not mended, some and not exact], margin=exact)
     for case in NAMED:
         _check_named(sheet, case)
-    sheet.check("rare", [len(jumping), None, None], plan=len(cases))
+    sheet.check("rare", [len(jumping)], plan=len(cases))
     with_r = _jumping(cases, PRINTED.without("F2"))
     sheet.turn("with_r", len(with_r), named=sum(case in NAMED for case in with_r))
     for part in (OTHER_WEAKENINGS[0], OTHER_WEAKENINGS[-1]):
         changed = [case.changed(weakening=part) for case in cases]
         sheet.turn("plan_slope", len(_jumping(changed, PRINTED)), part=100.0 * part)
     witnesses = jumping[:WITNESSES]
-    faults = responsible(lambda faults: sum(many(jumps, witnesses, faults)) > 0)
-    located, uncut = (sum(many(jumps, witnesses, PRINTED.without(f))) for f in ("F6", "F14"))
+    faults = responsible(lambda faults: any(jumps(case, faults) for case in witnesses))
+    printed, located, uncut = (
+        sum(jumps(case, one) for case in witnesses)
+        for one in (PRINTED, PRINTED.without("F6"), PRINTED.without("F14"))
+    )
     models = zip((PRINTED, MENDED), LABELS, COLOURS, strict=False)
     sheet.picture("C14_jump", [[_panel((jumping or NAMED)[-1], *model)] for model in models])
     return sheet.claim(
         n=len(witnesses),
         faults=", ".join(faults) or "none",
         plan=len(cases),
-        printed=sum(many(jumps, witnesses, PRINTED)),
+        printed=printed,
         located=located,
         uncut=uncut,
     )
@@ -91,10 +94,9 @@ def judge() -> Claim:
 
 def _check_named(sheet: Sheet, case: Case) -> None:
     """A named run, and under laws of friction that the study's drawing cannot be told from."""
-    sheet.check("named", [jumps(case, PRINTED), None, None], v=case.speed)
-    others = case.over("weakening", OTHER_WEAKENINGS)
-    for other, count in zip(others, many(jumps, others, PRINTED), strict=True):
-        sheet.turn("slope", count, part=100.0 * other.weakening)
+    sheet.check("named", [jumps(case, PRINTED)], v=case.speed)
+    for other in case.over("weakening", OTHER_WEAKENINGS):
+        sheet.turn("slope", jumps(other, PRINTED), part=100.0 * other.weakening)
     sheet.turn("located", jumps(case, PRINTED.without("F6")))
 
 

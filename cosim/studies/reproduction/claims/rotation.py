@@ -51,9 +51,8 @@ def _sides(run: Motion) -> int:
 def _parts(faults: Faults) -> tuple[bool, bool]:
     """Whether only the updated angles rotate, and whether with them alone y comes back."""
     runs = treated(faults)
-    updated, *others = sorted((run.rotation for run in runs.values()), reverse=True)
-    only = updated == runs["updated"].rotation > ROTATES and others[0] < 0.1 * ROTATES
-    return only, _comes_back(runs)
+    others = max(run.rotation for name, run in runs.items() if name != "updated")
+    return runs["updated"].rotation > ROTATES and others < 0.1 * ROTATES, _comes_back(runs)
 
 
 def rotates(faults: Faults) -> bool:
@@ -83,15 +82,15 @@ def judge_treatments() -> Claim:
     exact = exact_motion(DATASET_1, EXACT_DURATION)
     loose = exact_motion(DATASET_1, EXACT_DURATION, pretension=0.0)
     for name in TREATMENTS:
-        models = [printed[name], mended[name], exact if name == "updated" else None]
-        turned = "rotation_updated" if name == "updated" else "rotation"
-        sheet.row(turned, [one.rotation if one else None for one in models], name=name)
-        farthest_y = [float(np.abs(one.y).max()) if one else None for one in models]
-        sheet.row("sideways", farthest_y, name=name)
-    sheet.row("sets_in", [onset(printed["updated"]), onset(mended["updated"]), None])
-    apart = [_apart(printed), _apart(mended), None]
+        updated = name == "updated"
+        models = [printed[name], mended[name], *([exact] if updated else [])]
+        turned = "rotation_updated" if updated else "rotation"
+        sheet.row(turned, [one.rotation for one in models], name=name)
+        sheet.row("sideways", [np.abs(one.y).max() for one in models], name=name)
+    sheet.row("sets_in", [onset(printed["updated"]), onset(mended["updated"])])
+    apart = [_apart(printed), _apart(mended)]
     sheet.row("apart", apart)
-    sheet.check("agree", [one and 1e3 * one for one in apart])
+    sheet.check("agree", [1e3 * one for one in apart])
     free, back = max(exact.rotation, loose.rotation), treated(MENDED.only("F1", "F13"))["updated"]
     sheet.check(
         "rotates",
@@ -109,7 +108,7 @@ def judge_treatments() -> Claim:
     alone = responsible(comes_back)
     sheet.check(
         "comes_back",
-        answers=[comes_back(PRINTED), comes_back(MENDED), None],
+        answers=[comes_back(PRINTED), comes_back(MENDED)],
         margin=max(_sides(mended[name]) for name in ("constant", "opposed")),
         limit=SIDES,
         faults=alone,

@@ -167,6 +167,6 @@ def _spreads(
     found = []
     for k in ENDS:
         series = [case.changed(stiffness=k, mass=m, speed=v) for m in masses for v in SPEEDS]
-        mu = cases.many(lambda one: of(one).mean_friction / one.weight, series)
+        mu = [of(one).mean_friction / one.weight for one in series]
         found.append(float(np.ptp(np.reshape(mu, (len(masses), -1)).mean(axis=0))))
     return found

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -21,26 +23,23 @@ MIRRORED = ("mean_y",)
 SEEDS = 6  # most runs of a draw
 
 
-@dataclass(frozen=True)
-class Observation:
-    """A published figure: of which run (place in the campaign), value and standard deviation."""
+class Observation(NamedTuple):
+    """A published figure: of which run (place in the campaign and name), and how well it is known.
+
+    size: its value, without a sign that says nothing; sd: its standard deviation.
+    """
 
     run: int
     name: str
     figure: str
-    value: float
+    size: float
     sd: float
-
-    @property
-    def size(self) -> float:
-        """The value without a sign that says nothing."""
-        return abs(self.value) if self.figure in MIRRORED else self.value
 
 
 def observations(campaign: Campaign) -> tuple[Observation, ...]:
     """All figures of all runs that have a ``summary``; CampaignError where there is none."""
     found = tuple(
-        Observation(i, run.name, figure, value, sd)
+        Observation(i, run.name, figure, abs(value) if figure in MIRRORED else value, sd)
         for i, run in enumerate(campaign.runs)
         for figure, (value, sd) in (run.summary or {}).items()
     )
@@ -126,6 +125,31 @@ class Draws:
 
 
 @dataclass(frozen=True)
+class Target:
+    """What is to be met: sizes and standard deviations (n,) of the figures."""
+
+    sizes: Array
+    sds: Array
+
+    @classmethod
+    def of(cls, seen: Sequence[Observation]) -> Target:
+        """The observed figures."""
+        return cls(np.array([one.size for one in seen]), np.array([one.sd for one in seen]))
+
+    def without(self, i: int) -> Target:
+        """All but the i-th figure: that one counts for nothing."""
+        return replace(self, sds=np.where(np.arange(len(self.sds)) == i, np.inf, self.sds))
+
+    def distances(self, mean: Array) -> Array:
+        """(..., n) of figures from the observed ones, in standard deviations."""
+        return (mean - self.sizes) / self.sds
+
+    def gap(self, mean: Array) -> Array:
+        """(...) root mean square distance, in standard deviations."""
+        return np.sqrt(np.mean(self.distances(mean) ** 2, axis=-1))
+
+
+@dataclass(frozen=True)
 class Bench:
     """Runs the campaign's model for draws, a few at a time.
 
@@ -142,6 +166,11 @@ class Bench:
     def smooth(self) -> bool:
         """Do figures follow the numbers smoothly? Those of the study's scheme do not."""
         return self.campaign.scheme == "exact"
+
+    @cached_property
+    def target(self) -> Target:
+        """What is to be met."""
+        return Target.of(self.seen)
 
     def draw(self, candidate: Candidate, shares: Array) -> Draws:
         """Draws (d, p) of a candidate, a seed each."""

@@ -9,21 +9,11 @@ import numpy as np
 
 from cosim.gap.data import Campaign
 
+from . import search
 from .candidates import Candidate, extensions, not_felt, plain_candidate
 from .draws import SEEDS, Bench, Draws, observations
 from .result import SummaryGap, open_figures, ranked, where
-from .search import (
-    FIRST,
-    even_shares,
-    near,
-    ordered,
-    polished,
-    refined,
-    screening,
-    widened,
-    with_all_seeds,
-)
-from .trial import BOOTSTRAPS, Target, Trial, misfit, p_of_the_best, scatter_of_kin
+from .trial import BOOTSTRAPS, Trial, misfit, ordered, p_of_the_best, scatter_of_kin
 
 PLAIN_DRAWS, PLAIN_CLOSELY = 32, 6
 ROBUST_DRAWS = 32
@@ -82,23 +72,22 @@ def find_summary_gap(
     seed: of draws, scatter and bootstrap: the same seed gives the same answer. step: called with 1
     after every model run. CampaignError where no run has a summary.
     """
-    seen = observations(campaign)
-    bench, target = Bench(campaign, seen, seed, jobs, step), Target.of(seen)
-    plain = _plain(bench, target)
+    bench = Bench(campaign, observations(campaign), seed, jobs, step)
+    plain = _plain(bench)
     found: list[Found] = []
     trial = plain
     while len(found) < MOST_EFFECTS and trial.lack_of_fit < (FITS if not found else REPAIRED):
-        one = _add(bench, trial, target)
+        one = _add(bench, trial)
         if not found or one.holds:
             found.append(one)
         if not one.holds:
             break
         trial = one.best
-    free = _with_free_friction(bench, plain, target) if found else None
+    free = _with_free_friction(bench, plain) if found else None
     answer = _answer(bench, plain, free, found)
     if bench.smooth or answer.extended is None:
         return answer
-    share = _share_that_fits(bench, trial, target)
+    share = _share_that_fits(bench, trial)
     line = (
         f"with the effect as found, {share:.0%} of draws of friction as it is known come within "
         "twice the gap: the scheme is chaotic, and the fit hangs on the exact coefficients"
@@ -106,30 +95,29 @@ def find_summary_gap(
     return replace(answer, fits_share=share, remarks=(*answer.remarks, line))
 
 
-def _plain(bench: Bench, target: Target) -> Trial:
+def _plain(bench: Bench) -> Trial:
     """The model as it is; its first draw has friction as it is known."""
-    candidate, none = plain_candidate(bench.campaign), np.zeros(len(target.sizes))
-    draws = screening(bench, candidate, PLAIN_DRAWS)
-    known, draws = (bench.run(draws.take(FIRST_ONE), SEEDS - 1), draws.take(slice(1, None)))
+    candidate = plain_candidate(bench.campaign)
+    draws = search.screening(bench, candidate, PLAIN_DRAWS)
+    known, draws = bench.run(draws.take(FIRST_ONE), SEEDS - 1), draws.take(slice(1, None))
     if bench.smooth:
-        for start in ordered(draws, target, none).shares[:2]:
-            draws += polished(bench, candidate, start, target)
-    draws = with_all_seeds(bench, draws, target, none, PLAIN_CLOSELY)
-    return Trial(candidate, known + draws, target, scatter_of_kin(draws))
+        for start in ordered(draws, bench.target).shares[:2]:
+            draws += search.polished(bench, candidate, start)
+    draws = search.with_all_seeds(bench, draws, PLAIN_CLOSELY)
+    return Trial(candidate, known + draws, bench.target, scatter_of_kin(draws))
 
 
-def _add(bench: Bench, before: Trial, target: Target) -> Found:
+def _add(bench: Bench, before: Trial) -> Found:
     """Every effect on top of ``before``; those in the running searched to the end."""
-    none = np.zeros(len(target.sizes))  # one seed does not tell a scatter
     share = 1.0 if before.candidate.effects else NEAR_PLAIN[bench.smooth]
     screened = []
     for candidate in extensions(bench.campaign, before.candidate):
-        draws = screening(bench, candidate, FIRST, before.best, share)
-        screened.append((misfit(draws, target, none).min(), candidate, draws))
+        draws = search.screening(bench, candidate, search.FIRST, before.best, share)
+        screened.append((misfit(draws, bench.target).min(), candidate, draws))
     screened.sort(key=lambda one: one[0])
     tried = []
     for place, (_, candidate, draws) in enumerate(screened):
-        draws = refined(bench, candidate, draws, target, none, place < IN_THE_RUNNING)
+        draws = search.refined(bench, candidate, draws, place < IN_THE_RUNNING)
         tried.append(_nested(candidate, draws, before))
     tried.sort(key=lambda trial: trial.bic)
     tried[0] = _with_ranges(bench, tried[0], before)
@@ -146,33 +134,33 @@ def _nested(candidate: Candidate, draws: Draws, before: Trial) -> Trial:
 def _with_ranges(bench: Bench, trial: Trial, before: Trial) -> Trial:
     """The trial with more draws about its good ones: its intervals, and perhaps a better best."""
     own = trial.draws.take(np.isfinite(trial.draws.shares).all(axis=1))
-    draws = widened(bench, trial.candidate, own, trial.target, RANGE_DRAWS)
-    draws = with_all_seeds(bench, draws, trial.target, trial.kin, SEEDS)
+    draws = search.widened(bench, trial.candidate, own, RANGE_DRAWS)
+    draws = search.with_all_seeds(bench, draws, SEEDS, kin=trial.kin)
     return _nested(trial.candidate, draws, before)
 
 
-def _share_that_fits(bench: Bench, trial: Trial, target: Target) -> float:
+def _share_that_fits(bench: Bench, trial: Trial) -> float:
     """Of draws of friction as it is known, with the effect as found: the share that fits as well.
 
     As well: within twice the best gap. A small share says that the fit hangs on exact numbers.
     """
     own = sum(span.of_friction for span in trial.candidate.spans)
-    table = even_shares(trial.candidate, ROBUST_DRAWS, bench.seed + 3)
+    table = search.even_shares(trial.candidate, ROBUST_DRAWS, bench.seed + 3)
     table[:, own:] = trial.best.shares[0, own:]
-    gaps = target.gap(bench.draw(trial.candidate, table).mean)
-    return float(np.mean(gaps <= 2.0 * target.gap(trial.best.mean[0])))
+    gaps = bench.target.gap(bench.draw(trial.candidate, table).mean)
+    return float(np.mean(gaps <= 2.0 * bench.target.gap(trial.best.mean[0])))
 
 
-def _with_free_friction(bench: Bench, plain: Trial, target: Target) -> Trial | None:
+def _with_free_friction(bench: Bench, plain: Trial) -> Trial | None:
     """The plain model with friction set free: would other coefficients do instead of an effect?"""
-    candidate, none = plain.candidate.free, np.zeros(len(target.sizes))
+    candidate = plain.candidate.free
     if candidate == plain.candidate:
         return None
-    draws = screening(bench, candidate, PLAIN_DRAWS)
-    good = ordered(draws, target, none).take(slice(3))
-    draws += near(bench, candidate, good, PLAIN_DRAWS // 2)
-    draws = refined(bench, candidate, draws, target, none, running=False)
-    return Trial(candidate, draws, target, scatter_of_kin(draws))
+    draws = search.screening(bench, candidate, PLAIN_DRAWS)
+    good = ordered(draws, bench.target).take(slice(3))
+    draws += search.near(bench, candidate, good, PLAIN_DRAWS // 2)
+    draws = search.refined(bench, candidate, draws, running=False)
+    return Trial(candidate, draws, bench.target, scatter_of_kin(draws))
 
 
 def _answer(bench: Bench, plain: Trial, free: Trial | None, found: Sequence[Found]) -> SummaryGap:

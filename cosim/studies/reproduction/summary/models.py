@@ -110,7 +110,7 @@ def _study_motion(known: Mapping[str, Mapping], values: Values, seed: int) -> Mo
 
 def has_meaning(parameter: str) -> bool:
     """Does the scheme have a place for this parameter of the catalogue?"""
-    return parameter in CATALOGUE["scheme"] or parameter in CATALOGUE["elsewhere"]["parameters"]
+    return any(parameter in CATALOGUE[table] for table in ("scheme", "rig", "law"))
 
 
 def scheme_of(values: Values) -> Scheme:
@@ -125,26 +125,20 @@ def scheme_of(values: Values) -> Scheme:
     load = weight / values.get("load_dependence.reference_force", weight)
     factor = load ** -values.get("load_dependence.exponent", 0.0)
     mu_k = factor * values["friction.mu_k"]
-    effects = {
-        name: times * values[key]
-        for key, (name, times) in CATALOGUE["scheme"].items()
-        if key in values
-    }
+    effects, numbers = (
+        {name: times * values[key] for key, (name, times) in table.items() if key in values}
+        for table in (CATALOGUE["scheme"], CATALOGUE["rig"])
+    )
     if "surface_pattern.wavelength" in values:
         effects["pattern_wavenumber"] = 2.0 * math.pi / values["surface_pattern.wavelength"]
     return Scheme(
-        mass=values["rig.mass"],
-        stiffness=values["springs.stiffness"],
-        speed=values["surface.speed"],
         mu_s=factor * values["friction.mu_s"],
         mu_k=mu_k,
         mu_slope=values.get("velocity_weakening.linear", 0.0) * mu_k,
         mu_k_speed=0.0,
         scatter=SCATTER,
-        curvature=values.get("turning_surface.curvature", 0.0),
-        radius=values.get("rig.attachment_radius", 0.05),
-        spring_length=values.get("rig.spring_length", 0.20),
         faults=PRINTED,
         # counting springs otherwise needs none of the terms that cost time
         effects=SchemeEffects(on=bool(set(effects) - {"stick_springs"}), **effects),
+        **numbers,
     )

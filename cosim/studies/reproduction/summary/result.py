@@ -9,20 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.gap.data import Campaign
-from cosim.gap.result import Ranked, Score
+from cosim.gap.result import Ranked, Score, Where
 
 from .draws import Observation
 from .trial import FittedSummary, Trial
-
-
-@dataclass(frozen=True)
-class Where:
-    """Where the misfit lives; regime is empty: figures do not tell it."""
-
-    channel: str
-    regime: str
-    runs: tuple[str, ...]
-    text: str
 
 
 @dataclass(frozen=True)
@@ -66,8 +56,6 @@ class SummaryGap:
     free_friction: FittedSummary | None
     not_felt: Mapping[str, str]
     open_figures: Mapping[str, str]
-    next_experiment: Mapping | None = None
-    empirical: Mapping | None = None
     remarks: tuple[str, ...] = ()
     fits_share: float | None = None
 
@@ -77,7 +65,7 @@ MET = 2.0
 
 
 def where(seen: Sequence[Observation], plain: FittedSummary) -> Where:
-    """The figures in which the plain model misses, the worst first."""
+    """The figures in which the plain model misses, the worst first; they tell no regime."""
     order = np.argsort(-np.abs(plain.residuals))
     off = [i for i in order if abs(plain.residuals[i]) > MET]
     if not off:

@@ -12,7 +12,7 @@ from scipy.stats import qmc
 
 from .candidates import Candidate
 from .draws import SEEDS, Array, Bench, Draws
-from .trial import ENOUGH_SEEDS, WITHIN, Target, misfit, ordered, scatter_of_kin
+from .trial import ENOUGH_SEEDS, WITHIN, misfit, ordered, scatter_of_kin
 
 FIRST, MORE = 12, 40  # draws of a model: to begin with, and where it is in the running
 CLOSELY = 6  # of them run with all seeds
@@ -57,12 +57,12 @@ def _inside(shares: Array) -> Array:
     return 1.0 - np.abs(1.0 - np.abs(shares))
 
 
-def polished(bench: Bench, candidate: Candidate, start: Array, target: Target) -> Draws:
+def polished(bench: Bench, candidate: Candidate, start: Array) -> Draws:
     """The least squares from shares (p,) on, where the model is smooth; one seed."""
 
     def residuals(shares: Array) -> Array:
         one = bench.draw(candidate, shares)
-        return np.append(target.distances(one.mean[0]), np.sqrt(one.surprise))
+        return np.append(bench.target.distances(one.mean[0]), np.sqrt(one.surprise))
 
     inside = np.clip(start, EDGE, 1.0 - EDGE)
     # counted and cut figures jump a little: the soft loss keeps a step from hanging on one of them
@@ -74,47 +74,42 @@ def polished(bench: Bench, candidate: Candidate, start: Array, target: Target) -
 
 
 def with_all_seeds(
-    bench: Bench, draws: Draws, target: Target, kin: Array, count: int, seeds: int = SEEDS
+    bench: Bench, draws: Draws, count: int, seeds: int = SEEDS, kin: Array | float = 0.0
 ) -> Draws:
     """The table with the best ``count`` draws run with ``seeds``."""
-    order = ordered(draws, target, kin)
+    order = ordered(draws, bench.target, kin)
     again = (np.arange(len(order)) < count) & (order.seeds == 1)
     return bench.run(order.take(again), seeds - 1) + order.take(~again)
 
 
-def refined(
-    bench: Bench, candidate: Candidate, draws: Draws, target: Target, kin: Array, running: bool
-) -> Draws:
+def refined(bench: Bench, candidate: Candidate, draws: Draws, running: bool) -> Draws:
     """The table after as much of a search as the model is worth."""
     if bench.smooth:
-        start = ordered(draws, target, kin).shares[0]
-        draws += polished(bench, candidate, start, target)
+        draws += polished(bench, candidate, ordered(draws, bench.target).shares[0])
     elif running:
-        return _searched(bench, candidate, draws, target, kin)
-    return with_all_seeds(bench, draws, target, kin, 2, ENOUGH_SEEDS)
+        return _searched(bench, candidate, draws)
+    return with_all_seeds(bench, draws, 2, ENOUGH_SEEDS)
 
 
-def _searched(
-    bench: Bench, candidate: Candidate, draws: Draws, target: Target, kin: Array
-) -> Draws:
+def _searched(bench: Bench, candidate: Candidate, draws: Draws) -> Draws:
     """Draws of a model in the running and more: evenly, about the best, and closely."""
     draws += bench.draw(candidate, even_shares(candidate, MORE // 2, bench.seed + 2))
-    good = ordered(draws, target, kin).take(slice(4))
+    good = ordered(draws, bench.target).take(slice(4))
     draws += near(bench, candidate, good, MORE - MORE // 2)
-    draws = with_all_seeds(bench, draws, target, kin, CLOSELY)
+    draws = with_all_seeds(bench, draws, CLOSELY)
     # a second time with the model's own scatter, about the draws that hold for all seeds
     own = scatter_of_kin(draws)
-    close = ordered(draws.take(draws.seeds > 1), target, own).take(slice(2))
+    close = ordered(draws.take(draws.seeds > 1), bench.target, own).take(slice(2))
     draws += near(bench, candidate, close, CLOSELY)
-    return with_all_seeds(bench, draws, target, own, CLOSELY)
+    return with_all_seeds(bench, draws, CLOSELY, kin=own)
 
 
-def widened(bench: Bench, candidate: Candidate, draws: Draws, target: Target, count: int) -> Draws:
+def widened(bench: Bench, candidate: Candidate, draws: Draws, count: int) -> Draws:
     """``draws`` and more for ranges, a seed each, about all that are nearly as good as the best."""
     own = scatter_of_kin(draws)
     for _ in range(2):
-        order = ordered(draws, target, own)
-        off = misfit(order, target, own)
+        order = ordered(draws, bench.target, own)
+        off = misfit(order, bench.target, own)
         good = order.take(off <= off[0] + WITHIN)
         draws += near(bench, candidate, good, count // 2)
     return draws

@@ -27,8 +27,8 @@ from .result import SummaryGap
 
 #: What is written as it stands in an answer.
 AS_IT_IS = (
-    "verdict", "effects", "classes", "where", "next_experiment", "empirical", "chance", "printed",
-    "plain", "extended", "free_friction", "not_felt", "open_figures", "fits_share",
+    "verdict", "effects", "classes", "where", "chance", "printed", "plain", "extended",
+    "free_friction", "not_felt", "open_figures", "fits_share",
 )  # fmt: skip
 
 
@@ -70,16 +70,13 @@ def quantities(gap: SummaryGap) -> list[Quantity]:
 
 def closing_lines(gap: SummaryGap) -> list[str]:
     """What a terminal says at the end."""
-    lines = [
+    return [
         f"{gap.campaign.name}: {gap.verdict}",
         f"  {sentence(gap)}",
         f"  gap        {gap_line(gap)}",
         f"  where      {gap.where.text}",
         f"  numbers    {'; '.join(one.text for one in quantities(gap))} (95 % intervals)",
     ]
-    if gap.next_experiment:
-        lines.append(f"  next       {text.next_experiment(gap.next_experiment)}")
-    return lines
 
 
 def model_text(gap: SummaryGap) -> str:
@@ -127,6 +124,8 @@ def as_json(gap: SummaryGap, model: str) -> str:
         ],
         "model": model,
         "doubts": (),
+        "next_experiment": None,
+        "empirical": None,
         "remarks": _remarks(gap),
     }
     return json_text(tree(data))

@@ -11,14 +11,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from scipy.stats import chi2
 
 from .candidates import Candidate
-from .draws import Array, Draws, Observation
+from .draws import Array, Draws, Target
 
 # seeds from which a draw's own scatter is taken; below, that of its kin
 ENOUGH_SEEDS = 4
@@ -27,32 +27,7 @@ WITHIN = 3.84
 BOOTSTRAPS = 999
 
 
-@dataclass(frozen=True)
-class Target:
-    """What is to be met: sizes and standard deviations (n,) of the figures."""
-
-    sizes: Array
-    sds: Array
-
-    @classmethod
-    def of(cls, seen: Sequence[Observation]) -> Target:
-        """The observed figures."""
-        return cls(np.array([one.size for one in seen]), np.array([one.sd for one in seen]))
-
-    def without(self, i: int) -> Target:
-        """All but the i-th figure: that one counts for nothing."""
-        return replace(self, sds=np.where(np.arange(len(self.sds)) == i, np.inf, self.sds))
-
-    def distances(self, mean: Array) -> Array:
-        """(..., n) of figures from the observed ones, in standard deviations."""
-        return (mean - self.sizes) / self.sds
-
-    def gap(self, mean: Array) -> Array:
-        """(...) root mean square distance, in standard deviations."""
-        return np.sqrt(np.mean(self.distances(mean) ** 2, axis=-1))
-
-
-def scatter(draws: Draws, kin: Array) -> Array:
+def scatter(draws: Draws, kin: Array | float = 0.0) -> Array:
     """(d, n) standard deviation of each draw's figures from seed to seed."""
     n = draws.seeds[:, None]
     squares = np.nansum((draws.shown - draws.mean[:, None]) ** 2, axis=1)
@@ -62,10 +37,10 @@ def scatter(draws: Draws, kin: Array) -> Array:
 def scatter_of_kin(draws: Draws) -> Array:
     """(n,) typical scatter of a figure from seed to seed: median over the draws that tell it."""
     told = draws.take(draws.seeds >= ENOUGH_SEEDS)
-    return np.median(scatter(told, np.zeros(draws.shown.shape[-1])), axis=0)
+    return np.median(scatter(told), axis=0)
 
 
-def spread(draws: Draws, kin: Array) -> Array:
+def spread(draws: Draws, kin: Array | float = 0.0) -> Array:
     """(d, n) variance of the next realisation about a draw's mean.
 
     Mean and scatter are both from a few seeds: Student's t, whose variance counts here.
@@ -75,14 +50,14 @@ def spread(draws: Draws, kin: Array) -> Array:
     return np.where(n < ENOUGH_SEEDS, 2.0 * kin**2, scatter(draws, kin) ** 2 * wider)
 
 
-def misfit(draws: Draws, target: Target, kin: Array) -> Array:
+def misfit(draws: Draws, target: Target, kin: Array | float = 0.0) -> Array:
     """(d,) -2 log likelihood, less that of a draw that meets every figure without scatter."""
     wider = 1.0 + spread(draws, kin) / target.sds**2  # variance of the prediction, in sds squared
     terms = target.distances(draws.mean) ** 2 / wider + np.log(wider)
     return terms.sum(axis=1) + draws.surprise
 
 
-def ordered(draws: Draws, target: Target, kin: Array) -> Draws:
+def ordered(draws: Draws, target: Target, kin: Array | float = 0.0) -> Draws:
     """The draws from the least misfit on."""
     return draws.take(np.argsort(misfit(draws, target, kin), kind="stable"))
 
