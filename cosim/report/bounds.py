@@ -12,10 +12,11 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 from stickslip import Parameters
 from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
+
+from cosim.report.columns import Data
 
 from .contents import mechanics_of
 from .quantities import Quantity
@@ -35,13 +36,13 @@ LEDGER_LIMIT = 1e-2
 LEDGER_JOULES = 1e-6
 
 
-def bounds_numbers(dataset: xr.Dataset) -> dict[str, Any]:
+def bounds_numbers(dataset: Data) -> dict[str, Any]:
     """`left_belt`, where the surface has an edge, and `overstretched`, of the springs; {}: no rows.
 
     Times are None for a run that stays within its bounds.
     """
     time = dataset["time"].values
-    known = np.isfinite((dataset["x"] + dataset["y"] + dataset["phi"]).values)
+    known = np.all([np.isfinite(dataset[name].values) for name in ("x", "y", "phi")], axis=0)
     if not known.any():
         return {}
     x, y, phi = (dataset[name].values[known] for name in ("x", "y", "phi"))
@@ -86,9 +87,7 @@ def spring_lengths(parameters: Parameters, x: Array, y: Array, phi: Array) -> Ar
     return np.hypot(along, across)
 
 
-def _left_belt(
-    dataset: xr.Dataset, parameters: Parameters, time: Array, y: Array
-) -> dict[str, Quantity]:
+def _left_belt(dataset: Data, parameters: Parameters, time: Array, y: Array) -> dict[str, Quantity]:
     """When and where the block left the belt, and how far; {} where no edge is known."""
     width = dataset.attrs.get(WIDTH)
     heated = "heat_received" in dataset

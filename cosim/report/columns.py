@@ -1,15 +1,16 @@
-"""Columns with units over their axes, to files, without xarray, which takes a second to import.
+"""What a run has over its axes, with units, and as files: a small part of what xarray has.
 
-They have the names that an `xarray.Dataset` has for the same, and become one where it is asked for.
+The names are xarray's, whose import takes longer than a run, and both serve whoever reads a run:
+`Columns` are what a command computes, a dataset is what a file or a user's program has.
 """
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,38 +22,125 @@ from .files import no_formula, require_room
 if TYPE_CHECKING:
     import xarray as xr
 
+#: What a run is read from.
+Data: TypeAlias = "xr.Dataset | Columns"
+
 
 @dataclass(frozen=True)
 class Column:
-    """Values (n,) over an axis, and what is known of them: units, long_name, ..."""
+    """Values over axes, and what is known of them: units, long_name, ..."""
 
-    axis: str
+    dims: tuple[str, ...]
     values: NDArray[Any]
     attrs: Mapping[str, Any] = field(default_factory=dict)
 
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of the values."""
+        return self.values.dtype
 
-@dataclass(frozen=True)
+    @property
+    def size(self) -> int:
+        """Number of values."""
+        return self.values.size
+
+    def __getitem__(self, place: int) -> Any:
+        return self.values[place]
+
+    def max(self) -> Any:
+        """The largest value that is known."""
+        return np.nanmax(self.values)
+
+    def __float__(self) -> float:
+        return float(self.values)
+
+    def at(self, rows: Mapping[str, Any]) -> Column:
+        """Of these rows of some axes."""
+        places = tuple(rows.get(axis, slice(None)) for axis in self.dims)
+        dims = tuple(axis for axis in self.dims if not isinstance(rows.get(axis), int))
+        return Column(dims, self.values[places], self.attrs)
+
+
+@dataclass(frozen=True, eq=False)
 class Columns:
     """Columns by their names, `coords` those that are axes themselves."""
 
-    data_vars: Mapping[str, Column]
-    coords: Mapping[str, Column]
-    attrs: Mapping[str, Any]
+    data_vars: dict[str, Column]
+    coords: dict[str, Column]
+    attrs: dict[str, Any] = field(default_factory=dict)
 
-    def __getitem__(self, name: str) -> Column:
-        return self.variables[name]
+    @classmethod
+    def of(cls, data: Data) -> Columns:
+        """The columns of a dataset; columns as they are."""
+        if isinstance(data, Columns):
+            return data
+
+        def taken(variables: Mapping[Any, xr.DataArray]) -> dict[str, Column]:
+            return {
+                str(name): Column(tuple(map(str, each.dims)), each.values, dict(each.attrs))
+                for name, each in variables.items()
+            }
+
+        return cls(taken(data.data_vars), taken(data.coords), dict(data.attrs))
+
+    @overload
+    def __getitem__(self, name: str) -> Column: ...
+    @overload
+    def __getitem__(self, name: list[str]) -> Columns: ...
+    def __getitem__(self, name: str | list[str]) -> Column | Columns:
+        if isinstance(name, str):
+            return self.data_vars[name] if name in self.data_vars else self.coords[name]
+        kept = {each: self.data_vars[each] for each in name}
+        axes = {axis for each in kept.values() for axis in each.dims}
+        coords = {axis: each for axis, each in self.coords.items() if axis in axes}
+        return Columns(kept, coords, self.attrs)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self.data_vars or name in self.coords
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.data_vars)
 
     @property
     def variables(self) -> dict[str, Column]:
         """All of them, the axes first."""
         return {**self.coords, **self.data_vars}
 
+    @property
+    def sizes(self) -> dict[str, int]:
+        """Rows of each axis."""
+        return {name: each.values.size for name, each in self.coords.items()}
+
+    def isel(self, **rows: Any) -> Columns:
+        """Of some rows of an axis: a slice, places, or a single one."""
+        variables, coords = (
+            {name: each.at(rows) for name, each in columns.items()}
+            for columns in (self.data_vars, self.coords)
+        )
+        return Columns(variables, coords, self.attrs)
+
+    def sel(self, **spans: slice) -> Columns:
+        """Between two values of a rising axis, both of them with it."""
+        rows = {}
+        for axis, span in spans.items():
+            values = self.coords[axis].values
+            begin = 0 if span.start is None else np.searchsorted(values, span.start, "left")
+            end = None if span.stop is None else np.searchsorted(values, span.stop, "right")
+            rows[axis] = slice(begin, end)
+        return self.isel(**rows)
+
+    def merge(self, other: Columns) -> Columns:
+        """With the columns of another, which are not among these."""
+        return Columns(
+            {**self.data_vars, **other.data_vars}, {**self.coords, **other.coords}, self.attrs
+        )
+
     def to_xarray(self) -> xr.Dataset:
         """The same as a dataset."""
         import xarray as xr
 
         values, axes = (
-            {name: (each.axis, each.values, dict(each.attrs)) for name, each in columns.items()}
+            {name: (each.dims, each.values, dict(each.attrs)) for name, each in columns.items()}
             for columns in (self.data_vars, self.coords)
         )
         return xr.Dataset(values, axes, dict(self.attrs))
@@ -67,11 +155,11 @@ def write_columns(columns: Columns, path: Path) -> Path:
         require_room(partial, sum(array.nbytes for array in arrays), len(arrays))
         with h5netcdf.File(partial, "w") as file:
             file.attrs.update(columns.attrs)
-            file.dimensions = {name: each.values.size for name, each in columns.coords.items()}
+            file.dimensions = columns.sizes
             for name, each in columns.variables.items():
-                missing = np.nan if each.values.dtype.kind == "f" else None
+                missing = np.nan if each.dtype.kind == "f" else None
                 made = file.create_variable(
-                    name, (each.axis,), each.values.dtype, data=each.values, fillvalue=missing
+                    name, each.dims, each.dtype, data=each.values, fillvalue=missing
                 )
                 made.attrs.update(each.attrs)
 
@@ -80,7 +168,7 @@ def write_columns(columns: Columns, path: Path) -> Path:
 
 def write_columns_as_csv(columns: Columns, axis: str, path: Path) -> Path:
     """All over an axis as a table, itself first, with the digits that restore numbers exactly."""
-    shown = {name: each for name, each in columns.variables.items() if each.axis == axis}
+    shown = {name: each for name, each in columns.variables.items() if each.dims == (axis,)}
     rows = zip(*(_cells(each.values) for each in shown.values()), strict=True)
 
     def write(partial: Path) -> None:

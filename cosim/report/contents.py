@@ -8,7 +8,6 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 from pydantic import BaseModel
 from stickslip import Parameters
@@ -16,6 +15,7 @@ from stickslip.packing import GRAVITY
 from stickslip.steady_motion import Assessment
 from stickslip.trajectory import counted_break_aways
 
+from cosim.report.columns import Data
 from cosim.report.quantities import Quantity
 
 if TYPE_CHECKING:
@@ -80,22 +80,22 @@ def _entries(table: BaseModel) -> dict[str, dict[str, Any]]:
     return entries
 
 
-def stored_tables(dataset: xr.Dataset) -> Tables:
+def stored_tables(dataset: Data) -> Tables:
     """The tables of parameters that a dataset carries."""
     return json.loads(dataset.attrs["parameters"])
 
 
-def value_of(dataset: xr.Dataset, table: str, key: str) -> Any:
+def value_of(dataset: Data, table: str, key: str) -> Any:
     """One parameter's value; None where the scenario has no such table or key."""
     return stored_tables(dataset).get(table, {}).get(key, {}).get("value")
 
 
-def material_of(dataset: xr.Dataset) -> str:
+def material_of(dataset: Data) -> str:
     """What the block is of."""
     return str(value_of(dataset, "ice", "material") or "ice")
 
 
-def mechanics_of(dataset: xr.Dataset) -> Parameters:
+def mechanics_of(dataset: Data) -> Parameters:
     """The mechanical parameters that a dataset was computed with."""
     with warnings.catch_warnings():
         # whatever there is to warn of was said when the scenario was read
@@ -103,7 +103,7 @@ def mechanics_of(dataset: xr.Dataset) -> Parameters:
         return Parameters.model_validate(_selected(dataset, Parameters))
 
 
-def thermal_of(dataset: xr.Dataset) -> ThermalParameters:
+def thermal_of(dataset: Data) -> ThermalParameters:
     """The thermal parameters that a dataset was computed with.
 
     A scenario states the contact's radius and the block's mass once, with the rig.
@@ -123,7 +123,7 @@ def thermal_of(dataset: xr.Dataset) -> ThermalParameters:
     return found.in_still_air(mu * mass * GRAVITY, abs(speed), moving)
 
 
-def _selected(dataset: xr.Dataset, model: type[BaseModel]) -> dict[str, dict[str, Any]]:
+def _selected(dataset: Data, model: type[BaseModel]) -> dict[str, dict[str, Any]]:
     return {
         name: {key: entry["value"] for key, entry in entries.items()}
         for name, entries in stored_tables(dataset).items()
@@ -131,17 +131,17 @@ def _selected(dataset: xr.Dataset, model: type[BaseModel]) -> dict[str, dict[str
     }
 
 
-def ramp_end(dataset: xr.Dataset) -> float:
+def ramp_end(dataset: Data) -> float:
     """End of the surface's speed ramp, s; 0 without one."""
     return float(value_of(dataset, "surface", "run_up_time") or 0.0)
 
 
-def has_events(dataset: xr.Dataset) -> bool:
+def has_events(dataset: Data) -> bool:
     """Whether the dataset carries located events (else modes at the recorded times)."""
     return "event_time" in dataset.coords
 
 
-def mode_changes(dataset: xr.Dataset) -> tuple[Array, Array]:
+def mode_changes(dataset: Data) -> tuple[Array, Array]:
     """Times (k,) s and modes after them (k,), the first entry being the run's start.
 
     Without located events the time spent in slip tells where a change lies between the two rows
@@ -166,7 +166,7 @@ def mode_changes(dataset: xr.Dataset) -> tuple[Array, Array]:
     return np.concatenate([time[:1], changes]), np.concatenate([mode[:1], mode[at + 1]])
 
 
-def slip_intervals(dataset: xr.Dataset) -> Array:
+def slip_intervals(dataset: Data) -> Array:
     """Begin and end (k, 2) of every slip phase, s."""
     times, modes = mode_changes(dataset)
     if times.size == 0:
@@ -176,7 +176,7 @@ def slip_intervals(dataset: xr.Dataset) -> Array:
     return np.column_stack([times[slipping], ends[slipping]])
 
 
-def slip_share(dataset: xr.Dataset, begin: float, end: float) -> float | None:
+def slip_share(dataset: Data, begin: float, end: float) -> float | None:
     """Fraction of begin ... end (s) in slip; None for an empty window."""
     if not end > begin:
         return None
@@ -184,7 +184,7 @@ def slip_share(dataset: xr.Dataset, begin: float, end: float) -> float | None:
     return float(np.sum(clipped[:, 1] - clipped[:, 0]) / (end - begin))
 
 
-def break_aways(dataset: xr.Dataset) -> Array:
+def break_aways(dataset: Data) -> Array:
     """Times of break-away, s (k,).
 
     Without located events: those that `slip_count` has, to half an interval of the rows.
@@ -194,13 +194,13 @@ def break_aways(dataset: xr.Dataset) -> Array:
     return counted_break_aways(dataset["time"].values, dataset["slip_count"].values.astype(float))
 
 
-def attach_assessment(dataset: xr.Dataset, assessment: Assessment | None) -> None:
+def attach_assessment(dataset: Data, assessment: Assessment | None) -> None:
     """Let a dataset carry the assessment of its motion; None: there is none."""
     if assessment is not None:
         dataset.attrs[ATTRIBUTE] = json.dumps(assessment.as_dict())
 
 
-def assessment_numbers(dataset: xr.Dataset) -> dict[str, Any]:
+def assessment_numbers(dataset: Data) -> dict[str, Any]:
     """Stability and regimes with units; nothing for a run that was not assessed."""
     if ATTRIBUTE not in dataset.attrs:
         return {}

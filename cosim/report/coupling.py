@@ -6,12 +6,12 @@ import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from cosim.report.columns import Data
+
 from .page import number
 from .quantities import Quantity
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from cosim.coupling import CoupledResult
 
 #: Key of the numbers -> its words on a page.
@@ -103,7 +103,7 @@ def efforts(result: CoupledResult) -> dict[str, dict[str, float]]:
 
 
 def attach_coupling(
-    dataset: xr.Dataset, result: CoupledResult, tables: Mapping[str, Mapping[str, Any]]
+    dataset: Data, result: CoupledResult, tables: Mapping[str, Mapping[str, Any]]
 ) -> None:
     """Let a dataset carry how it was coupled; tables: of the scenario, with values."""
     settings = tables.get(TABLE, {})
@@ -113,7 +113,7 @@ def attach_coupling(
     dataset.attrs[ATTRIBUTE] = json.dumps(found)
 
 
-def coupling_numbers(dataset: xr.Dataset) -> dict[str, Any]:
+def coupling_numbers(dataset: Data) -> dict[str, Any]:
     """What `attach_coupling` gave, with units; {} where a dataset has none of it."""
     return _with_units(json.loads(dataset.attrs.get(ATTRIBUTE, "{}")))
 

@@ -1,4 +1,4 @@
-"""A run as an xarray Dataset: what files, figures and summary are made of."""
+"""A run as columns, or as an xarray Dataset: what files, figures and summary are made of."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 from pydantic import BaseModel
 from stickslip import Parameters, Trajectory
 from stickslip.ports import OUTPUTS
 
 from .bounds import WIDTH
+from .columns import Column, Columns
 from .contents import tables_of
 from .coupling import attach_coupling
 from .files import provenance
@@ -65,6 +65,8 @@ def attributes(name: str, unit: str | None = None) -> dict[str, object]:
 
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from cosim.coupling import CoupledResult
 
 Array = NDArray[np.float64]
@@ -96,7 +98,19 @@ class BeltSnapshots(Protocol):
     def contact_length(self) -> float: ...
 
 
-def run_dataset(
+def run_dataset(result: CoupledResult, scenario: BaseModel, toml: str, **how: Any) -> xr.Dataset:
+    """`run_columns` as a dataset."""
+    return run_columns(result, scenario, toml, **how).to_xarray()
+
+
+def trajectory_dataset(
+    trajectory: Trajectory, scenario: BaseModel, toml: str, **how: Any
+) -> xr.Dataset:
+    """`trajectory_columns` as a dataset."""
+    return trajectory_columns(trajectory, scenario, toml, **how).to_xarray()
+
+
+def run_columns(
     result: CoupledResult,
     scenario: BaseModel,
     toml: str,
@@ -104,8 +118,8 @@ def run_dataset(
     mechanics: str = "mechanics",
     thermal: str = "thermal",
     snapshots: BeltSnapshots | None = None,
-) -> xr.Dataset:
-    """A coupled run as a dataset over ``time`` (n,).
+) -> Columns:
+    """A coupled run over ``time`` (n,).
 
     scenario: the model that ``toml`` was read into; mechanics, thermal: the participants' names.
     """
@@ -123,14 +137,14 @@ def run_dataset(
     return dataset if snapshots is None else dataset.merge(_snapshots(snapshots))
 
 
-def trajectory_dataset(
+def trajectory_columns(
     trajectory: Trajectory,
     scenario: BaseModel,
     toml: str,
     *,
     wall_time: float | None = None,
-) -> xr.Dataset:
-    """A run of the mechanics alone as a dataset over ``time`` (n,) and ``event_time`` (k,).
+) -> Columns:
+    """A run of the mechanics alone over ``time`` (n,) and ``event_time`` (k,).
 
     scenario: the model that ``toml`` was read into; wall_time: of the integration, s.
     """
@@ -158,12 +172,12 @@ def _columns(
     return columns, units
 
 
-def _dataset(time: Array, columns: Mapping[str, Array], units: Mapping[str, str]) -> xr.Dataset:
+def _dataset(time: Array, columns: Mapping[str, Array], units: Mapping[str, str]) -> Columns:
     variables = {
-        name: ("time", _typed(name, values), attributes(name, units.get(name)))
+        name: Column(("time",), _typed(name, values), attributes(name, units.get(name)))
         for name, values in columns.items()
     }
-    return xr.Dataset(variables, coords={"time": ("time", np.asarray(time, float), TIME)})
+    return Columns(variables, {"time": Column(("time",), np.asarray(time, float), TIME)})
 
 
 def _typed(name: str, values: Array) -> NDArray[Any]:
@@ -174,7 +188,7 @@ def _typed(name: str, values: Array) -> NDArray[Any]:
 
 
 def _describe(
-    dataset: xr.Dataset,
+    dataset: Columns,
     scenario: BaseModel,
     toml: str,
     status: str,
@@ -204,57 +218,39 @@ def _outcome(trajectory: Trajectory) -> tuple[str, str]:
     return "failed", trajectory.reason
 
 
-def _events(events: Array) -> xr.Dataset:
+def _events(events: Array) -> Columns:
     time, mode, x = np.asarray(events, float).reshape(-1, 3).T
-    return xr.Dataset(
+    told = attributes("mode") | {"long_name": "mode after the event: 0 stick, 1 slip"}
+    at = {"units": "s", "long_name": "time of break-away or re-stick"}
+    axis = ("event_time",)
+    return Columns(
         {
-            "event_mode": (
-                "event_time",
-                mode.astype(np.int8),
-                attributes("mode") | {"long_name": "mode after the event: 0 stick, 1 slip"},
-            ),
-            "event_x": ("event_time", x, attributes("x")),
+            "event_mode": Column(axis, mode.astype(np.int8), told),
+            "event_x": Column(axis, x, attributes("x")),
         },
-        coords={
-            "event_time": (
-                "event_time",
-                time,
-                {"units": "s", "long_name": "time of break-away or re-stick"},
-            )
-        },
+        {"event_time": Column(axis, time, at)},
     )
 
 
-def _snapshots(snapshots: BeltSnapshots) -> xr.Dataset:
+def _snapshots(snapshots: BeltSnapshots) -> Columns:
     time, position = np.asarray(snapshots.time, float), np.asarray(snapshots.position, float)
     temperature = np.asarray(snapshots.temperature, float).reshape(time.size, position.size)
-    return xr.Dataset(
+    of_face = {"units": "degC", "long_name": "temperature of the belt's contact face"}
+    of_contact = {
+        "units": "m",
+        "long_name": "centre of the contact on the belt",
+        "contact_length": float(snapshots.contact_length),
+    }
+    at = {"units": "s", "long_name": "time of the belt profile"}
+    along = {"units": "m", "long_name": "position along the belt, fixed to its material"}
+    times, places = ("snapshot_time",), ("belt_position",)
+    return Columns(
         {
-            "belt_temperature": (
-                ("snapshot_time", "belt_position"),
-                temperature,
-                {"units": "degC", "long_name": "temperature of the belt's contact face"},
-            ),
-            "contact_position": (
-                "snapshot_time",
-                np.asarray(snapshots.contact, float),
-                {
-                    "units": "m",
-                    "long_name": "centre of the contact on the belt",
-                    "contact_length": float(snapshots.contact_length),
-                },
-            ),
+            "belt_temperature": Column((*times, *places), temperature, of_face),
+            "contact_position": Column(times, np.asarray(snapshots.contact, float), of_contact),
         },
-        coords={
-            "snapshot_time": (
-                "snapshot_time",
-                time,
-                {"units": "s", "long_name": "time of the belt profile"},
-            ),
-            "belt_position": (
-                "belt_position",
-                position,
-                {"units": "m", "long_name": "position along the belt, fixed to its material"},
-            ),
+        {
+            "snapshot_time": Column(times, time, at),
+            "belt_position": Column(places, position, along),
         },
     )

@@ -14,7 +14,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 from stickslip.kernel.layout import (
     P_MIXED_LUBRICATION_COUETTE,
@@ -23,6 +22,8 @@ from stickslip.kernel.layout import (
     P_NORMAL_FORCE,
     P_RADIUS,
 )
+
+from cosim.report.columns import Data
 
 from .contents import SLIP, mechanics_of, ramp_end, thermal_of, value_of
 from .quantities import Quantity, ratio
@@ -42,7 +43,7 @@ SINKS = {
 }
 
 
-def heat_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
+def heat_ledger(dataset: Data) -> dict[str, Quantity]:
     """Heat received and found, J at the end of the run."""
     received = _last(dataset, "heat_received")
     residual = _largest(dataset, "heat_residual")
@@ -61,7 +62,7 @@ def heat_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
     }
 
 
-def heat_shares(dataset: xr.Dataset) -> dict[str, Quantity]:
+def heat_shares(dataset: Data) -> dict[str, Quantity]:
     """Share of the heat received, at the contact and from elsewhere, that each sink holds at the
     end; supports that give heat hold none.
 
@@ -79,7 +80,7 @@ def heat_shares(dataset: xr.Dataset) -> dict[str, Quantity]:
     return shares
 
 
-def other_heat(dataset: xr.Dataset) -> dict[str, np.ndarray]:
+def other_heat(dataset: Data) -> dict[str, np.ndarray]:
     """What entered the belt beside the contact's heat, J, each (times,).
 
     From its rubbing on the railing, and from supports that gave more than they took.
@@ -90,19 +91,19 @@ def other_heat(dataset: xr.Dataset) -> dict[str, np.ndarray]:
     return {"railing": railing, "supports": np.maximum(-supports, 0.0)}
 
 
-def all_other_heat(dataset: xr.Dataset) -> np.ndarray:
+def all_other_heat(dataset: Data) -> np.ndarray:
     """What entered the belt beside the contact's heat, J: (times,)."""
     other = other_heat(dataset)
     return other["railing"] + other["supports"]
 
 
-def held(dataset: xr.Dataset, name: str) -> np.ndarray:
+def held(dataset: Data, name: str) -> np.ndarray:
     """Heat that a sink holds, J: (times,); none where supports have given more than they took."""
     values = dataset[name].values
     return np.maximum(values, 0.0) if name == SINKS["supports"] else values
 
 
-def coupling_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
+def coupling_ledger(dataset: Data) -> dict[str, Quantity]:
     """Joules that the mechanics handed over and that the thermal model took."""
     heat, received = dataset["heat"].values, dataset["heat_received"].values
     handed, taken = float(heat[-1] - heat[0]), float(received[-1] - received[0])
@@ -119,7 +120,7 @@ def coupling_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
     return ledger
 
 
-def temperatures(dataset: xr.Dataset) -> dict[str, dict[str, Quantity]]:
+def temperatures(dataset: Data) -> dict[str, dict[str, Quantity]]:
     """End, extremes and rise over the ambient air of each recorded temperature."""
     ambient = ambient_degC(dataset)
     found: dict[str, dict[str, Quantity]] = {"ambient": {"value_degC": Quantity(ambient, "degC")}}
@@ -139,7 +140,7 @@ def temperatures(dataset: xr.Dataset) -> dict[str, dict[str, Quantity]]:
     return found
 
 
-def end_of_sliding(dataset: xr.Dataset) -> dict[str, Quantity | str]:
+def end_of_sliding(dataset: Data) -> dict[str, Quantity | str]:
     """What the interface comes to if the sliding goes on for ever, and when it is near that.
 
     Steady sliding with the mean friction heat after the ramp, on a belt that gives as much to the
@@ -171,17 +172,17 @@ def end_of_sliding(dataset: xr.Dataset) -> dict[str, Quantity | str]:
     }
 
 
-def ambient_degC(dataset: xr.Dataset) -> float:
+def ambient_degC(dataset: Data) -> float:
     """Temperature of the air, degC; the first interface temperature where it is not stated."""
     stated = value_of(dataset, "ambient", "temperature_degC")
     return float(dataset["interface_temperature"][0] if stated is None else stated)
 
 
-def _last(dataset: xr.Dataset, name: str) -> float:
+def _last(dataset: Data, name: str) -> float:
     return float(dataset[name][-1])
 
 
-def _largest(dataset: xr.Dataset, name: str) -> float:
+def _largest(dataset: Data, name: str) -> float:
     return float(np.nanmax(np.abs(dataset[name].values), initial=0.0))
 
 
@@ -211,31 +212,31 @@ class Film(NamedTuple):
     fed: Array
 
 
-def melts(dataset: xr.Dataset) -> bool:
+def melts(dataset: Data) -> bool:
     """Whether any ice melted."""
     return "melted_mass" in dataset and float(dataset["melted_mass"].max()) > 0.0
 
 
-def melting_begins(dataset: xr.Dataset) -> float:
+def melting_begins(dataset: Data) -> float:
     """Time of the last row before any ice melted, s."""
     melted = dataset["melted_mass"].values > 0.0
     return float(dataset["time"].values[max(0, int(np.argmax(melted)) - 1)])
 
 
-def friction_coefficient(dataset: xr.Dataset) -> Array:
+def friction_coefficient(dataset: Data) -> Array:
     """Friction over normal force, (n,); not a number where the block sticks."""
     force = np.hypot(dataset["friction_force_x"].values, dataset["friction_force_y"].values)
     slips = dataset["mode"].values == SLIP
     return np.where(slips, force / mechanics_of(dataset).pack()[P_NORMAL_FORCE], np.nan)
 
 
-def film_of(dataset: xr.Dataset) -> Film:
+def film_of(dataset: Data) -> Film:
     """Film and friction at every row; not a number in stick, and where there is no water."""
     p = mechanics_of(dataset).pack()
     pressure = p[P_NORMAL_FORCE] / (np.pi * p[P_RADIUS] ** 2)
     thickness = np.where(
-        (dataset["film_thickness"] > THINNEST) & (dataset["mode"] == SLIP),
-        dataset["film_thickness"],
+        (dataset["film_thickness"].values > THINNEST) & (dataset["mode"].values == SLIP),
+        dataset["film_thickness"].values,
         np.nan,
     )
     friction = pressure * friction_coefficient(dataset)
@@ -256,7 +257,7 @@ def film_of(dataset: xr.Dataset) -> Film:
     )
 
 
-def _fed(dataset: xr.Dataset) -> Array:
+def _fed(dataset: Data) -> Array:
     """Melt rate times residence: what a film is that no water comes back to, m."""
     from thermal.materials import WATER_DENSITY
 
@@ -268,7 +269,7 @@ def _fed(dataset: xr.Dataset) -> Array:
     return dataset["melt_rate"].values / np.where(slips, WATER_DENSITY * lane * speed, np.nan)
 
 
-def melting(dataset: xr.Dataset) -> dict[str, Quantity]:
+def melting(dataset: Data) -> dict[str, Quantity]:
     """What melted since when, and the balance of the film over the last second."""
     begin, end = melting_begins(dataset), float(dataset["time"][-1])
     melted = float(dataset["melted_mass"][-1])
@@ -286,7 +287,7 @@ def melting(dataset: xr.Dataset) -> dict[str, Quantity]:
     }
 
 
-def _balance(late: xr.Dataset) -> dict[str, Quantity]:
+def _balance(late: Data) -> dict[str, Quantity]:
     film = film_of(late)
     return {
         "melting_share_end": Quantity(_share(late), "1"),
@@ -301,9 +302,13 @@ def _balance(late: xr.Dataset) -> dict[str, Quantity]:
     }
 
 
-def _share(rows: xr.Dataset) -> float | None:
+def _growth(rows: Data, name: str) -> float:
+    return float(rows[name].values[-1] - rows[name].values[0])
+
+
+def _share(rows: Data) -> float | None:
     """Of the friction heat of some rows, what melting took less what freezing gave back."""
-    heat, spent = (float(rows[name][-1] - rows[name][0]) for name in ("heat", "meltwater_heat"))
+    heat, spent = (_growth(rows, name) for name in ("heat", "meltwater_heat"))
     return ratio(spent, heat)
 
 

@@ -7,18 +7,18 @@ from datetime import datetime
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import xarray as xr
 from stickslip.steady_motion.starts import STARTS
 
 from cosim.files import write_bytes, write_text
 from cosim.names import unknown_name
+from cosim.report.columns import Columns, Data, write_columns, write_columns_as_csv
 from cosim.report.contents import REGIME_UNITS
 from cosim.scenario.keys import taken_line
 
 from .bounds import bounds_sentences
 from .contents import Views, material_of, stored_tables
 from .coupling import doubts, effort_rows, step_rows
-from .files import write_csv, write_json, write_netcdf
+from .files import write_json
 from .heat_numbers import ambient_degC
 from .material import page_of_material
 from .motion_text import border_sentence, regime_sentence, stability_sentence
@@ -50,7 +50,7 @@ class Table(NamedTuple):
 
 
 def write_results(
-    dataset: xr.Dataset,
+    dataset: Data,
     folder: str | Path,
     *,
     command: str = "",
@@ -98,7 +98,7 @@ def write_results(
     return written
 
 
-def write_figures(dataset: xr.Dataset, folder: Path, names: Sequence[str] = ()) -> Iterator[Path]:
+def write_figures(dataset: Data, folder: Path, names: Sequence[str] = ()) -> Iterator[Path]:
     """The figures of a run's page as ``NAME.png``, one after the other; all, if none is named.
 
     Raises ValueError for a name that is none, before anything is written.
@@ -113,17 +113,18 @@ def write_figures(dataset: xr.Dataset, folder: Path, names: Sequence[str] = ()) 
         yield write_bytes(plates[name].picture(dataset).png, folder / f"{name}.png")
 
 
-def write_data(dataset: xr.Dataset, folder: str | Path) -> list[Path]:
+def write_data(dataset: Data, folder: str | Path) -> list[Path]:
     """`result.nc` and `result.csv`."""
     folder = Path(folder)
+    columns = Columns.of(dataset)
     return [
-        write_netcdf(dataset, folder / "result.nc"),
-        write_csv(dataset, folder / "result.csv"),
+        write_columns(columns, folder / "result.nc"),
+        write_columns_as_csv(columns, "time", folder / "result.csv"),
     ]
 
 
 def run_page(
-    dataset: xr.Dataset,
+    dataset: Data,
     numbers: Mapping[str, Any],
     *,
     command: str = "",
@@ -271,7 +272,7 @@ def temperature_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
     return found
 
 
-def parameter_tables(dataset: xr.Dataset) -> list[Table]:
+def parameter_tables(dataset: Data) -> list[Table]:
     """Every parameter with value, unit and description, table by table."""
     return [
         Table(

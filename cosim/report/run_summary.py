@@ -6,10 +6,10 @@ import json
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 from stickslip.trajectory import break_away_frequency
 
+from cosim.report.columns import Data
 from cosim.report.contents import assessment_numbers
 
 from .bounds import bounds_numbers
@@ -29,7 +29,7 @@ from .quantities import Quantity, ratio, split_units
 Array = NDArray[np.float64]
 
 
-def after_ramp(dataset: xr.Dataset) -> dict[str, Quantity]:
+def after_ramp(dataset: Data) -> dict[str, Quantity]:
     """What the stick-slip motion is like once the surface has its speed.
 
     mean_period: from the first to the last break-away in it. frequency: one over that; 0 without
@@ -62,7 +62,7 @@ def after_ramp(dataset: xr.Dataset) -> dict[str, Quantity]:
     }
 
 
-def whole_run(dataset: xr.Dataset) -> dict[str, Quantity]:
+def whole_run(dataset: Data) -> dict[str, Quantity]:
     """Totals and extremes of everything recorded."""
     return {
         "break_aways": Quantity(int(break_aways(dataset).size), "1"),
@@ -78,7 +78,7 @@ def whole_run(dataset: xr.Dataset) -> dict[str, Quantity]:
     }
 
 
-def time_mean(dataset: xr.Dataset, name: str) -> float | None:
+def time_mean(dataset: Data, name: str) -> float | None:
     """Mean over time by the trapezoidal rule, gaps left out; None without values."""
     time, values = dataset["time"].values, dataset[name].values
     known = np.isfinite(values)
@@ -90,7 +90,7 @@ def time_mean(dataset: xr.Dataset, name: str) -> float | None:
     return float(np.trapezoid(values, time) / (time[-1] - time[0]))
 
 
-def _extremes(dataset: xr.Dataset, name: str, unit: str) -> dict[str, Quantity]:
+def _extremes(dataset: Data, name: str, unit: str) -> dict[str, Quantity]:
     values = dataset[name].values
     values = values[np.isfinite(values)]
     low, high = (float(values.min()), float(values.max())) if values.size else (None, None)
@@ -102,11 +102,11 @@ def _largest(values: Array) -> float | None:
     return float(np.abs(values).max()) if values.size else None
 
 
-def _growth(dataset: xr.Dataset, name: str) -> float:
-    return float(dataset[name][-1] - dataset[name][0])
+def _growth(dataset: Data, name: str) -> float:
+    return float(dataset[name].values[-1] - dataset[name].values[0])
 
 
-def summary(dataset: xr.Dataset) -> dict[str, Any]:
+def summary(dataset: Data) -> dict[str, Any]:
     """Status, coupling, ledgers, temperatures, melting, stick-slip numbers, bounds that the block
     left, versions, what was left to the defaults (`table.key` -> value), scenario.
 
@@ -130,7 +130,7 @@ def summary(dataset: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
+def _numbers(dataset: Data) -> dict[str, Any]:
     time = dataset["time"].values
     numbers: dict[str, Any] = {
         "time_reached": Quantity(float(time[-1]) if time.size else None, "s"),
@@ -158,7 +158,7 @@ def _numbers(dataset: xr.Dataset) -> dict[str, Any]:
     return numbers
 
 
-def mechanics_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
+def mechanics_ledger(dataset: Data) -> dict[str, Quantity]:
     """Works and heats since the start, and what does not add up."""
     residual = dataset["energy_residual"].values
     largest = float(np.nanmax(np.abs(residual), initial=0.0))
@@ -174,7 +174,7 @@ def mechanics_ledger(dataset: xr.Dataset) -> dict[str, Quantity]:
     }
 
 
-def _last(dataset: xr.Dataset, name: str) -> float:
+def _last(dataset: Data, name: str) -> float:
     return float(dataset[name].values[-1])
 
 

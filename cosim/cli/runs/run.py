@@ -100,7 +100,7 @@ def execute(arguments: Namespace) -> int:
     from cosim.files import writable
     from cosim.interrupts import patient_interrupts
     from cosim.manifest import made_by, results_in
-    from cosim.report import run_dataset
+    from cosim.report.dataset import run_columns
 
     began = time.perf_counter()
     numbers = numbers_asked(arguments, running.KEYS)
@@ -125,7 +125,7 @@ def execute(arguments: Namespace) -> int:
         patience.hold()
         if run_io.is_removed(job.results, done.result.time.tolist()):
             return FAILED
-        dataset = run_dataset(
+        dataset = run_columns(
             done.result, job.scenario, job.scenario.to_toml(), snapshots=done.snapshots
         )
         running.assess_motion(dataset, job.scenario, patience)

@@ -10,7 +10,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-import xarray as xr
 from stickslip.steady_motion import Interface, assess
 from stickslip.steady_motion.assessment import MOST_STEPS
 
@@ -32,6 +31,7 @@ from cosim.interrupts import Patience
 from cosim.manifest import other_command
 from cosim.report import Views, summary, write_results
 from cosim.report.bounds import bounds_sentences, is_believed
+from cosim.report.columns import Data
 from cosim.report.contents import attach_assessment, material_of
 from cosim.report.coupling import doubts
 from cosim.report.files import json_text
@@ -81,7 +81,7 @@ def stretched_fields(folder: Path) -> list[Path]:
     return sorted((folder / FIELDS).glob(f"{Path(COLLECTION).stem}_belt_*x.pvd"))
 
 
-def assess_motion(dataset: xr.Dataset, scenario: Scenario, patience: Patience) -> None:
+def assess_motion(dataset: Data, scenario: Scenario, patience: Patience) -> None:
     """Let a complete run's dataset carry the assessment of its motion.
 
     Friction that feels the interface has it as the run left it, temperature and water. A Ctrl-C
@@ -130,7 +130,7 @@ def progress_over_files() -> Iterator[Callable[[str], None]]:
 
 
 def finish(
-    dataset: xr.Dataset,
+    dataset: Data,
     folder: Path,
     began: float,
     patience: Patience,
@@ -174,7 +174,7 @@ def finish(
     return DONE if is_believed(numbers) else FAILED
 
 
-def _write(dataset: xr.Dataset, folder: Path, patience: Patience, **further: Any) -> None:
+def _write(dataset: Data, folder: Path, patience: Patience, **further: Any) -> None:
     with progress_over_files() as show:
 
         def written(name: str) -> None:

@@ -41,7 +41,7 @@ def execute(arguments: Namespace) -> int:
     from cosim.cli.runs import running
     from cosim.cli.scenarios import note_taken
     from cosim.coupling.record import RunFolder
-    from cosim.report import trajectory_dataset
+    from cosim.report.dataset import trajectory_columns
 
     began = time.perf_counter()
     scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=False)
@@ -56,7 +56,7 @@ def execute(arguments: Namespace) -> int:
         start = time.perf_counter()
         trajectory = _simulated(scenario, patience)
         stepped = time.perf_counter() - start
-        dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml(), wall_time=stepped)
+        dataset = trajectory_columns(trajectory, scenario, scenario.to_toml(), wall_time=stepped)
         running.assess_motion(dataset, scenario, patience)
         made = made_by(scenario=scenario.to_toml())
         with results_in(folder, made, force=arguments.force) as results:

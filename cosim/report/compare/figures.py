@@ -162,7 +162,7 @@ def _all_values(values: tuple[Array | None, ...]) -> Array:
 def _with_events(both: Comparison) -> Comparison:
     """With the events as rows, where it is a run of the block."""
     a, b = (
-        replace(one, dataset=through_events(one.dataset)[0])
+        replace(one, dataset=through_events(one.dataset)[0].to_xarray())
         if "parameters" in one.dataset.attrs and "mode" in one.dataset and one.dataset.sizes["time"]
         else one
         for one in (both.a, both.b)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import xarray as xr
 from matplotlib.figure import Figure
 
 from cosim.names import unknown_name
+from cosim.report.columns import Data
 from cosim.report.live import Live
 from cosim.report.page import Picture
 from cosim.report.style import displayed, png
@@ -35,16 +35,16 @@ class Plate:
     title: str
     caption: str
     alt: str
-    draw: Callable[[xr.Dataset], Figure]
-    live: Callable[[xr.Dataset], Live] | None = None
+    draw: Callable[[Data], Figure]
+    live: Callable[[Data], Live] | None = None
     needs: str = "x"
     grows: bool = False
 
-    def drawn(self, dataset: xr.Dataset) -> Figure:
+    def drawn(self, dataset: Data) -> Figure:
         """The drawing."""
         return figure_of_material(self.draw(dataset), material_of(dataset))
 
-    def picture(self, dataset: xr.Dataset) -> Picture:
+    def picture(self, dataset: Data) -> Picture:
         """For a page: with what its scripts draw, or else the drawing."""
         alive = None
         if self.live is not None:
@@ -160,7 +160,7 @@ TABLE = Plate(
 )
 
 
-def plates_of(dataset: xr.Dataset) -> list[Plate]:
+def plates_of(dataset: Data) -> list[Plate]:
     """The figures that a dataset has the variables (and at least one row) for."""
     if dataset.sizes["time"] == 0:
         return []
@@ -168,7 +168,7 @@ def plates_of(dataset: xr.Dataset) -> list[Plate]:
     return [*shown, TABLE] if mechanics_of(dataset).friction.has_table else shown
 
 
-def figure_of(dataset: xr.Dataset, name: str) -> Figure:
+def figure_of(dataset: Data, name: str) -> Figure:
     """The figure of a name, of those that `plates_of` has; ValueError for a name that is none."""
     plates = {plate.name: plate for plate in plates_of(dataset)}
     if name not in plates:
@@ -176,7 +176,7 @@ def figure_of(dataset: xr.Dataset, name: str) -> Figure:
     return displayed(plates[name].drawn(dataset))
 
 
-def _has(dataset: xr.Dataset, plate: Plate) -> bool:
+def _has(dataset: Data, plate: Plate) -> bool:
     if plate.needs not in dataset or dataset[plate.needs].size == 0:
         return False
     return not plate.grows or float(dataset[plate.needs].max()) > 0.0

@@ -13,10 +13,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import xarray as xr
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from cosim.report.columns import Data
 from cosim.report.contents import thermal_of, value_of
 from cosim.report.heat_numbers import ambient_degC
 from cosim.report.live import Live, packed
@@ -47,7 +47,7 @@ class BeltMap(NamedTuple):
     length: float
 
 
-def belt_map(dataset: xr.Dataset) -> BeltMap:
+def belt_map(dataset: Data) -> BeltMap:
     """The map of a coupled run that has pictures of its belt."""
     length = float(thermal_of(dataset).belt.length)
     pictures = dataset["snapshot_time"].values
@@ -57,7 +57,7 @@ def belt_map(dataset: xr.Dataset) -> BeltMap:
         dataset["belt_position"].values, dataset["belt_temperature"].values - ambient_degC(dataset)
     )
     reach = float(dataset["contact_position"].attrs["contact_length"])
-    way = (dataset["surface_travel"] - dataset["x"]).values.astype(float)
+    way = (dataset["surface_travel"].values - dataset["x"].values).astype(float)
     known = np.isfinite(way)
     way_at = np.interp(time, rows[known], way[known])
     way_then = np.interp(pictures, rows[known], way[known])
@@ -141,13 +141,13 @@ def _below(place: Array, centre: Array | float, reach: float, length: float) -> 
     return np.abs((place - centre + 0.5 * length) % length - 0.5 * length) <= 0.5 * reach
 
 
-def surface_word(dataset: xr.Dataset) -> str:
+def surface_word(dataset: Data) -> str:
     """belt or slab."""
     return str(value_of(dataset, "rig", "surface") or "belt")
 
 
 @styled
-def draw_belt_temperature(dataset: xr.Dataset) -> Figure:
+def draw_belt_temperature(dataset: Data) -> Figure:
     """The map, and the way of the middle of the block."""
     found = belt_map(dataset)
     scaled = readable(found.rise.ravel(), "K", SMALLEST_RISE)
@@ -184,7 +184,7 @@ def _edges(found: BeltMap) -> tuple[Array, Array]:
     return times, np.linspace(0.0, found.length, found.place.size + 1)
 
 
-def belt_temperature_live(dataset: xr.Dataset) -> Live:
+def belt_temperature_live(dataset: Data) -> Live:
     """The map for the page, which the top view takes the belt's colours from, too."""
     found = belt_map(dataset)
     scaled = readable(found.rise.ravel(), "K", SMALLEST_RISE)

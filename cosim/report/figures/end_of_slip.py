@@ -12,11 +12,11 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 from stickslip.kernel import layout
 from stickslip.restarted import Restarts, simulate_restarted
 
+from cosim.report.columns import Column, Columns
 from cosim.report.contents import SLIP, mechanics_of
 
 Array = NDArray[np.float64]
@@ -51,8 +51,8 @@ class Way(NamedTuple):
 
 
 def moments(
-    dataset: xr.Dataset, over_time: xr.Dataset, times: Array, slips: NDArray[np.bool_]
-) -> xr.Dataset:
+    dataset: Columns, over_time: Columns, times: Array, slips: NDArray[np.bool_]
+) -> Columns:
     """Rows to be put between those of ``over_time``; none where nothing can be said.
 
     times (k,), s, and slips (k,): the events, and whether a slip begins there.
@@ -69,10 +69,10 @@ def moments(
         for way, rows in zip(ways, outputs, strict=True)
         if _meets(over_time, way, rows)
     ]
-    return xr.concat(found, "time") if found else nothing
+    return _joined(found) if found else nothing
 
 
-def _ways(over_time: xr.Dataset, times: Array, slips: NDArray[np.bool_]) -> list[Way]:
+def _ways(over_time: Columns, times: Array, slips: NDArray[np.bool_]) -> list[Way]:
     """Of every slip that has at least two rows with all numbers."""
     time, mode = over_time["time"].values, over_time["mode"].values
     known = np.all([np.isfinite(over_time[name].values) for name in COLUMNS], axis=0)
@@ -89,7 +89,7 @@ def _ways(over_time: xr.Dataset, times: Array, slips: NDArray[np.bool_]) -> list
     return found
 
 
-def _gone_again(dataset: xr.Dataset, over_time: xr.Dataset, ways: list[Way]) -> list[Array]:
+def _gone_again(dataset: Columns, over_time: Columns, ways: list[Way]) -> list[Array]:
     """The model's outputs (k, O_SIZE) on each way, with friction as strong as in the first row."""
     states = [np.array([over_time[name].values[way.row] for name in STATE]) for way in ways]
     strength = np.ones((len(ways), 2))
@@ -106,8 +106,8 @@ def _gone_again(dataset: xr.Dataset, over_time: xr.Dataset, ways: list[Way]) -> 
 
 
 def _outputs(
-    dataset: xr.Dataset,
-    over_time: xr.Dataset,
+    dataset: Columns,
+    over_time: Columns,
     ways: list[Way],
     states: list[Array],
     strength: Array,
@@ -127,7 +127,7 @@ def _outputs(
     return [rows[begin:end] for begin, end in zip(starts, starts[1:], strict=False)]
 
 
-def _meets(over_time: xr.Dataset, way: Way, rows: Array) -> bool:
+def _meets(over_time: Columns, way: Way, rows: Array) -> bool:
     """Whether the model slips to the end and has the friction of every recorded row on its way."""
     if not np.isfinite(rows[:, list(COLUMNS.values())]).all():
         return False
@@ -143,7 +143,7 @@ def _meets(over_time: xr.Dataset, way: Way, rows: Array) -> bool:
     )
 
 
-def _between(over_time: xr.Dataset, way: Way, rows: Array) -> xr.Dataset:
+def _between(over_time: Columns, way: Way, rows: Array) -> Columns:
     """The moments alone; what the model does not say of them lies between the rows beside them."""
     time = over_time["time"].values
     new = ~np.isin(way.times, time) & (rows[:, layout.O_MODE] == SLIP)
@@ -156,5 +156,15 @@ def _between(over_time: xr.Dataset, way: Way, rows: Array) -> xr.Dataset:
             values = np.full(at.size, SLIP)
         else:
             values = np.interp(at, time, variable.values.astype(float))
-        filled[name] = ("time", values)
-    return xr.Dataset(filled, coords={"time": at})
+        filled[name] = Column(("time",), values)
+    return Columns(filled, {"time": Column(("time",), at)})
+
+
+def _joined(parts: list[Columns]) -> Columns:
+    """All rows, one part behind the other."""
+    columns = {
+        name: Column(("time",), np.concatenate([part[name].values for part in parts]))
+        for name in parts[0].variables
+    }
+    at = columns.pop("time")
+    return Columns(columns, {"time": at})

@@ -8,10 +8,12 @@ event; all else goes on, and is what it is on the side of stick, where nothing c
 
 from __future__ import annotations
 
+from weakref import WeakKeyDictionary
+
 import numpy as np
-import xarray as xr
 from numpy.typing import NDArray
 
+from cosim.report.columns import Column, Columns, Data
 from cosim.report.contents import SLIP, has_events, mode_changes
 
 from .end_of_slip import moments
@@ -26,25 +28,23 @@ FORCES = ("friction_force_x", "friction_force_y", "friction_moment")
 FARTHEST = 2.0
 
 
-@xr.register_dataset_accessor("rows_through_events")
-class _Kept:
-    """The rows, made when they are first asked for: xarray keeps this beside the dataset."""
-
-    def __init__(self, dataset: xr.Dataset) -> None:
-        self.rows = _rows_through_events(dataset)
+#: Of columns that are still there: made once.
+_KEPT: WeakKeyDictionary[Columns, tuple[Columns, NDArray[np.bool_]]] = WeakKeyDictionary()
 
 
-def through_events(dataset: xr.Dataset) -> tuple[xr.Dataset, NDArray[np.bool_]]:
+def through_events(data: Data) -> tuple[Columns, NDArray[np.bool_]]:
     """What there is over time, with two rows at each event: before and after; and which those are.
 
     The row after comes the smallest number later, so that time rises. Sides without rows (of phases
-    shorter than the interval) have none. Made once for a dataset.
+    shorter than the interval) have none.
     """
-    rows: tuple[xr.Dataset, NDArray[np.bool_]] = dataset.rows_through_events.rows
-    return rows
+    columns = Columns.of(data)
+    if columns not in _KEPT:
+        _KEPT[columns] = _rows_through_events(columns)
+    return _KEPT[columns]
 
 
-def _rows_through_events(dataset: xr.Dataset) -> tuple[xr.Dataset, NDArray[np.bool_]]:
+def _rows_through_events(dataset: Columns) -> tuple[Columns, NDArray[np.bool_]]:
     columns = [n for n, v in dataset.data_vars.items() if v.dims == ("time",)]
     over_time = dataset[columns]
     time = dataset["time"].values.astype(float)
@@ -81,14 +81,13 @@ def _rows_through_events(dataset: xr.Dataset) -> tuple[xr.Dataset, NDArray[np.bo
             if str(name) not in FORCES:
                 from_left = np.where(slips, before | ~after, before & ~after)
                 left = right = np.where(from_left, left, right)
-        filled[name] = ("time", np.concatenate([values, left[before], right[after]])[order])
-    new = xr.Dataset(filled, coords={"time": ("time", rows[order])}, attrs=dataset.attrs)
-    for name in columns:
-        new[name].attrs = dataset[name].attrs
+        there = np.concatenate([values, left[before], right[after]])[order]
+        filled[name] = Column(("time",), there, dataset[name].attrs)
+    new = Columns(filled, {"time": Column(("time",), rows[order])}, dataset.attrs)
     return new, np.concatenate([np.zeros(time.size, bool), np.ones(added.size, bool)])[order]
 
 
-def _events(dataset: xr.Dataset) -> tuple[Array, NDArray[np.bool_]]:
+def _events(dataset: Columns) -> tuple[Array, NDArray[np.bool_]]:
     """Times (k,), s, within the rows, and whether a slip begins there."""
     time = dataset["time"].values
     times, modes = (known[1:] for known in mode_changes(dataset))
@@ -98,21 +97,29 @@ def _events(dataset: xr.Dataset) -> tuple[Array, NDArray[np.bool_]]:
 
 
 def _with_moments(
-    dataset: xr.Dataset, over_time: xr.Dataset, times: Array, slips: NDArray[np.bool_]
-) -> xr.Dataset:
+    dataset: Columns, over_time: Columns, times: Array, slips: NDArray[np.bool_]
+) -> Columns:
     """The rows and, where the model can say them, the last moments of every slip."""
     found = moments(dataset, over_time, times, slips)
     if found.sizes["time"] == 0:
         return over_time
     time = over_time["time"].values
+    row = np.searchsorted(time, found["time"].values)
     for name in MEANS:
         if name in over_time:
-            row = np.searchsorted(time, found["time"].values)
-            found[name] = ("time", over_time[name].values[row])
-    return xr.concat([over_time, found], "time").sortby("time")
+            found.data_vars[name] = Column(("time",), over_time[name].values[row])
+    order = np.argsort(np.concatenate([time, found["time"].values]), kind="stable")
+    joined = {
+        name: Column(
+            ("time",), np.concatenate([each.values, found[name].values])[order], each.attrs
+        )
+        for name, each in over_time.variables.items()
+    }
+    at = joined.pop("time")
+    return Columns(joined, {"time": at}, over_time.attrs)
 
 
-def _positions(dataset: xr.Dataset, times: Array) -> dict[str, Array]:
+def _positions(dataset: Columns, times: Array) -> dict[str, Array]:
     """What is known at the events themselves."""
     if not has_events(dataset):
         return {}

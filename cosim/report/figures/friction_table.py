@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 from matplotlib.figure import Figure
 from stickslip import friction_coefficient
+
+from cosim.report.columns import Data
 
 from ..contents import mechanics_of
 from ..style import GREY, INK, SERIES, SLIP, panels, styled
@@ -16,7 +17,7 @@ BEYOND = 1.15
 
 
 @styled
-def draw_friction_table(dataset: xr.Dataset) -> Figure:
+def draw_friction_table(dataset: Data) -> Figure:
     """mu over the sliding speed, a line for each temperature of the table, with its points.
 
     Shaded: the speeds at which the run slid. Grey: at the run's own interface temperature at its

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 from stickslip.friction.law import feels_water
 
+from cosim.report.columns import Data
 from cosim.report.contents import mechanics_of
 from cosim.report.heat_numbers import SINKS, Film, all_other_heat, ambient_degC, film_of, held
 from cosim.report.live import Curve, Panel
@@ -39,7 +39,7 @@ RARE = ("supports", "melting")
 SMALLEST_PART = 2e-3
 
 
-def heat(dataset: xr.Dataset) -> TimeFigure:
+def heat(dataset: Data) -> TimeFigure:
     """Heat flow, cumulative heat and, where there is a thermal model, the shares."""
     sinks = sinks_of(dataset)
     beside = all_other_heat(dataset)
@@ -74,7 +74,7 @@ def heat(dataset: xr.Dataset) -> TimeFigure:
     return TimeFigure("Friction heat", panels)
 
 
-def sinks_of(dataset: xr.Dataset) -> dict[str, str]:
+def sinks_of(dataset: Data) -> dict[str, str]:
     """Sinks that the dataset knows -> variable; the rare ones only where they took heat."""
     return {
         sink: name
@@ -83,7 +83,7 @@ def sinks_of(dataset: xr.Dataset) -> dict[str, str]:
     }
 
 
-def _shares(dataset: xr.Dataset, sinks: dict[str, str]) -> list[Curve]:
+def _shares(dataset: Data, sinks: dict[str, str]) -> list[Curve]:
     received = dataset["heat_received"].values + all_other_heat(dataset)
     # of the first joules the parts are rounding and the mesh's
     least = SMALLEST_PART * float(np.nanmax(received, initial=0.0))
@@ -94,7 +94,7 @@ def _shares(dataset: xr.Dataset, sinks: dict[str, str]) -> list[Curve]:
     ]
 
 
-def melting(dataset: xr.Dataset) -> TimeFigure:
+def melting(dataset: Data) -> TimeFigure:
     """Stresses in the contact, thickness of the film, melted and frozen mass."""
     film = film_of(dataset)
     stress = readable(film.friction, "Pa")
@@ -153,7 +153,7 @@ GROUPS = (
 SMALLEST_RISE = 1e-9
 
 
-def temperatures(dataset: xr.Dataset) -> TimeFigure:
+def temperatures(dataset: Data) -> TimeFigure:
     """Rise over the air of the contact and of the belt, and how much warmer the ice's face is.
 
     Contact and ice differ by thousandths of their rise: as two curves they would be one.
@@ -181,7 +181,7 @@ def temperatures(dataset: xr.Dataset) -> TimeFigure:
     return TimeFigure(f"Temperatures in air at {air} °C", panels, height=2.2, share_y=False)
 
 
-def _difference(dataset: xr.Dataset) -> Panel:
+def _difference(dataset: Data) -> Panel:
     difference = dataset[ICE].values - dataset[CONTACT].values
     scaled = readable(difference, "K", SMALLEST_RISE)
     return Panel(

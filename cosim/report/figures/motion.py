@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.colors import to_rgb
@@ -13,6 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 from stickslip.kernel.layout import P_CURVATURE, P_MU_K, P_MU_S, P_NORMAL_FORCE
 
+from cosim.report.columns import Data
 from cosim.report.contents import break_aways, mechanics_of, ramp_end
 from cosim.report.live import Curve, Panel
 from cosim.report.style import (
@@ -42,7 +42,7 @@ SMALLEST_ANGLE_DEG = 0.1
 FLAT = 0.05
 
 
-def motion(dataset: xr.Dataset) -> TimeFigure:
+def motion(dataset: Data) -> TimeFigure:
     """x, y and phi over time; where the block keeps to its line or does not turn, words say so."""
     x, y = (readable(dataset[name].values, "m", floor=1e-3) for name in ("x", "y"))
     shown = [
@@ -82,7 +82,7 @@ DEGREES_PER_SECOND = Scaled(180.0 / np.pi, "°/s")
 
 
 @styled
-def draw_phase_portrait(dataset: xr.Dataset) -> Figure:
+def draw_phase_portrait(dataset: Data) -> Figure:
     """(x, vx) with the speed of the surface, and (phi, omega) where the block turns."""
     run, (dataset, _) = dataset, through_events(dataset)
     turns = np.degrees(np.nanmax(np.abs(dataset["phi"].values), initial=0.0)) > SMALLEST_ANGLE_DEG
@@ -106,7 +106,7 @@ def draw_phase_portrait(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-def local_surface_speed(dataset: xr.Dataset) -> Array:
+def local_surface_speed(dataset: Data) -> Array:
     """Speed of the surface along x below the middle of the block, m/s: (times,).
 
     A slab that turns about (0, 1 / curvature) is slower the nearer to that centre.
@@ -121,7 +121,7 @@ def local_surface_speed(dataset: xr.Dataset) -> Array:
 
 
 def _surface_speed(
-    axes: Axes, dataset: xr.Dataset, surface: Array, x: Scaled, vx: Scaled, starts: Array
+    axes: Axes, dataset: Data, surface: Array, x: Scaled, vx: Scaled, starts: Array
 ) -> None:
     """Where the block sticks: a line on a belt; on a slab it goes with the place of the block."""
     late = dataset["time"].values >= ramp_end(dataset)
@@ -140,7 +140,7 @@ def _surface_speed(
 
 def _path(
     axes: Axes,
-    dataset: xr.Dataset,
+    dataset: Data,
     parts: list[Part],
     across: tuple[str, Scaled],
     upwards: tuple[str, Scaled],
@@ -174,7 +174,7 @@ def _fading(axes: Axes, x: Array, y: Array, colour: str, width: float, text: str
     axes.plot([], [], color=colour, linewidth=width, label=text)
 
 
-def _parts(run: xr.Dataset, time: Array) -> list[Part]:
+def _parts(run: Data, time: Array) -> list[Part]:
     """Name, rows of the time, colour and width of the parts of a run.
 
     Each ends where the next begins.
@@ -204,7 +204,7 @@ COMPONENTS = (
 SMALLEST_SHARE = 1e-6
 
 
-def friction_force(dataset: xr.Dataset) -> TimeFigure:
+def friction_force(dataset: Data) -> TimeFigure:
     """Friction along x with the limits of stick and slip; the other components where they act."""
     p = mechanics_of(dataset).pack()
     limits = {"μₛ m g": P_MU_S, "μₖ m g": P_MU_K}

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
@@ -19,6 +18,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from cosim.report.columns import Data
 from cosim.report.contents import break_aways, mechanics_of, ramp_end, slip_intervals
 from cosim.report.live import Live, Panel, over_time
 from cosim.report.style import GREY, INK, SLIP, at_least, in_full, line, plain_ticks, styled
@@ -50,19 +50,19 @@ class TimeFigure:
     share_y: bool = True
 
 
-Describe = Callable[[xr.Dataset], TimeFigure]
+Describe = Callable[[Data], TimeFigure]
 
 
-def drawn(describe: Describe) -> Callable[[xr.Dataset], Figure]:
+def drawn(describe: Describe) -> Callable[[Data], Figure]:
     """A function that draws a run's figure."""
 
-    def draw(dataset: xr.Dataset) -> Figure:
+    def draw(dataset: Data) -> Figure:
         return _draw(dataset, describe)
 
     return styled(draw)
 
 
-def _draw(dataset: xr.Dataset, describe: Describe) -> Figure:
+def _draw(dataset: Data, describe: Describe) -> Figure:
     rows, _ = through_events(dataset)
     described = describe(rows)
     count = len(described.panels)
@@ -185,10 +185,10 @@ def _legend(figure: Figure, described: TimeFigure) -> None:
         figure.legend(handles=handles, loc="outside lower center", ncols=columns)
 
 
-def live(describe: Describe) -> Callable[[xr.Dataset], Live]:
+def live(describe: Describe) -> Callable[[Data], Live]:
     """A function that gives a run's figure to the page, see `cosim.report.live`."""
 
-    def given(dataset: xr.Dataset) -> Live:
+    def given(dataset: Data) -> Live:
         rows, events = through_events(dataset)
         described = describe(rows)
         ramp, time = ramp_end(dataset), dataset["time"].values
@@ -218,12 +218,12 @@ class Zoom(NamedTuple):
     title: str
 
 
-def zoom_of(dataset: xr.Dataset) -> Zoom | None:
+def zoom_of(dataset: Data) -> Zoom | None:
     """The last stick-slip cycles, else the last vibrations; None where a zoom is of no use."""
     return _last_cycles(dataset) or _last_vibrations(dataset)
 
 
-def _last_cycles(dataset: xr.Dataset) -> Zoom | None:
+def _last_cycles(dataset: Data) -> Zoom | None:
     """As many cycles, up to `MOST_CYCLES`, as fit into `LARGEST_PART` of the run."""
     starts = break_aways(dataset)
     if starts.size < MOST_CYCLES + 1:
@@ -238,7 +238,7 @@ def _last_cycles(dataset: xr.Dataset) -> Zoom | None:
     return None
 
 
-def _last_vibrations(dataset: xr.Dataset) -> Zoom | None:
+def _last_vibrations(dataset: Data) -> Zoom | None:
     """Some periods of the free vibration at the end, in a run too long to show single ones."""
     time = dataset["time"].values
     frequency = mechanics_of(dataset).natural_frequency
@@ -250,7 +250,7 @@ def _last_vibrations(dataset: xr.Dataset) -> Zoom | None:
     return Zoom(float(time[-1] - length), float(time[-1]), "the end of the run")
 
 
-def title(figure: Figure, text: str, dataset: xr.Dataset) -> None:
+def title(figure: Figure, text: str, dataset: Data) -> None:
     """Title at the left, with the case's name and how a run ended that is not complete."""
     status = dataset.attrs["status"]
     ending = "" if status == "complete" else f"  ({status})"
@@ -282,7 +282,7 @@ def slip_patch() -> Patch:
 
 
 def time_panels(
-    dataset: xr.Dataset, rows: int, height: float = 2.0, share_y: bool = True
+    dataset: Data, rows: int, height: float = 2.0, share_y: bool = True
 ) -> tuple[Figure, NDArray[Any]]:
     """Panels (rows, columns) over time: the whole run and, if it is long, a part enlarged.
 
@@ -307,7 +307,7 @@ def time_panels(
     return figure, axes
 
 
-def _limits(dataset: xr.Dataset, axes: NDArray[Any], zoom: Zoom | None) -> None:
+def _limits(dataset: Data, axes: NDArray[Any], zoom: Zoom | None) -> None:
     time = dataset["time"].values
     begin, end = (time[0], time[-1]) if time.size else (0.0, 0.0)
     margin = 0.0 if end > begin else 0.5

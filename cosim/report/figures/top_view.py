@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
@@ -15,6 +14,7 @@ from stickslip import Parameters
 from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
 
 from cosim.report.bounds import WIDTH
+from cosim.report.columns import Data
 from cosim.report.contents import mechanics_of, value_of
 from cosim.report.live import Live, packed
 from cosim.report.style import (
@@ -78,7 +78,7 @@ Box = tuple[float, float, float, float]
 
 
 @styled
-def draw_top_view(dataset: xr.Dataset) -> Figure:
+def draw_top_view(dataset: Data) -> Figure:
     """Block, springs and surface; a panel for each position, all to the same scale."""
     parameters = mechanics_of(dataset)
     poses = extreme_poses(dataset)
@@ -103,10 +103,15 @@ def draw_top_view(dataset: xr.Dataset) -> Figure:
     return figure
 
 
-def extreme_poses(dataset: xr.Dataset) -> list[tuple[str, Pose]]:
+def _is_known(dataset: Data) -> NDArray[np.bool_]:
+    """In which rows the block's place is known."""
+    return np.all([np.isfinite(dataset[name].values) for name in ("x", "y", "phi")], axis=0)
+
+
+def extreme_poses(dataset: Data) -> list[tuple[str, Pose]]:
     """At rest, furthest along +-x, and the largest rotation where the block turns."""
     poses = [("at rest", REST)]
-    finite = np.isfinite((dataset["x"] + dataset["y"] + dataset["phi"]).values)
+    finite = _is_known(dataset)
     known = dataset.isel(time=finite)
     if known.sizes["time"] == 0:
         return poses
@@ -118,11 +123,11 @@ def extreme_poses(dataset: xr.Dataset) -> list[tuple[str, Pose]]:
     return poses
 
 
-def _pose(row: xr.Dataset) -> Pose:
+def _pose(row: Data) -> Pose:
     return Pose(float(row["x"]), float(row["y"]), float(row["phi"]))
 
 
-def _told(row: xr.Dataset) -> str:
+def _told(row: Data) -> str:
     x, y, phi = _pose(row)
     return (
         f"t = {float(row['time']):.2f} s\n"
@@ -168,7 +173,7 @@ def _frame(axes: Axes, text: str, box: Box) -> None:
     plain_ticks(axes)
 
 
-def belt_width(dataset: xr.Dataset) -> float | None:
+def belt_width(dataset: Data) -> float | None:
     """Width of the belt, m; None for a slab, or where it is not known."""
     if mechanics_of(dataset).pack()[P_CURVATURE] != 0.0:
         return None
@@ -176,7 +181,7 @@ def belt_width(dataset: xr.Dataset) -> float | None:
     return float(width) if width else None
 
 
-def _draw_surface(axes: Axes, dataset: xr.Dataset, parameters: Parameters, box: Box) -> None:
+def _draw_surface(axes: Axes, dataset: Data, parameters: Parameters, box: Box) -> None:
     """The belt as a band of its width (a slab fills the view), its name and where it moves to."""
     width = belt_width(dataset)
     low, high = (-0.5 * width, 0.5 * width) if width else (box[2], box[3])
@@ -207,7 +212,7 @@ def _draw_arrow(axes: Axes, left: float, y: float, forwards: bool) -> None:
     axes.annotate("", (ends[1], y), (ends[0], y), arrowprops=look)
 
 
-def surface_words(dataset: xr.Dataset, look: str = "") -> str:
+def surface_words(dataset: Data, look: str = "") -> str:
     """What the surface is, and how fast it goes."""
     parameters = mechanics_of(dataset)
     centre, speed = centre_of(parameters), f"{abs(parameters.surface.speed):g} m/s"
@@ -221,7 +226,7 @@ def surface_words(dataset: xr.Dataset, look: str = "") -> str:
     return f"belt{look}, {1e3 * width:g} mm wide{wide}; {speed}"
 
 
-def _compared(dataset: xr.Dataset) -> str:
+def _compared(dataset: Data) -> str:
     """That the block is wider than the belt, where it is."""
     width, block = belt_width(dataset), 2.0 * mechanics_of(dataset).rig.contact_radius
     if width is None or block <= width:
@@ -275,14 +280,14 @@ def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
 MOST_FRAMES = 3000
 
 
-def top_view_live(dataset: xr.Dataset) -> Live:
+def top_view_live(dataset: Data) -> Live:
     """The rig in motion, for the page: positions over time, and what does not change.
 
     The belt's colours are taken from the map of its temperature, where the page has one.
     """
     parameters = mechanics_of(dataset)
     poses = extreme_poses(dataset)
-    finite = np.isfinite((dataset["x"] + dataset["y"] + dataset["phi"]).values)
+    finite = _is_known(dataset)
     known = dataset.isel(time=finite)
     every = max(-(-known.sizes["time"] // MOST_FRAMES), 1)
     rows = known.isel(time=slice(None, None, every))

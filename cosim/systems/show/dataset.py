@@ -23,22 +23,22 @@ def system_columns(run: SystemRun) -> Columns:
     """
     result, sources, steps = run.result, _sources(run), run.steps
     variables = {
-        column(name): Column("time", np.asarray(values), _attributes(run, name, sources))
+        column(name): Column(("time",), np.asarray(values), _attributes(run, name, sources))
         for name, values in result.values.items()
     }
     if result.ledger.flows or result.ledger.residuals:
         said = "energy handed over and not taken up, and what units state to be off by"
-        variables[RESIDUAL] = Column("time", result.ledger.residual, _told("J", said))
+        variables[RESIDUAL] = Column(("time",), result.ledger.residual, _told("J", said))
     # an entry is one step or, in a long run, some neighbouring ones
     for name, values, said in (
         ("shortest_step", steps.shortest, "smallest macro step up to this time"),
         ("longest_step", steps.longest, "largest macro step up to this time"),
     ):
-        variables[name] = Column("step_time", np.asarray(values), _told("s", said))
+        variables[name] = Column(("step_time",), np.asarray(values), _told("s", said))
     ends = np.asarray(steps.ends)
     axes = {
-        "time": Column("time", np.asarray(result.time), _told("s", "time")),
-        "step_time": Column("step_time", ends, _told("s", "end of a macro step")),
+        "time": Column(("time",), np.asarray(result.time), _told("s", "time")),
+        "step_time": Column(("step_time",), ends, _told("s", "end of a macro step")),
     }
     attributes = {
         "title": run.specification.name,

@@ -9,7 +9,6 @@ from functools import cache
 from types import SimpleNamespace
 
 import numpy as np
-import pandas as pd
 import pytest
 import xarray as xr
 from stickslip import Trajectory, simulate
@@ -241,7 +240,7 @@ def test_failed_write_leaves_the_earlier_file_and_no_scraps(tmp_path, monkeypatc
     write_data(dataset, tmp_path)
     before = (tmp_path / "result.csv").read_bytes()
 
-    monkeypatch.setattr(pd.DataFrame, "to_csv", full_disk)
+    monkeypatch.setattr("cosim.report.columns.csv.writer", full_disk)
     with pytest.raises(OutputError, match="No space left"):
         write_data(dataset, tmp_path)
     assert (tmp_path / "result.csv").read_bytes() == before

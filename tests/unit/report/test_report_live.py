@@ -84,7 +84,7 @@ def test_friction_reaches_its_limit_at_every_break_away():
     limit = p[P_MU_S] * p[P_NORMAL_FORCE]
     times, modes = mode_changes(dataset)
     at = np.searchsorted(rows["time"].values, times[1:][modes[1:] == 1.0])
-    force = np.hypot(rows["friction_force_x"], rows["friction_force_y"]).values[at]
+    force = np.hypot(rows["friction_force_x"].values, rows["friction_force_y"].values)[at]
     # a parabola over one row of 10 ms, of a sine with a period of 0.6 s: 1e-4 of its size
     np.testing.assert_allclose(force, limit, rtol=3e-4)
     assert added.sum() == 2 * (times.size - 1)
