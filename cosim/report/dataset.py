@@ -99,14 +99,14 @@ class BeltSnapshots(Protocol):
 
 
 def run_dataset(result: CoupledResult, scenario: BaseModel, toml: str, **how: Any) -> xr.Dataset:
-    """`run_columns` as a dataset."""
+    """`run_columns`, whose arguments these are, as a dataset."""
     return run_columns(result, scenario, toml, **how).to_xarray()
 
 
 def trajectory_dataset(
     trajectory: Trajectory, scenario: BaseModel, toml: str, **how: Any
 ) -> xr.Dataset:
-    """`trajectory_columns` as a dataset."""
+    """`trajectory_columns`, whose arguments these are, as a dataset."""
     return trajectory_columns(trajectory, scenario, toml, **how).to_xarray()
 
 
