@@ -5,19 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from . import readings
 from .claims.friction_level import misfit, observed
 from .claims.rotation import ROTATES, turns_far_and_near
-from .readings import (
-    AS_PRINTED,
-    BALANCED,
-    MARKS,
-    ROUNDED,
-    Outcome,
-    Reading,
-    outcomes,
-    reading_figures,
-    standing,
-)
+from .readings import AS_PRINTED, MARKS, Outcome, Reading, reading_figures
 from .sheet import WRITTEN
 
 #: Claims that this bears on.
@@ -59,9 +50,8 @@ def attribution(reading: Reading) -> Attribution:
     first, second = (reading_figures(reading, dataset).max_rotation for dataset in (1, 2))
     without = {f: reading_figures(reading.mended(f), 1).max_rotation for f in ("F2", "F13")}
     misfits = fit(reading, 1), fit(reading, 2), fit(reading.mended("F1"), 1)
-    return Attribution(
-        reading, first > ROTATES, without, misfits, turns_far_and_near(first, second)
-    )
+    both = turns_far_and_near(first, second)
+    return Attribution(reading, first > ROTATES, without, misfits, both)
 
 
 @dataclass(frozen=True)
@@ -83,8 +73,8 @@ class Datasets:
         most = max(sum(one.met) for one in self.outcomes)
         said = written["says"].format(
             printed=of[AS_PRINTED].values,
-            balanced=of[BALANCED].values,
-            rounded=of[ROUNDED],
+            balanced=of[readings.BALANCED].values,
+            rounded=of[readings.ROUNDED],
             marks=len(MARKS),
             most=most,
             closest=_names(one.reading for one in self.outcomes if sum(one.met) == most),
@@ -109,11 +99,11 @@ class Datasets:
         )
 
 
-def _names(readings: Iterable[Reading]) -> str:
-    return "; ".join(one.name for one in readings)
+def _names(of: Iterable[Reading]) -> str:
+    return "; ".join(one.name for one in of)
 
 
 def datasets() -> Datasets:
     """Every reading beside the marks, and the claims as printed and under those that stand."""
-    bearing = [AS_PRINTED, *(one for one in standing() if one != AS_PRINTED)]
-    return Datasets(tuple(outcomes()), tuple(map(attribution, bearing)))
+    bearing = [AS_PRINTED, *(one for one in readings.standing() if one != AS_PRINTED)]
+    return Datasets(tuple(readings.outcomes()), tuple(map(attribution, bearing)))

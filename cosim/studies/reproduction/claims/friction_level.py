@@ -114,7 +114,7 @@ def judge() -> Claim:
         for i, one in enumerate(OBSERVATIONS):
             weights = np.where(np.arange(len(OBSERVATIONS)) == i, weight, 1.0)
             fits = [misfit(values[2], weights) for values in (full, cut)]
-            sheet.turn(name, fits[1] / fits[0], fits=fits, says=_name(one))
+            sheet.turn(name, fits[1] / fits[0], fits=fits, says=one["name"])
     fits = [misfit(of[key]) for key in ("exact_fitted", "exact_fitted_cut")]
     sheet.turn("fitted", fits[1] / fits[0], fits=fits)
     low, high = (needed_friction(OBSERVED[MEAN_X] + side * CLOSE) for side in (-1.0, 1.0))
@@ -139,11 +139,6 @@ def _quarter_wins(faults: Faults) -> bool:
     return misfit(of_scheme(cases.DATASET_2, PRINTED)) < misfit(of_scheme(cases.DATASET_1, faults))
 
 
-def _name(one: dict) -> str:
-    """Of an observation, as its row has it."""
-    return WRITTEN["C6"]["row"][one["figure"]]["says"].removesuffix(", µ full")
-
-
 def _remarked(of: dict[str, Array]) -> dict[str, Any]:
     """What the remarks leave open."""
     names = {key: name for key, (name, _) in variants().items()}
@@ -153,10 +148,6 @@ def _remarked(of: dict[str, Array]) -> dict[str, Any]:
     enough = "Yes" if alone < ENOUGH * others else "In part"
     best = min(fits, key=fits.__getitem__)
     table = [f"{names[key]}: misfit {fits[key]:.1f}, {met[key]} of 5 met" for key in of]
-    spreads = [
-        f"{_name(o)} {value:g} ± {o['spread']:g}"
-        for o, value in zip(OBSERVATIONS, OBSERVED, strict=True)
-    ]
     return {
         "answer": enough if alone < fits["printed_cut"] else "No",
         "fits": fits,
@@ -164,7 +155,6 @@ def _remarked(of: dict[str, Array]) -> dict[str, Any]:
         "counts": [of["exact_full"][0], of["exact_cut"][0]],
         "best": f"{names[best]}, misfit {fits[best]:.1f}",
         "table": "; ".join(table),
-        "spreads": ", ".join(spreads),
     }
 
 

@@ -152,60 +152,51 @@ def farthest(case: Case, faults: Faults) -> Motion:
     return max((scheme_motion(case, faults, seed) for seed in RUNS), key=lambda run: run.rotation)
 
 
-def turns_far_and_near(first: float, second: float) -> bool:
+def turns_far_and_near(first: Any, second: Any) -> Any:
     """Whether #1 turns by the study's 150 degrees, and #2 stays within the measured 20."""
-    return first > FAR_TURN / FACTOR and second < FACTOR * MEASURED
+    return (first > FAR_TURN / FACTOR) & (second < FACTOR * MEASURED)
 
 
 def judge_datasets() -> Claim:
     """C7: largest rotation and angular speed over several seeds."""
     sheet = Sheet("C7")
-    runs = {
-        dataset: [farthest(case, PRINTED), farthest(case, MENDED), exact_motion(case)]
-        for dataset, case in DATASETS.items()
-    }
-    turned = {dataset: [one.rotation for one in three] for dataset, three in runs.items()}
-    for dataset, three in runs.items():
-        found = {"rotation": turned[dataset], "swing": [figures(one).swing_rate for one in three]}
-        for name, ours in found.items():
+    runs = [
+        [farthest(case, PRINTED), farthest(case, MENDED), exact_motion(case)]
+        for case in DATASETS.values()
+    ]
+    first, second = turned = np.array([[one.rotation for one in three] for three in runs])
+    for dataset, rotations, three in zip(DATASETS, turned, runs, strict=True):
+        swings = [figures(one).swing_rate for one in three]
+        for name, ours in (("rotation", rotations), ("swing", swings)):
             sheet.row(name, ours, study=f"{name}_dataset_{dataset}", dataset=dataset)
     # once by more than chance could make of 150 degrees, and again
     least = FAR_TURN / FACTOR**2
-    sheet.check(
-        "far",
-        turned[1],
-        limit=FAR_TURN / FACTOR,
-        faults=responsible(lambda faults: farthest(DATASET_1, faults).rotation > least),
-    )
-    sheet.check("near", turned[2], limit=FACTOR * MEASURED)
-    sheet.check(
-        "both",
-        answers=[turns_far_and_near(*pair) for pair in zip(turned[1], turned[2], strict=True)],
-        margin=max(sum(outcome(reading).met) for reading in READINGS),
-        limit=len(MARKS),
-    )
+    faults = responsible(lambda faults: farthest(DATASET_1, faults).rotation > least)
+    sheet.check("far", first, limit=FAR_TURN / FACTOR, faults=faults)
+    sheet.check("near", second, limit=FACTOR * MEASURED)
+    most = max(sum(outcome(reading).met) for reading in READINGS)
+    sheet.check("both", answers=turns_far_and_near(*turned), margin=most, limit=len(MARKS))
     loose = [exact_motion(case, pretension=0.0).rotation for case in DATASETS.values()]
-    sheet.turn("loose", sound=turns_far_and_near(*loose), first=loose[0], second=loose[1])
+    sheet.turn("loose", sound=turns_far_and_near(*loose), turned=loose)
     with_both = []
     for reading in READINGS:
-        first, second = (reading_figures(reading, dataset).max_rotation for dataset in DATASETS)
+        pair = [reading_figures(reading, dataset).max_rotation for dataset in DATASETS]
         met, weight = sum(outcome(reading).met), OPEN if reading.place else FAR
-        said = {"name": reading.name, "first": first, "second": second}
-        sheet.turn("reading", met, weight=weight, **said)
-        if turns_far_and_near(first, second):
-            with_both.append(reading.name)
-    sheet.picture("C7_rotation", [[_turned(dataset, *three) for dataset, three in runs.items()]])
+        sheet.turn("reading", met, weight=weight, name=reading.name, turned=pair)
+        with_both += [reading.name] if turns_far_and_near(*pair) else []
+    panels = [_turned(*pair) for pair in zip(DATASETS, runs, strict=True)]
+    sheet.picture("C7_rotation", [panels])
     return sheet.claim(
-        first=turned[1][0],
-        second=turned[2][0],
-        compared="less" if turned[2][0] < turned[1][0] else "no less",
+        first=first[0],
+        second=second[0],
+        compared="less" if second[0] < first[0] else "no less",
         window=reading_figures(AS_PRINTED, 1).max_rotation,
         with_both="; ".join(with_both) or "no reading",
         readings=len(READINGS),
     )
 
 
-def _turned(dataset: int, *runs: Motion) -> Panel:
+def _turned(dataset: int, runs: list[Motion]) -> Panel:
     study = STUDY[f"rotation_dataset_{dataset}"].number
     title = f"dataset #{dataset}: as printed up to {runs[0].rotation:.0f}°"
     levels = {"study's largest": study, "_": -study}

@@ -158,18 +158,10 @@ def drawers(gap: SummaryGap) -> dict[str, Callable[[], Picture]]:
 
 def page(gap: SummaryGap, pictures: Sequence[Picture]) -> str:
     """HTML with the picture inside."""
-    numbers = [
-        [
-            quantity(key, value, row.intervals.get(key)).text
-            for key, value in row.parameters.items()
-            if key.startswith(row.effect)
-        ]
-        for row in gap.ranking
-    ]
     return render(
         "summary.html.j2", "cosim.studies.reproduction.summary", gap=gap, text=text, digits=digits,
         sentence=sentence(gap), gap_line=gap_line(gap), quantities=quantities(gap),
-        numbers=numbers, pictures=pictures, remarks=_remarks(gap),
+        quantity=quantity, pictures=pictures, remarks=_remarks(gap),
     )  # fmt: skip
 
 
