@@ -57,7 +57,8 @@ class Instance:
         Of the Python unit's calls only a step and the end of initialisation return an error, also
         where another one failed before.
         """
-        if self.is_python and call not in (self.slave.doStep, self.initialise):
+        ends = (self.slave.exitInitializationMode, self.initialise)
+        if self.is_python and call not in (self.slave.doStep, *ends):
             call(*arguments, **values)
         else:
             refused(call, *arguments, **values)
