@@ -84,7 +84,9 @@ def over_time(
     return Curve(motion.time[keep] - begin, scale * getattr(motion, name)[keep], style)
 
 
-def models_over_time(runs: Sequence[Motion], name: str, scale: float = 1.0, settled: float = 0.0):
+def models_over_time(
+    runs: Sequence[Motion], name: str, scale: float = 1.0, settled: float = 0.0
+) -> list[Curve]:
     """A quantity of each model's run, from a part of its time on."""
     return [
         over_time(run, name, scale, settled * run.time[-1], color=colour, label=label, lw=1.0)

@@ -30,20 +30,14 @@ WRITTEN = tomllib.loads(Path(__file__).with_name("readings.toml").read_text(enco
 
 def _mark(study: str = "", **written: Any) -> dict[str, Any]:
     """A mark as it is written; the number is the study's of that name, where there is one."""
-    return (
-        (written | {"printed": STUDY[study].value, "place": STUDY[study].place})
-        if study
-        else written
-    )
+    known = {"printed": STUDY[study].value, "place": STUDY[study].place} if study else {}
+    return written | known
 
 
 #: Printed figures of a dataset, and what counts as each, low to high in its unit: a run turns by
 #: half as much again as another of the same kind; a window may cut an oscillation. figure: of
 #: `MotionFigures`, or the onset of a rotation that is seen.
 MARKS = [_mark(**written) for written in WRITTEN["mark"]]
-
-
-Numbers = dict[str, Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,9 +53,9 @@ class Reading:
     name: str
     place: str = ""
     faults: Faults = PRINTED
-    changes: Numbers = field(default_factory=dict)
-    both: Numbers = field(default_factory=dict)
-    second: Numbers = field(default_factory=dict)
+    changes: dict[str, Any] = field(default_factory=dict)
+    both: dict[str, float] = field(default_factory=dict)
+    second: dict[str, float] = field(default_factory=dict)
     turned: float = 1e-15
 
     def case(self, dataset: int, **changes: float) -> Case:

@@ -37,7 +37,9 @@ def repeated(check: SinglePass, length: float, duration: float = RUN) -> float:
     return check.ambient_degC + check.rise * sum(kept**n for n in range(1, passes + 1))
 
 
-def belt_case(length: float, h: float = HEAT_TRANSFER, speed: float = SPEED, ramp: float = 0.0):
+def belt_case(
+    length: float, h: float = HEAT_TRANSFER, speed: float = SPEED, ramp: float = 0.0
+) -> Case:
     """The case of `stickslip belt-length`; h W/m2K, ramp: s before the run."""
     return Case(length, speed, h=h, protocol=Protocol(ramp=ramp, run=RUN))
 
