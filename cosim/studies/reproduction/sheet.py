@@ -1,7 +1,8 @@
 """What is written of each claim (`claims.toml`), filled in with computed numbers and judged.
 
 A row, a check, a turn and a picture are named there; their texts have places in braces for what is
-computed. A check compares a number of each model with its limit.
+computed. A check compares a number of each model with its limit. Changes that are one computation
+with other numbers stand there with these.
 """
 
 from __future__ import annotations
@@ -137,6 +138,11 @@ class Sheet:
         turn = Turn(change, figure, bool(sound), weight or written.get("weight", FAR))
         last = self._checks[-1]
         self._checks[-1] = replace(last, turns=(*last.turns, turn))
+
+    def turns(self, key: str) -> dict[str, Any]:
+        """The changes that are written with their numbers under a key: name -> those."""
+        written = self._written["turn"].items()
+        return {name: one[key] for name, one in written if key in one}
 
     def picture(
         self,

@@ -17,14 +17,11 @@ from ..sheet import STUDY, Sheet
 
 #: Lengths of belt, m, and the temperature after one pass that the study prints of each, degC.
 TABLE = {float(length): STUDY[f"belt_{length}"].number for length in (1, 2, 3, 4)}
-RUN, RAMP = 20.0, 10.0  # s at constant speed; of speed ramp, §3.4.3
-SPEED, SLOWEST = 0.82, 0.15
+RUN, RAMP, SPEED = 20.0, 10.0, 0.82  # s at constant speed; s of speed ramp, §3.4.3; m/s
 # a rise is the table's where it is no further off than by a half
 AS_TOLD = 1.5
-# of each face of the belt, W/m2K: still air to a light draught
-HEAT_TRANSFER, STILL_AIR = 15.0, 7.0
-# the study's camera, K: by its data sheet; what it saw and did not see when it was tried
-SENSITIVITY, TRIED = 0.07, {"seen": 1.0, "unseen": 0.01}
+HEAT_TRANSFER = 15.0  # of each face of the belt in a light draught, W/m2K
+SENSITIVITY = 0.07  # of the study's camera by its data sheet, K
 
 
 def repeated(check: SinglePass, length: float, duration: float = RUN) -> float:
@@ -78,7 +75,7 @@ def judge_length() -> Claim:
     sheet.check("table", (None, *rises[0][1:]), limit=AS_TOLD * told[0], table=told[0])
     _turn_runs(sheet)
     sheet.check("camera", rises[0], limit=SENSITIVITY)
-    for name, limit in TRIED.items():
+    for name, limit in sheet.turns("limit").items():
         sheet.turn(name, rises[0][2], sound=rises[0][2] < limit)
     _turn_runs(sheet)
     curves = by_model(list(TABLE), np.transpose(rises))
@@ -93,11 +90,8 @@ def judge_length() -> Claim:
 
 def _turn_runs(sheet: Sheet) -> None:
     """1 m of belt in other air, after a speed ramp, at the slowest speed."""
-    slow = {"speed": SLOWEST}
-    sheet.turn("still", finite_elements(1.0, h=STILL_AIR)[0])
-    sheet.turn("ramped", finite_elements(1.0, ramp=RAMP)[0])
-    sheet.turn("slow", finite_elements(1.0, **slow)[0])
-    sheet.turn("slow_ramped", finite_elements(1.0, ramp=RAMP, **slow)[0])
+    for name, run in sheet.turns("run").items():
+        sheet.turn(name, finite_elements(1.0, **run)[0])
 
 
 def judge_table() -> Claim:

@@ -9,7 +9,7 @@ import numpy as np
 from cosim.studies.belt_length import Protocol
 
 from .. import cases
-from ..cases import DATASET_1, DATASET_2, GUIDED, SPEEDS, STIFFNESSES, WEAKENING, Case
+from ..cases import DATASET_1, GUIDED, SPEEDS, STIFFNESSES, WEAKENING, Case
 from ..claim import Claim
 from ..motion import Motion
 from ..sheet import Sheet
@@ -60,16 +60,11 @@ def judge_falling_friction() -> Claim:
     sheet.row("steady", before)
     sheet.row("falling", after)
     sheet.check("longer", after / before)
-    turns = (
-        ("speed", DATASET_1.changed(speed=SPEEDS[2]), WEAKENING),
-        ("speed", DATASET_1.changed(speed=SPEEDS[-1]), WEAKENING),
-        ("dataset", DATASET_2, WEAKENING),
-        ("fall", DATASET_1, 0.2),
-        ("fall", DATASET_1, 0.6),
-    )  # the figure's case is not printed
-    for name, case, fall in turns:
-        pair = cases.exact_table("slip_time", case.over("weakening", (0.0, fall)), rig=GUIDED)
-        sheet.turn(name, pair[1] / pair[0], v=case.speed, fall=100.0 * fall, times=pair)
+    for name, numbers in sheet.turns("case").items():
+        falling = DATASET_1.changed(**numbers)
+        both = falling.over("weakening", (0.0, falling.weakening))
+        pair = cases.exact_table("slip_time", both, rig=GUIDED)
+        sheet.turn(name, pair[1] / pair[0], times=pair)
     return sheet.claim()
 
 

@@ -22,8 +22,6 @@ CYCLES, SEED = 40, 0
 ROTATES = 30.0  # deg: half of "three times" the measured 20
 SIDES = CYCLES // 10  # y comes back: more changes of its sign than one in every ten cycles
 EXACT_DURATION, SHOWN = 40.0, 20.0  # s
-#: What the study leaves open of the exact rig: pretension, m, and rotation at the start, deg.
-FREER = ((0.0, 1.0), (0.0, 5.0), (0.004, 5.0))
 
 
 def treated(faults: Faults, **changes: Any) -> dict[str, Motion]:
@@ -99,11 +97,10 @@ def judge_treatments() -> Claim:
         limit=ROTATES,
         faults=responsible(rotates),
     )
-    for pretension, start in FREER:
-        run = exact_motion(
-            DATASET_1, EXACT_DURATION, pretension=pretension, initial={"phi": np.radians(start)}
-        )
-        sheet.turn("freer", run.rotation, pretension=1e3 * pretension, start=start)
+    for name, (pretension, start) in sheet.turns("start").items():
+        begin = {"phi": np.radians(start)}
+        run = exact_motion(DATASET_1, EXACT_DURATION, pretension=pretension, initial=begin)
+        sheet.turn(name, run.rotation)
     sheet.turn("put_back", back.rotation)
     alone = responsible(comes_back)
     sheet.check(
