@@ -190,6 +190,8 @@ REFUSED = [
     {"imperfections.seed": -1},
     {"rig.inertia": 0},
     {"rig.attachment_angles_deg": [1, 2, 3]},
+    {"rig.attachment_angles_deg": [1, 2, 3, -400]},
+    {"rig.mass": 1e120},
     {"rig.surface": "slab", "rig.slab_radius": 0.02},
     {"rig.surface": "slab", "turning_surface.curvature": 1.5},
     {"springs.force_curve_extension": [0, 0.1], "springs.force_curve_force": [0]},
