@@ -47,6 +47,10 @@ def who_runs(file, language, text):
         return {
             test_readme.SHELL[0]: ("typed/test_typed_install.py", "test_install"),
             test_readme.SHELL[1]: ("test_readme.py", "test_ci_runs_the_line_that_tests"),
+            test_readme.SHELL[2]: (
+                "test_readme.py",
+                "test_what_is_typed_next_makes_a_rig_and_runs_it",
+            ),
         }.get(text.strip())
     if language == "toml":
         found = [test for table, test in TABLES.items() if table in text]

@@ -28,10 +28,11 @@ TEXTS = {"README.md": README} | {
 }
 PAGES = {name: text for name, text in TEXTS.items() if "{code-cell}" not in text}
 BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
-#: Lines that install; .ci/run is the second of them.
+#: Lines that install, of which .ci/run is the second; what is typed after the first.
 SHELL = [
-    "python3 -m venv .venv && .venv/bin/pip install -q . && .venv/bin/stickslip run",
+    "python3 -m venv .venv && .venv/bin/pip install . && .venv/bin/stickslip run",
     'python3 -m venv .venv && .venv/bin/pip install -q ".[test]" && .venv/bin/pytest -q -n 2',
+    ". .venv/bin/activate\nstickslip new my_rig\nstickslip run my_rig.toml",
 ]
 #: Sessions that take long.
 SLOW = ("plan next_week", "gap cold_room")
@@ -99,6 +100,15 @@ def test_the_system_is_one(tmp_path):
         assert [unit.file.name for unit in system.units] == [NATIVE, THERMAL]
 
 
+def test_what_is_typed_next_makes_a_rig_and_runs_it(at_home):
+    """In the environment that runs the tests, in place of the one that the line before made."""
+    for command in SHELL[2].splitlines()[1:]:
+        done = subprocess.run([sys.executable, "-m", "cosim", *command.split()[1:]],
+                              capture_output=True, text=True)  # fmt: skip
+        assert done.returncode == 0, done.stderr
+    assert Path("results/my_rig/report.html").exists()
+
+
 def test_ci_runs_the_line_that_tests():
     assert SHELL[1] in (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
 
@@ -122,7 +132,7 @@ def test_commands_have_the_options_that_are_named(command, capsys):
 
 
 def test_every_command_is_in_the_readme():
-    cells = re.findall(r"^\| (`stickslip [^|]+)\|", README, re.MULTILINE)
+    cells = re.findall(r"\| (`stickslip [^|]+)\|$", README, re.MULTILINE)
     named = re.findall(r"`(?:stickslip )?([a-z-]+)", " ".join(cells))
     assert set(named) == set(COMMANDS)
 
@@ -132,7 +142,7 @@ def test_the_readme_is_two_screens():
 
 
 def test_the_packaged_scenarios_that_are_named_are_there():
-    (named,) = re.findall(r"packaged scenario: ((?:`\w+`(?:, )?)+)", README)
+    (named,) = re.findall(r"Packaged scenarios: ((?:`\w+`(?:, )?)+)", README)
     for name in re.findall(r"`(\w+)`", named):
         assert read_scenario(name).name == name
 
