@@ -118,26 +118,10 @@ def test_the_drift_of_a_ramped_scenario_is_what_its_coupled_run_shows(fmu, speed
 def test_the_command_answers_both_questions_for_a_scenario(tmp_path):
     file = tmp_path / "rig.toml"
     file.write_text(ramped(Case(1.0, 0.15), {}).to_toml(), encoding="utf-8")
+    words = "--length 1 2 --samples 0 --map 0 --jobs 1 --json -o".split()
+    command = [sys.executable, "-m", "cosim", "belt-length", str(file), *words]
     done = subprocess.run(
-        [
-            sys.executable,
-            "-m",
-            "cosim",
-            "belt-length",
-            str(file),
-            "--length",
-            "1",
-            "2",
-            "--samples",
-            "0",
-            "--map",
-            "0",
-            "--jobs",
-            "1",
-            "--json",
-            "-o",
-            str(tmp_path / "out"),
-        ],
+        [*command, str(tmp_path / "out")],
         capture_output=True,
         text=True,
         check=True,

@@ -45,7 +45,7 @@ from cosim.studies.belt_length import (
 )
 from cosim.studies.belt_length.lengths import rounded_up
 from cosim.studies.belt_length.show.page import page
-from cosim.studies.belt_length.show.verdict import two_digits
+from cosim.studies.belt_length.show.wording import two_digits
 from cosim.studies.belt_length.study import check_case, check_options
 from thermal import MeshError, ParameterError
 from thermal.belt.air import NotLaminar

@@ -19,7 +19,7 @@ from stickslip.trajectory import break_away_frequency
 from thermal.materials import MELTING_POINT_DEGC
 
 from .case import Case
-from .drift import endless_belt, never_comes_round
+from .drift import endless_belt, followed, never_comes_round
 
 #: What the changes take: K, W/m2K, 1, and a roller's good contact, W/m2K, over 0.1 m of belt.
 COLDER_AIR, COLDER_SAMPLE, WARMER_SAMPLE, GOOD_ROLLER, ROLLER_ARC = 8.0, 1.0, 0.3, 1000.0, 0.1
@@ -48,7 +48,7 @@ def changes(case: Case) -> list[Change]:
     """As the case is, then each change alone; what has no room on the rig is left out."""
     found = []
     for what, changed in _changed(case):
-        before, after = changed.follow(changed.sliding())
+        before, after = followed(changed)
         entry = 0.0 if never_comes_round(changed) else after.entry
         found.append(
             Change(what, entry, after.mean_interface - before.mean_interface, after.mean_interface)
@@ -69,53 +69,31 @@ def _changed(case: Case) -> Iterator[tuple[str, Case]]:
     if not case.rig.ice.mesh:
         yield "sample twice as high", case.changed({"ice.height": 2.0 * case.rig.ice.height})
         if 3.0 * contact.radius < case.length:
-            yield (
-                "sample of 1.5 times the diameter, same mass",
-                case.changed(
-                    {"contact.radius": 1.5 * contact.radius, "contact.length": 1.5 * contact.length}
-                ),
-            )
+            wide = {
+                f"contact.{name}": 1.5 * getattr(contact, name) for name in ("radius", "length")
+            }
+            yield "sample of 1.5 times the diameter, same mass", case.changed(wide)
     yield COLDER_START, replace(case, ice_rise=-COLDER_SAMPLE)
     yield WARMER_START, replace(case, ice_rise=WARMER_SAMPLE)
     yield "twice the heat transfer to the air", replace(case, h=2.0 * case.film)
     if case.frost is not None:
         yield "belt frosted all over", replace(case, h=case.film + case.frost.added)
     if belt.rollers == 0 and belt.railing_length + 2.0 * ROLLER_ARC < 0.5 * case.length:
-        yield (
-            f"two rollers that touch {ROLLER_ARC:g} m with {GOOD_ROLLER:g} W/m2K",
-            case.changed(
-                {
-                    "belt.rollers": 2,
-                    "belt.roller_arc": ROLLER_ARC,
-                    "belt.roller_conductance": GOOD_ROLLER,
-                }
-            ),
-        )
-        yield (
-            "two rollers at 100 W/m2K, 1 K warmer than the air",
-            case.changed(
-                {
-                    "belt.rollers": 2,
-                    "belt.roller_arc": ROLLER_ARC,
-                    "belt.roller_conductance": 100.0,
-                    "belt.roller_rise": 1.0,
-                }
-            ),
-        )
+        rollers = {"belt.rollers": 2, "belt.roller_arc": ROLLER_ARC}
+        good = rollers | {"belt.roller_conductance": GOOD_ROLLER}
+        warm = rollers | {"belt.roller_conductance": 100.0, "belt.roller_rise": 1.0}
+        what = f"two rollers that touch {ROLLER_ARC:g} m with {GOOD_ROLLER:g} W/m2K"
+        yield what, case.changed(good)
+        yield "two rollers at 100 W/m2K, 1 K warmer than the air", case.changed(warm)
     if belt.railing_friction == 0.0:
-        yield (
-            f"friction {RAILING_FRICTION:g} on the railing, half of its heat to the belt",
-            (
-                case.changed(
-                    {
-                        "belt.railing_friction": RAILING_FRICTION,
-                        "belt.railing_share": 0.5,
-                        "belt.railing_length": belt.railing_length or 2.0 * contact.radius,
-                        "belt.railing_conductance": belt.railing_conductance or case.film,
-                    }
-                )
-            ),
-        )
+        railing = {
+            "belt.railing_friction": RAILING_FRICTION,
+            "belt.railing_share": 0.5,
+            "belt.railing_length": belt.railing_length or 2.0 * contact.radius,
+            "belt.railing_conductance": belt.railing_conductance or case.film,
+        }
+        what = f"friction {RAILING_FRICTION:g} on the railing, half of its heat to the belt"
+        yield what, case.changed(railing)
 
 
 #: Length of the mechanical runs, s.
@@ -150,25 +128,19 @@ def linear_sensitivity(ambient_degC: float, melting_degC: float = MELTING_POINT_
 def stick_slip_frequency(
     speed: float, mass: float, stiffness: float, mu_s: float, mu_k: float
 ) -> float | None:
-    """Of the break-aways along x on a belt, Hz; None where there are fewer than three."""
-    run = simulate(
-        mechanics(speed, mass, stiffness, mu_s, mu_k), duration=_DURATION, output_interval=1.0
-    )
-    starts = run.slip_starts
-    if len(starts) < 3:
-        return None
-    return break_away_frequency(starts)
+    """Of the break-aways along x on a belt, Hz; None where there are fewer than three.
 
-
-def mechanics(speed: float, mass: float, stiffness: float, mu_s: float, mu_k: float) -> Parameters:
-    """The rig along x; the block moves with the belt at the start."""
-    return Parameters(
+    The block moves with the belt at the start.
+    """
+    rig = Parameters(
         rig=Rig(mass=mass, degrees_of_freedom=("x",)),
         springs=Springs(stiffness=stiffness),
         friction=Friction(mu_s=mu_s, mu_k=mu_k),
         surface=Surface(speed=speed),
         initial=Initial(vx=speed),
     )
+    starts = simulate(rig, duration=_DURATION, output_interval=1.0).slip_starts
+    return None if len(starts) < 3 else break_away_frequency(starts)
 
 
 def friction_effect(case: Case, sensitivity: float | None = None) -> FrictionEffect:

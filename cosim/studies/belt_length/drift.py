@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import brentq
 
-from thermal import SteadySliding
+from thermal import SlidingState, SteadySliding
 
 from .case import CONTACT_LENGTH, Case
 
@@ -54,10 +54,9 @@ class Drift:
 
 def drift(case: Case) -> Drift:
     """All of it. NoSteadyState for h = 0, ParameterError for a belt that cannot be."""
-    sliding = case.sliding()
-    before, run = case.follow(sliding)
+    before, run = followed(case)
     steady = case.lasting.sliding().settle()
-    endless_before, endless = _follow(endless_belt(case))
+    endless_before, endless = followed(endless_belt(case))
     ambient = case.ambient_degC
     return Drift(
         study=case.as_the_study().temperature_degC(case.length) - ambient,
@@ -77,24 +76,53 @@ def drift(case: Case) -> Drift:
     )
 
 
-def _follow(case: Case):
+def followed(case: Case) -> tuple[SlidingState, SlidingState]:
+    """Cold at the start: where the last ramp ends, and at the end of the last run."""
     return case.follow(case.sliding())
 
 
 def run_drift(case: Case) -> float:
     """Rise where the belt enters the contact at the end of the last run, K."""
-    return 0.0 if never_comes_round(case) else _follow(case)[1].entry
+    return 0.0 if never_comes_round(case) else followed(case)[1].entry
 
 
 def interface_drift(case: Case) -> float:
     """Rise of the interface at constant speed in the last run, K."""
-    before, after = _follow(case)
+    before, after = followed(case)
     return after.mean_interface - before.mean_interface
 
 
 def steady_drift(case: Case) -> float:
     """Rise where the belt enters the contact for ever, K."""
     return case.lasting.sliding().settle().entry
+
+
+def least_below(
+    rise: Callable[[float], float],
+    limit: float,
+    between: tuple[float, float],
+    tolerance: float,
+    *,
+    surely: bool = False,
+) -> float | None:
+    """Least value in a range at which a rise (K) that falls with it is below a limit (K), or None.
+
+    tolerance: relative; surely: the value errs upwards alone.
+    """
+
+    def over_the_limit(logarithm: float) -> float:
+        return math.log(max(rise(math.exp(logarithm)), 1e-9) / limit)
+
+    low, high = map(math.log, between)
+    if over_the_limit(low) <= 0.0:
+        return between[0]
+    if over_the_limit(high) > 0.0:
+        return None
+    found = brentq(over_the_limit, low, high, xtol=tolerance)
+    # the root is that near, on either side
+    while surely and over_the_limit(found) > 0.0:
+        found += tolerance
+    return math.exp(min(found, high))
 
 
 def never_comes_round(case: Case) -> bool:
@@ -145,39 +173,35 @@ class Wait:
 def wait(case: Case, limit: float) -> Wait:
     """Of a case before its last run, the second if it has but one; limit in K."""
     runs = max(2, case.protocol.runs)
+    once = replace(case, protocol=replace(case.protocol, runs=1))
     sliding = case.sliding()
-    first = replace(case, protocol=replace(case.protocol, runs=1)).follow(sliding)[1].entry
+    first = once.follow(sliding)[1].entry
     after_first = sliding.snapshot()
 
-    def begin(pause: float) -> tuple[float, float]:
-        """Rises of belt and ice, K, where the last run begins."""
+    def at_start(pause: float) -> None:
+        """Where the last run begins."""
         sliding.restore(after_first)
         for run in range(1, runs):
             if run > 1:
-                _one_run(case, sliding)
+                once.follow(sliding)
             case.rest(sliding, pause)
-        return _warmest(sliding), sliding.state().ice_face
+
+    def warmest(pause: float) -> float:
+        at_start(pause)
+        return _warmest(sliding)
+
+    def ice_face(pause: float) -> float:
+        at_start(pause)
+        return abs(sliding.state().ice_face)
 
     def entry(pause: float) -> float:
-        begin(pause)
-        return _one_run(case, sliding)
+        at_start(pause)
+        return once.follow(sliding)[1].entry
 
-    belt = _least(lambda pause: abs(begin(pause)[0]), limit)
-    ice = _least(lambda pause: abs(begin(pause)[1]), limit)
-    through = None if first > limit else _least(entry, limit)
-    return Wait(
-        runs,
-        belt,
-        ice,
-        None if belt is None or ice is None else max(belt, ice),
-        through,
-        _reason(belt, ice, through, first, limit),
-    )
-
-
-def _one_run(case: Case, sliding: SteadySliding) -> float:
-    once = replace(case, protocol=replace(case.protocol, runs=1))
-    return once.follow(sliding)[1].entry
+    belt, ice = _least_pause(warmest, limit), _least_pause(ice_face, limit)
+    through = None if first > limit else _least_pause(entry, limit)
+    begin = None if belt is None or ice is None else max(belt, ice)
+    return Wait(runs, belt, ice, begin, through, _reason(belt, ice, through, first, limit))
 
 
 def _warmest(sliding: SteadySliding) -> float:
@@ -187,20 +211,11 @@ def _warmest(sliding: SteadySliding) -> float:
     return float(np.abs(sliding.face(np.linspace(0.0, length, places, endpoint=False))).max())
 
 
-def _least(rise: Callable[[float], float], limit: float) -> float | None:
-    """Least pause (s) after which a rise (K) that falls with it is below the limit."""
-
-    def over_the_limit(log_pause: float) -> float:
-        return math.log(max(rise(math.exp(log_pause)), 1e-9) / limit)
-
+def _least_pause(rise: Callable[[float], float], limit: float) -> float | None:
+    """Least pause (s) after which a rise (K) is below the limit."""
     if rise(0.0) <= limit:
         return 0.0
-    low, high = math.log(SHORTEST_PAUSE), math.log(LONGEST_PAUSE)
-    if over_the_limit(low) <= 0.0:
-        return SHORTEST_PAUSE
-    if over_the_limit(high) > 0.0:
-        return None
-    return math.exp(brentq(over_the_limit, low, high, xtol=_TOLERANCE))
+    return least_below(rise, limit, (SHORTEST_PAUSE, LONGEST_PAUSE), _TOLERANCE)
 
 
 def _reason(

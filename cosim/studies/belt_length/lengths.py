@@ -8,27 +8,30 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
-from joblib import Parallel, delayed
 from numpy.typing import NDArray
-from scipy.optimize import brentq
+
+from cosim.processes import processes
 
 from .case import Case, StudyError
-from .drift import run_drift
+from .drift import endless_belt, interface_drift, least_below, run_drift, steady_drift
 from .uncertainty import INTERVAL, Uncertainty
 
 #: Longest belt that is tried, m.
 LONGEST = 50.0
 #: How well the length is found, relative; the drift is known to less.
 _TOLERANCE = 5e-3
-#: The rises of a study -> the quantiles of each in `Uncertainty`.
-QUANTILES = {
-    "run": {"median": "median", "high": "high"},
-    "interface": {"median": "interface_median", "high": "interface_high"},
+#: Rise and level -> the quantile of it in `Uncertainty`, and what it is called.
+_QUANTILES = {
+    ("run", "median"): ("median", "median"),
+    ("run", "high"): ("high", f"{INTERVAL[1]:.0%} level"),
+    ("interface", "median"): ("interface_median", "median"),
+    ("interface", "high"): ("interface_high", f"{INTERVAL[1]:.0%} level"),
 }
-#: What the levels are called.
-LEVELS = {"median": "median", "high": f"{INTERVAL[1]:.0%} level"}
+#: Shortest belts by rise, "run" or "interface", and level.
+Levels = dict[str, dict[str, "Length"]]
 
 
 @dataclass(frozen=True)
@@ -93,38 +96,46 @@ def shortest_belt(
     if not limit > 0.0:
         raise StudyError(f"limit = {limit:g} K: must be above 0")
 
-    def over_the_limit(log_length: float) -> float:
-        return math.log(max(drift(case.with_length(math.exp(log_length))), 1e-9) / limit)
+    return least_below(
+        lambda length: drift(case.with_length(length)),
+        limit,
+        (case.shortest, max(longest, case.shortest)),
+        _TOLERANCE,
+        surely=True,
+    )
 
-    low, high = math.log(case.shortest), math.log(max(longest, case.shortest))
-    if over_the_limit(low) <= 0.0:
-        return case.shortest
-    if over_the_limit(high) > 0.0:
-        return None
-    found = brentq(over_the_limit, low, high, xtol=_TOLERANCE)
-    # the root is that near, on either side
-    while over_the_limit(found) > 0.0:
-        found += _TOLERANCE
-    return math.exp(min(found, high))
+
+@lru_cache(maxsize=64)
+def shortest_belts(case: Case, limit: float) -> tuple[float | None, float | None, float | None]:
+    """For runs, for ever, for the interface, m; of cases that differ in length alone ask with one.
+
+    limit in K. Beyond a belt that never comes round the interface is the same.
+    """
+    endless = endless_belt(case).length
+    return (
+        shortest_belt(case, limit, run_drift),
+        shortest_belt(case, limit, steady_drift),
+        shortest_belt(case, limit, interface_drift, min(LONGEST, endless)),
+    )
 
 
 def shortest_in_doubt(
     lengths: Sequence[float], doubts: Sequence[Uncertainty | None], limit: float
-) -> dict[str, dict[str, Length]]:
-    """Shortest belts by rise and level, `QUANTILES`; limit in K.
+) -> Levels:
+    """Shortest belts by rise and level, median and high; limit in K.
 
     lengths: in m, increasing, with the doubt on each. Nothing is told beyond them.
     """
-    if None in doubts:
-        unknown = Length(None, "", "no doubt was computed: --samples 0, or the ice melts")
-        return {rise: dict.fromkeys(levels, unknown) for rise, levels in QUANTILES.items()}
-    return {
-        rise: {
-            level: between(lengths, [getattr(one, name) for one in doubts], limit, LEVELS[level])
-            for level, name in levels.items()
-        }
-        for rise, levels in QUANTILES.items()
-    }
+    found: Levels = {"run": {}, "interface": {}}
+    known = [one for one in doubts if one is not None]
+    for (rise, level), (name, called) in _QUANTILES.items():
+        if len(known) < len(doubts):
+            why = "no doubt was computed: --samples 0, or the ice melts"
+            found[rise][level] = Length(None, "", why)
+        else:
+            rises = [getattr(one, name) for one in known]
+            found[rise][level] = between(lengths, rises, limit, called)
+    return found
 
 
 def between(lengths: Sequence[float], rises: Sequence[float], limit: float, level: str) -> Length:
@@ -188,9 +199,8 @@ def fill_map(
     grid: DriftMap, case: Case, jobs: int, progress: Callable[[int], None] = lambda done: None
 ) -> None:
     """Drifts of a case on other belts, in `jobs` processes; what interrupts it leaves the rest."""
-    columns = Parallel(n_jobs=jobs, return_as="generator")(
-        delayed(_column)(case.with_length(float(length)), grid.speeds) for length in grid.lengths
-    )
-    for i, column in enumerate(columns):
-        grid.drift[i] = column
-        progress(grid.speeds.size)
+    belts = [(case.with_length(float(length)), grid.speeds) for length in grid.lengths]
+    with processes(jobs) as mapped:
+        for i, column in enumerate(mapped(_column, belts)):
+            grid.drift[i] = column
+            progress(grid.speeds.size)

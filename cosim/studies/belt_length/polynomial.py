@@ -19,8 +19,6 @@ Array = NDArray[np.float64]
 
 #: Degrees and norms that are tried; a fit takes at most this part of the points for its terms.
 _DEGREES, _NORMS, _MOST_TERMS = (1, 2, 3, 4, 5), (0.5, 0.75, 1.0), 0.6
-#: Points that are evaluated at once.
-_AT_ONCE = 20_000
 
 
 @dataclass(frozen=True)
@@ -33,12 +31,7 @@ class Polynomial:
 
     def __call__(self, points: Array) -> Array:
         """Values at points (n, dimensions) of the unit cube."""
-        values = np.concatenate(
-            [
-                _terms(points[i : i + _AT_ONCE], self.indices) @ self.coefficients
-                for i in range(0, len(points), _AT_ONCE)
-            ]
-        )
+        values = _terms(points, self.indices) @ self.coefficients
         return np.exp(values) if self.logarithm else values
 
 

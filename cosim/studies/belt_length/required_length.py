@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +18,8 @@ from scipy.stats import qmc
 from cosim.scenario import Scenario
 
 from .case import Case
-from .drift import CAMERA, endless_belt, interface_drift, run_drift, steady_drift
-from .lengths import LONGEST, Length, between, rounded_up, shortest_belt
+from .drift import CAMERA, endless_belt, interface_drift, run_drift
+from .lengths import LONGEST, Length, between, rounded_up, shortest_belts
 from .rigs import MOST_MELTING, Rigs
 from .scenario_priors import scenario_case
 from .uncertainty import INTERVAL, quantiles
@@ -26,8 +27,6 @@ from .unknowns import ENTRY, INTERFACE, Melts
 
 Array = NDArray[np.float64]
 
-#: The rises of the two questions.
-QUESTIONS = (ENTRY, INTERFACE)
 #: Lengths at which the rigs are looked at, and how many rigs there are, a power of two.
 POINTS, RIGS = 40, 2048
 #: The lengths go from this part of the nominal shortest belt to this many times its length: the
@@ -101,19 +100,11 @@ class Answer:
 
     def as_dict(self) -> dict[str, object]:
         """Everything but the rigs, for JSON."""
-        return {
-            "speed": self.case.speed,
-            "length": self.case.length,
-            "limit": self.limit,
-            "run": asdict(self.run),
-            "interface": asdict(self.interface),
-            "evaluations": self.evaluations,
-            "unexplained": list(self.unexplained),
-            "reason": self.reason,
-            "melts": self.melts,
-            "lengths": self.lengths.tolist(),
-            "levels": self.levels.tolist(),
-        }
+        own = {"speed": self.case.speed, "length": self.case.length}
+        names = ("limit", "run", "interface", "evaluations", "unexplained", "reason", "melts")
+        told = {name: getattr(self, name) for name in names}
+        told |= {"run": asdict(self.run), "interface": asdict(self.interface)}
+        return own | told | {"lengths": self.lengths.tolist(), "levels": self.levels.tolist()}
 
     def __repr__(self) -> str:
         run = self.run
@@ -158,73 +149,62 @@ def how_long(
     <Answer: 0.37 m for 0.05 K at 0.15 m/s; on 2 m 0.0085 K>
     """
     case = scenario_case(asked) if isinstance(asked, Scenario) else asked
-    endless = endless_belt(case).length
-    shortest = shortest_belt(case, limit, interface_drift, min(LONGEST, endless))
-    run = Question(
-        run_drift(case),
-        shortest_belt(case, limit, run_drift),
-        shortest_belt(case, limit, steady_drift),
+    cold, for_ever, steady = shortest_belts(case.with_length(1.0), limit)
+    plain = Answer(
+        case,
+        limit,
+        Question(run_drift(case), cold, for_ever),
+        Question(interface_drift(case), steady, None),
+        np.empty(0),
+        np.empty((2, 3, 0)),
     )
-    interface = Question(interface_drift(case), shortest, None)
     if not samples:
-        return _without(case, limit, run, interface, NOT_ASKED)
-    tried = run.shortest or LONGEST
-    belts = [case.length, *lengths]
-    low = max(case.shortest, min(_PART * tried, min(belts)))
-    # farther than the belt goes in all runs nothing changes
-    farthest = max(_TIMES * tried, _TIMES_OWN * case.length)
-    high = max(min(farthest, 1.2 * endless, LONGEST), 1.01 * max(belts), 1.5 * low)
+        return replace(plain, reason=NOT_ASKED)
+    low, high = _range(case, cold or LONGEST, [case.length, *lengths])
     try:
         rigs = Rigs(case, samples, (low, high), _FLOOR * limit, jobs)
     except Melts:
-        return _without(case, limit, run, interface, "the air is as warm as melting ice")
-    return _doubted(case, limit, run, interface, rigs, np.geomspace(low, high, POINTS))
-
-
-def _without(
-    case: Case, limit: float, run: Question, interface: Question, why: str, melts: float = 0.0
-) -> Answer:
-    nothing = np.empty((2, 3, 0))
-    return Answer(case, limit, run, interface, np.empty(0), nothing, reason=why, melts=melts)
-
-
-def _doubted(
-    case: Case, limit: float, run: Question, interface: Question, rigs: Rigs, lengths: Array
-) -> Answer:
+        return replace(plain, reason="the air is as warm as melting ice")
     drawn = qmc.Sobol(len(rigs.unknowns), rng=2).random(RIGS)
     melts = rigs.melting(drawn, case.length)
     if melts > MOST_MELTING:
         why = f"in {melts:.0%} of the sampled rigs the ice comes to melt"
-        return _without(case, limit, run, interface, why, melts)
-    levels = {
-        rise: np.array([quantiles(rigs.rise(rise, drawn, length)) for length in lengths]).T
-        for rise in QUESTIONS
-    }
+        return replace(plain, reason=why, melts=melts)
+    return _doubted(plain, rigs, drawn, np.geomspace(low, high, POINTS), melts)
+
+
+def _range(case: Case, shortest: float, belts: Sequence[float]) -> tuple[float, float]:
+    """Lengths between which the sampled rigs are looked at, m; belts: lengths among them."""
+    low = max(case.shortest, min(_PART * shortest, *belts))
+    # farther than the belt goes in all runs nothing changes
+    farthest = max(_TIMES * shortest, _TIMES_OWN * case.length)
+    high = min(farthest, 1.2 * endless_belt(case).length, LONGEST)
+    return low, max(high, 1.01 * max(belts), 1.5 * low)
+
+
+def _doubted(plain: Answer, rigs: Rigs, drawn: Array, lengths: Array, melts: float) -> Answer:
+    """An answer with what the rigs at shares (n, unknowns) of their ranges say."""
+    case, limit, levels = plain.case, plain.limit, {}
 
     def sure(question: Question, rise: int) -> Question:
         own = rigs.rise(rise, drawn, case.length)
+        levels[rise] = np.array([quantiles(rigs.rise(rise, drawn, one)) for one in lengths]).T
         low, median, high = (
             between(lengths.tolist(), each.tolist(), limit, name)
             for each, name in zip(levels[rise], LEVELS, strict=True)
         )
-        return replace(
-            question,
-            low=low,
-            median=median,
-            high=high,
-            rises=quantiles(own),
-            share=float(np.mean(own <= limit)),
-        )
+        found: Any = {"low": low, "median": median, "high": high}
+        share = float(np.mean(own <= limit))
+        return replace(question, rises=quantiles(own), share=share, **found)
 
-    return Answer(
-        case,
-        limit,
-        sure(run, ENTRY),
-        sure(interface, INTERFACE),
-        lengths,
-        np.array([levels[rise] for rise in QUESTIONS]),
-        rigs.evaluations,
-        (rigs.unexplained[ENTRY], rigs.unexplained[INTERFACE]),
+    return replace(
+        plain,
+        run=sure(plain.run, ENTRY),
+        interface=sure(plain.interface, INTERFACE),
+        lengths=lengths,
+        levels=np.array([levels[ENTRY], levels[INTERFACE]]),
+        evaluations=rigs.evaluations,
+        unexplained=(rigs.unexplained[ENTRY], rigs.unexplained[INTERFACE]),
         rigs=rigs,
         melts=melts,
     )

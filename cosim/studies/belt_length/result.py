@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field, fields
+from functools import reduce
 
 import pandas as pd
 
 from .case import Case
 from .changes import Change, FrictionEffect
 from .drift import Drift, Wait
-from .lengths import Length, shortest_in_doubt
+from .lengths import Length, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
 
@@ -25,6 +26,47 @@ COLUMNS = {
     "conductance": "conductance [W/m2K]",
     "thickness": "thickness [m]",
 }
+
+
+#: Column of the table -> where a row has it.
+_FOUND = {
+    "study [K]": "drift.study",
+    "single pass mended [K]": "drift.single_pass",
+    "drift [K]": "drift.run",
+    "drift low [K]": "uncertainty.low",
+    "drift high [K]": "uncertainty.high",
+    "drift steady [K]": "drift.steady",
+    "interface drift [K]": "drift.interface_drift",
+    "interface drift low [K]": "uncertainty.interface_low",
+    "interface drift high [K]": "uncertainty.interface_high",
+    "interface [K]": "drift.interface_run",
+    "interface drift, endless belt [K]": "drift.interface_drift_endless",
+    "ice [K]": "drift.ice_run",
+    "ice steady [K]": "drift.ice_steady",
+    "flash [K]": "drift.flash_run",
+    "belt share": "drift.belt_share",
+    "belt share steady": "drift.belt_share_steady",
+    "seen by camera": "drift.seen_by_camera",
+    "steady melts": "drift.steady_melts",
+    "mu change": "effect.mu_change",
+    "drift, weaker friction [K]": "effect.drift",
+    "frequency [Hz]": "effect.frequency",
+    "frequency change": "effect.frequency_change",
+    "shortest belt [m]": "shortest_run",
+    "shortest belt steady [m]": "shortest_steady",
+    "shortest belt interface [m]": "shortest_interface",
+    "wait [s]": "wait.begin",
+    "wait drift [s]": "wait.drift",
+}
+#: Rise and level -> column of the shortest belt in doubt.
+_IN_DOUBT = {
+    ("run", "median"): "shortest belt, median [m]",
+    ("run", "high"): "shortest belt, 95 % [m]",
+    ("interface", "median"): "shortest belt interface, median [m]",
+    ("interface", "high"): "shortest belt interface, 95 % [m]",
+}
+#: Of a case, what JSON has elsewhere, or not at all.
+_NOT_TOLD = ("rig", "protocol", "ranges", "drawn")
 
 
 @dataclass(frozen=True)
@@ -59,38 +101,9 @@ class Row:
 
     def flat(self) -> dict[str, object]:
         """One row of the table: columns named by what they hold, with units."""
-        d, e, u = self.drift, self.effect, self.uncertainty
-        return {
-            **{column: self.used[name] for name, column in COLUMNS.items()},
-            "h [W/m2K]": self.case.film,
-            "study [K]": d.study,
-            "single pass mended [K]": d.single_pass,
-            "drift [K]": d.run,
-            "drift low [K]": u and u.low,
-            "drift high [K]": u and u.high,
-            "drift steady [K]": d.steady,
-            "interface drift [K]": d.interface_drift,
-            "interface drift low [K]": u and u.interface_low,
-            "interface drift high [K]": u and u.interface_high,
-            "interface [K]": d.interface_run,
-            "interface drift, endless belt [K]": d.interface_drift_endless,
-            "ice [K]": d.ice_run,
-            "ice steady [K]": d.ice_steady,
-            "flash [K]": d.flash_run,
-            "belt share": d.belt_share,
-            "belt share steady": d.belt_share_steady,
-            "seen by camera": d.seen_by_camera,
-            "steady melts": d.steady_melts,
-            "mu change": e.mu_change,
-            "drift, weaker friction [K]": e.drift,
-            "frequency [Hz]": e.frequency,
-            "frequency change": e.frequency_change,
-            "shortest belt [m]": self.shortest_run,
-            "shortest belt steady [m]": self.shortest_steady,
-            "shortest belt interface [m]": self.shortest_interface,
-            "wait [s]": self.wait.begin,
-            "wait drift [s]": self.wait.drift,
-        }
+        own = {column: self.used[name] for name, column in COLUMNS.items()}
+        found = {column: _reached(self, path) for column, path in _FOUND.items()}
+        return own | {"h [W/m2K]": self.case.film} | found
 
     def questions(self, limit: float) -> dict[str, dict[str, object]]:
         """The two questions about a belt, with their answers."""
@@ -114,35 +127,31 @@ class Row:
 
     def as_dict(self, limit: float) -> dict[str, object]:
         """Everything, for JSON."""
-        case = {
-            one.name: getattr(self.case, one.name)
-            for one in fields(Case)
-            if one.name not in ("rig", "protocol", "ranges", "drawn")
-        }
-        h = {
+        own = [one.name for one in fields(Case) if one.name not in _NOT_TOLD]
+        case = {name: getattr(self.case, name) for name in own} | self.used
+        air = {
             "h": self.case.film,
             "h_of_still_air": self.case.h is None,
             "frost": self.case.frost and self.case.frost._asdict(),
         }
-        rest = {
-            name: value and asdict(value)
-            for name, value in (
-                ("drift", self.drift),
-                ("effect", self.effect),
-                ("wait", self.wait),
-                ("uncertainty", self.uncertainty),
-            )
-        }
         return {
-            "case": case | self.used | h,
+            "case": case | air,
             "questions": self.questions(limit),
-            **rest,
+            "drift": asdict(self.drift),
+            "effect": asdict(self.effect),
+            "wait": asdict(self.wait),
+            "uncertainty": self.uncertainty and asdict(self.uncertainty),
             "shortest_run": self.shortest_run,
             "shortest_steady": self.shortest_steady,
             "shortest_interface": self.shortest_interface,
             "changes": [asdict(one) for one in self.changes],
             "seen_by_camera": self.drift.seen_by_camera,
         }
+
+
+def _reached(row: object, path: str) -> object:
+    """The value behind the names of a path; None where one of them is not there."""
+    return reduce(lambda found, name: found and getattr(found, name), path.split("."), row)
 
 
 @dataclass(frozen=True)
@@ -167,37 +176,26 @@ class Study:
     def table(self) -> pd.DataFrame:
         """One row a case."""
         doubted = self.shortest_in_doubt()
-        return pd.DataFrame(
-            [
-                row.flat()
-                | {
-                    f"{name}, {level} [m]": found[rise][key].length
-                    for rise, name in (
-                        ("run", "shortest belt"),
-                        ("interface", "shortest belt interface"),
-                    )
-                    for key, level in (("median", "median"), ("high", "95 %"))
-                }
-                for row in self.rows
-                for found in (doubted[row.case.with_length(1.0)],)
-            ]
-        )
+        rows = []
+        for row in self.rows:
+            levels = doubted[row.case.with_length(1.0)]
+            found = {column: levels[rise][level].length
+                     for (rise, level), column in _IN_DOUBT.items()}  # fmt: skip
+            rows.append(row.flat() | found)
+        return pd.DataFrame(rows)
 
-    def shortest_in_doubt(self) -> dict[Case, dict[str, dict[str, Length]]]:
+    def shortest_in_doubt(self) -> dict[Case, Levels]:
         """By rise and level, for each choice of everything but the length, which is 1 m there."""
         if self.answers:
             return {one.case.with_length(1.0): _of_answer(one) for one in self.answers}
-        by_belt: dict[Case, dict[float, Row]] = {}
+        drives: dict[Case, dict[float, Uncertainty | None]] = {}
         for row in self.rows:
-            by_belt.setdefault(row.case.with_length(1.0), {})[row.case.length] = row
-        return {
-            case: shortest_in_doubt(
-                sorted(rows),
-                [rows[length].uncertainty for length in sorted(rows)],
-                self.options.limit,
-            )
-            for case, rows in by_belt.items()
-        }
+            drives.setdefault(row.case.with_length(1.0), {})[row.case.length] = row.uncertainty
+        found = {}
+        for case, doubts in drives.items():
+            lengths, of_length = zip(*sorted(doubts.items(), key=lambda one: one[0]), strict=True)
+            found[case] = shortest_in_doubt(lengths, of_length, self.options.limit)
+        return found
 
     def changes(self) -> pd.DataFrame:
         """One row a case and change: what would help."""
@@ -232,36 +230,35 @@ class Study:
         """The case that drifts most."""
         return max(self.rows, key=lambda row: row.drift.run)
 
+    @property
+    def most_doubted(self) -> Row | None:
+        """The same among those with a doubt."""
+        known = [row for row in self.rows if row.uncertainty is not None]
+        return max(known, key=lambda row: row.drift.run, default=None)
+
     def as_dict(self) -> dict[str, object]:
         """Everything, for JSON."""
-        first = (
-            {}
-            if not self.rows
-            else {
-                "protocol": asdict(self.rows[0].case.protocol),
-                "rig": _shared([row.case.thermal().model_dump() for row in self.rows]),
-            }
-        )
+        shared: dict[str, object] = {}
+        if self.rows:
+            shared["protocol"] = asdict(self.rows[0].case.protocol)
+            shared["rig"] = _shared([row.case.thermal().model_dump() for row in self.rows])
         doubted = self.shortest_in_doubt()
+        cases = []
+        for row in self.rows:
+            levels = doubted[row.case.with_length(1.0)].items()
+            in_doubt = {rise: {level: asdict(one) for level, one in belts.items()}
+                        for rise, belts in levels}  # fmt: skip
+            cases.append(row.as_dict(self.options.limit) | {"shortest_in_doubt": in_doubt})
         return {
             "complete": self.complete,
             "limit": self.options.limit,
-            **first,
+            **shared,
             "answers": [one.as_dict() for one in self.answers],
-            "cases": [
-                row.as_dict(self.options.limit)
-                | {
-                    "shortest_in_doubt": {
-                        rise: {level: asdict(one) for level, one in levels.items()}
-                        for rise, levels in doubted[row.case.with_length(1.0)].items()
-                    }
-                }
-                for row in self.rows
-            ],
+            "cases": cases,
         }
 
 
-def _of_answer(answer: Answer) -> dict[str, dict[str, Length]]:
+def _of_answer(answer: Answer) -> Levels:
     unknown = Length(None, "", answer.reason)
     return {
         rise: {level: getattr(question, level) or unknown for level in ("low", "median", "high")}
@@ -271,11 +268,9 @@ def _of_answer(answer: Answer) -> dict[str, dict[str, Length]]:
 
 def _shared(rigs: list[dict]) -> dict[str, object]:
     """What was used in all cases; None where that differs, and each case has its own."""
-    return {
-        key: _shared([rig[key] for rig in rigs])
-        if isinstance(value, dict)
-        else value
-        if all(rig[key] == value for rig in rigs)
-        else None
-        for key, value in rigs[0].items()
-    }
+    found: dict[str, object] = {}
+    for key, value in rigs[0].items():
+        values = [rig[key] for rig in rigs]
+        same = value if values.count(value) == len(values) else None
+        found[key] = _shared(values) if isinstance(value, dict) else same
+    return found

@@ -8,14 +8,12 @@ measured on runs that they have not seen. On one belt, or with the length as one
 from __future__ import annotations
 
 import math
-from functools import partial
 
 import numpy as np
-from joblib import Parallel, delayed
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from cosim.processes import ENDING_WITH_PARENT
+from cosim.processes import processes
 
 from .case import Case
 from .polynomial import fitted
@@ -66,26 +64,27 @@ class Rigs:
         jobs: int = 1,
     ) -> None:
         self.unknowns = unknowns_of(case)
-        self._shaping = tuple(one for one in self.unknowns if not (one.linear or one.fixed))
-        self._lengths = lengths
+        #: Of those that the polynomials are laid over; the linear ones enter afterwards.
+        self._columns = [i for i, one in enumerate(self.unknowns) if not (one.linear or one.fixed)]
+        self._lengths, self._floor = lengths, floor
         self._melts_at = case.rig.ice.melting_point_degC - case.ambient_degC
         tested = round(_TESTED * samples)
         self.evaluations = samples + tested
-        draws = qmc.Sobol(len(self._shaping) + (lengths is not None), rng=1)
-        drawn = np.concatenate((draws.random(samples), draws.random(tested)))
-        points = self._levelled(drawn)
-        parts = _in_processes([*map(partial(self._meant, case), points)], jobs)
-        self._floor = floor
-        heats: tuple[bool, ...] = (False, True)
+        draws = qmc.Sobol(len(self._columns) + (lengths is not None), rng=1)
+        points = self._levelled(np.concatenate((draws.random(samples), draws.random(tested))))
+        parts = _answered([self._meant(case, point) for point in points], jobs)
         if lengths is not None:
-            # a rise falls by orders of magnitude with the length, and is needed at the limit
-            heats = (True,)
             parts[..., :SAMPLE] = np.maximum(parts[..., :SAMPLE], floor)
-        # what the room does goes either way, and has no logarithm
-        kinds = [heats if column < SAMPLE else (False,) for column in COLUMNS]
+        # a rise falls by orders of magnitude with the length, and is needed at the limit; what the
+        # room does goes either way, and has no logarithm
+        heats = (False, True) if lengths is None else (True,)
         self._polynomials = {
             rise: [
-                fitted(points[:samples], parts[:samples, rise, column], kinds[column])
+                fitted(
+                    points[:samples],
+                    parts[:samples, rise, column],
+                    heats if column < SAMPLE else (False,),
+                )
                 for column in COLUMNS
             ]
             for rise in (ENTRY, INTERFACE, ICE)
@@ -100,12 +99,13 @@ class Rigs:
 
         length: of the belt, m, where the rigs have several.
         """
-        columns = [i for i, one in enumerate(self.unknowns) if one in self._shaping]
-        points = shares[:, columns]
+        points = shares[:, self._columns]
         if self._lengths is not None:
             if length is None:
                 raise ValueError("length: these rigs have belts of several, say which")
-            points = np.column_stack((points, np.full(len(points), self._share_of(length))))
+            low, high = self._lengths
+            place = math.log(length / low) / math.log(high / low)
+            points = np.column_stack((points, np.full(len(points), place)))
         return self._of(which, self._levelled(points), values(self.unknowns, shares))
 
     def melting(self, shares: Array, length: float | None = None) -> float:
@@ -116,15 +116,10 @@ class Rigs:
         parts = np.stack([one(points) for one in self._polynomials[which]], axis=1)
         return combined(parts, meant)
 
-    def _share_of(self, length: float) -> float:
-        low, high = self._lengths or (length, length)
-        return math.log(length / low) / math.log(high / low)
-
     def _meant(self, case: Case, point: Array) -> tuple[Case, dict[str, float]]:
         """The belt and the values that a point stands for."""
         shares = np.zeros((1, len(self.unknowns)))
-        columns = [i for i, one in enumerate(self.unknowns) if one in self._shaping]
-        shares[0, columns] = point[: len(columns)]
+        shares[0, self._columns] = point[: len(self._columns)]
         meant = {key: float(value[0]) for key, value in values(self.unknowns, shares).items()}
         if self._lengths is None:
             return case, meant
@@ -133,26 +128,26 @@ class Rigs:
 
     def _levelled(self, points: Array) -> Array:
         """Points, those of an unknown with levels in the middle of its level; the length's own."""
-        count = len(self._shaping)
-        levelled = [one.levelled(points[:, i]) for i, one in enumerate(self._shaping)]
-        return np.stack([*levelled, *points[:, count:].T], axis=1)
+        levelled = points.copy()
+        for place, column in enumerate(self._columns):
+            levelled[:, place] = self.unknowns[column].levelled(points[:, place])
+        return levelled
 
     def _misses(self, points: Array, parts: Array, which: int) -> float:
         """Share of a rise's variance over unseen runs; the linear unknowns are drawn for each."""
         drawn = np.random.default_rng(1).random((len(points), len(self.unknowns)))
-        shaping = [i for i, one in enumerate(self.unknowns) if one in self._shaping]
-        drawn[:, shaping] = points[:, : len(shaping)]
+        drawn[:, self._columns] = points[:, : len(self._columns)]
         meant = values(self.unknowns, drawn)
         true, found = combined(parts, meant), self._of(which, points, meant)
-        if self._lengths is None:
-            return float(np.mean((found - true) ** 2) / np.var(true))
-        # what a length does is no doubt about a rig: all of them on the belt in the middle
-        same = np.column_stack((points[:, :-1], np.full(len(points), 0.5)))
-        same_length, found, true = (
-            np.log(np.maximum(rises, self._floor))
-            for rises in (self._of(which, same, meant), found, true)
-        )
-        return float(np.mean((found - true) ** 2) / np.var(same_length))
+        spread = true
+        if self._lengths is not None:
+            # what a length does is no doubt about a rig: all of them on the belt in the middle
+            same = np.column_stack((points[:, :-1], np.full(len(points), 0.5)))
+            spread, found, true = (
+                np.log(np.maximum(rises, self._floor))
+                for rises in (self._of(which, same, meant), found, true)
+            )
+        return float(np.mean((found - true) ** 2) / np.var(spread))
 
 
 def values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
@@ -160,21 +155,17 @@ def values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
     return {one.key: one.at(shares[:, i]) for i, one in enumerate(unknowns)}
 
 
-def _in_processes(meant: list[tuple[Case, dict[str, float]]], jobs: int) -> Array:
+def _answered(meant: list[tuple[Case, dict[str, float]]], jobs: int) -> Array:
     """`answers` to each: (n, 3, 5), in as many processes."""
-    if jobs == 1:
-        return np.array([answers(*one) for one in meant])
     # neighbours share blocks of ice, whose modes take time
-    order = sorted(
-        range(len(meant)),
-        key=lambda i: (meant[i][1]["ice_conductivity"], meant[i][1]["contact_area"]),
+    order = np.lexsort(
+        [[one[key] for _, one in meant] for key in ("contact_area", "ice_conductivity")]
     )
-    shares = [order[len(order) * i // jobs : len(order) * (i + 1) // jobs] for i in range(jobs)]
-    workers = Parallel(n_jobs=jobs, **ENDING_WITH_PARENT)
-    found = workers(delayed(_each)([meant[i] for i in share]) for share in shares)
+    shares = np.array_split(order, jobs)
+    with processes(jobs) as mapped:
+        found = [*mapped(_each, [([meant[i] for i in share],) for share in shares])]
     parts = np.empty((len(meant), 3, len(COLUMNS)))
-    for share, part in zip(shares, found, strict=True):
-        parts[share] = part
+    parts[order] = np.concatenate(found)
     return parts
 
 

@@ -9,52 +9,17 @@ either.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 from cosim.names import nearest
 from cosim.scenario import Scenario
 from thermal.materials import GRAVITY
 
 from .case import Case, Protocol, Range, StudyError
-from .unknowns import UNKNOWNS, Unknown
+from .unknowns import UNKNOWNS
 
-
-class _Known(NamedTuple):
-    """Keys of a scenario that say an unknown, and between what it then lies, times what is said.
-
-    most: the largest value that there is. there: key that has to be above 0 or hold something, or
-    these say nothing.
-    """
-
-    keys: tuple[str, ...]
-    low: float
-    high: float
-    most: float = float("inf")
-    there: str = ""
-
-
-_RAILING, _ROLLERS = "belt.railing_length", "belt.rollers"
-#: On which face heat arises nobody measures: a share that is said is a choice, no knowledge.
-_KNOWN = {
-    "h": _Known(("belt.air_heat_transfer",), 0.8, 1.25),
-    "friction": _Known(("friction.mu_k",), 0.8, 1.2),
-    "conductivity": _Known(("belt.conductivity", "belt.layers"), 0.7, 1.4),
-    "heat_capacity": _Known(("belt.heat_capacity", "belt.layers"), 0.9, 1.1),
-    "ice_conductivity": _Known(("ice.conductivity", "ice.material"), 0.95, 1.05),
-    "conductance": _Known(("contact.conductance",), 1.0 / 3.0, 3.0),
-    "belt_side": _Known(("contact.belt_side",), 0.0, 2.0, 1.0),
-    "contact_area": _Known(("contact.length",), 0.8, 1.0, there="contact.length"),
-    "railing_friction": _Known(("belt.railing_friction",), 0.7, 1.4, there=_RAILING),
-    "railing_share": _Known(("belt.railing_share",), 0.8, 1.2, 1.0, _RAILING),
-    "railing_conductance": _Known(("belt.railing_conductance",), 1.0 / 3.0, 3.0, there=_RAILING),
-    "roller_conductance": _Known(("belt.roller_conductance",), 1.0 / 3.0, 3.0, there=_ROLLERS),
-    "roller_rise": _Known(("belt.roller_rise",), 0.5, 1.5, there=_ROLLERS),
-    # no scenario says what its room does
-    "sample_rise": _Known((), 1.0, 1.0),
-    "air_warming": _Known((), 1.0, 1.0),
-}
 #: Least of what is a logarithm's: W/m2K.
 _LEAST = 1e-3
 #: Part of the friction that the springs of a block that never slips stay below.
@@ -97,7 +62,7 @@ def scenario_case(scenario: Scenario) -> Case:
         static_over_kinetic=friction.mu_s / friction.mu_k,
         stiffness=scenario.springs.stiffness,
     )
-    return replace(case, ranges=said_ranges(scenario, case))
+    return replace(case, ranges=tuple(_said_ranges(scenario, case)))
 
 
 def check_slides(scenario: Scenario, case: Case) -> None:
@@ -112,7 +77,7 @@ def check_slides(scenario: Scenario, case: Case) -> None:
         return
     sticks = protocol.ramp > 0.0 and scenario.initial.vx == 0.0
     mu = case.friction * (case.static_over_kinetic if sticks else 1.0)
-    travel = case.speed * (0.5 * protocol.ramp + protocol.run)
+    travel = case.speed * protocol.moving
     pull, holds = 4.0 * case.stiffness * travel, mu * case.mass * GRAVITY
     if pull < _SURELY * holds:
         raise StudyError(
@@ -155,31 +120,25 @@ def ignored_keys(scenario: Scenario) -> list[str]:
     return [key for key in _RESOLUTION if _holds(scenario, key)]
 
 
-def said_ranges(scenario: Scenario, case: Case) -> tuple[Range, ...]:
+def _said_ranges(scenario: Scenario, case: Case) -> Iterator[Range]:
     """The ranges of what a scenario says itself; case: that of the scenario."""
-    return tuple(_said(scenario, case))
-
-
-def _said(scenario: Scenario, case: Case) -> Iterator[Range]:
     for unknown in UNKNOWNS:
-        known = _KNOWN[unknown.key]
-        keys = [key for key in known.keys if _holds(scenario, key) and _at(scenario, key) != ()]
-        absent = bool(known.there) and not _at(scenario, known.there)
+        keys = [
+            key for key in unknown.said_by if _holds(scenario, key) and _at(scenario, key) != ()
+        ]
+        absent = bool(unknown.there) and not _at(scenario, unknown.there)
         if not keys or absent or (unknown.key == "h" and case.h is None):
             continue
         own = 1.0 if unknown.unit == "x" else float(_at(scenario, keys[0]))
-        ends = [min(part * own, known.most) for part in sorted((known.low, known.high))]
-        if own < 0.0:
-            ends.reverse()
+        low, high = sorted(min(part * own, unknown.at_most) for part in unknown.good_to)
         if unknown.logarithmic:
-            ends = [max(end, _LEAST) for end in ends]
-        low, high = ends
+            low, high = max(low, _LEAST), max(high, _LEAST)
         yield Range(
             unknown.key,
             low,
             high,
             f"{' and '.join(_as_given(scenario, keys))} of the scenario, assumed to be good to"
-            f" {known.low:.2g} to {known.high:.2g} times",
+            f" {unknown.good_to[0]:.2g} to {unknown.good_to[1]:.2g} times",
         )
 
 
@@ -209,40 +168,28 @@ def with_ranges(case: Case, texts: Iterable[str]) -> Case:
     """
     own = {one.key: one for one in case.ranges}
     for text in texts:
-        found = _given(text, {one.key: one for one in UNKNOWNS})
+        found = _given(text)
         own[found.key] = found
     return replace(case, ranges=tuple(own.values()))
 
 
-def _given(text: str, unknowns: Mapping[str, Unknown]) -> Range:
+def _given(text: str) -> Range:
+    unknowns = {one.key: one for one in UNKNOWNS}
     key, _, said = text.partition("=")
     key = key.strip()
     if key not in unknowns:
         near = nearest(key, unknowns)
         known = f"nearest: {near}" if near else f"allowed: {', '.join(unknowns)}"
         raise StudyError(f"--doubt {text}: no unknown is named {key}, {known}")
-    unknown = unknowns[key]
+    unit, (least, most) = unknowns[key].unit, unknowns[key].allowed
     try:
         ends = [float(part) for part in said.split(",")]
     except ValueError:
         ends = []
-    least, most = _bounds(unknown)
     if not (1 <= len(ends) <= 2 and least <= ends[0] <= ends[-1] <= most):
-        unit = "times the case's own" if unknown.unit == "x" else unknown.unit
+        shown = {"1": "", "x": " times the case's own"}.get(unit, f" {unit}")
         raise StudyError(
-            f"--doubt {text}: allowed is {key}=LOW,HIGH or {key}=VALUE, {least:g} to {most:g}"
-            f"{'' if unit == '1' else f' {unit}'}"
+            f"--doubt {text}: allowed is {key}=LOW,HIGH or {key}=VALUE,"
+            f" {least:g} to {most:g}{shown}"
         )
     return Range(key, ends[0], ends[-1], "as asked for")
-
-
-def _bounds(unknown: Unknown) -> tuple[float, float]:
-    """What an unknown may be at all."""
-    if unknown.key in ("belt_side", "railing_share"):
-        return 0.0, 1.0
-    if unknown.key == "contact_area":
-        return 0.05, 1.0
-    if unknown.key in ("sample_rise", "air_warming"):
-        return -10.0, 10.0
-    least = 0.01 if unknown.unit == "x" else _LEAST if unknown.logarithmic else 0.0
-    return least, {"W/m2K": 1e6, "x": 100.0, "K": 100.0}.get(unknown.unit, 10.0)

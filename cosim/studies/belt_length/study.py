@@ -7,22 +7,19 @@ from __future__ import annotations
 
 import math
 from argparse import Namespace
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from dataclasses import replace
-from functools import lru_cache
 from itertools import product
 from typing import Any
 
-from joblib import Parallel, delayed
-
-from cosim.processes import ENDING_WITH_PARENT
+from cosim.processes import processes
 from thermal import Belt, ParameterError
 from thermal.steady_state import NoSteadyState
 
 from .case import OWN_KEYS, Case, StudyError
 from .changes import changes, friction_effect
-from .drift import drift, endless_belt, interface_drift, run_drift, steady_drift, wait
-from .lengths import LONGEST, shortest_belt
+from .drift import drift, wait
+from .lengths import shortest_belts
 from .required_length import Answer, how_long
 from .result import Options, Row, Study
 from .rigs import FEWEST_SAMPLES
@@ -158,32 +155,17 @@ def _chosen(base: Case, values: dict[str, Any]) -> Case:
     return replace(base, **said, ranges=ranges)
 
 
-def _row(case: Case, options: Options, answer: Answer | None = None) -> Row:
-    if answer is None:
-        shortest = _shortest(case.with_length(1.0), options.limit)
-    else:
-        shortest = (answer.run.shortest, answer.run.for_ever, answer.interface.shortest)
+def _row(case: Case, options: Options, answer: Answer | None) -> Row:
     rigs = None if answer is None else answer.rigs
-    known = options.samples and (answer is None or rigs is not None)
+    doubted = options.samples and (answer is None or rigs is not None)
     return Row(
         case,
         drift(case),
         friction_effect(case, options.sensitivity),
-        *shortest,
+        *shortest_belts(case.with_length(1.0), options.limit),
         wait(case, options.limit),
         tuple(changes(case)),
-        uncertainty(case, options.samples, rigs) if known else None,
-    )
-
-
-@lru_cache(maxsize=64)
-def _shortest(case: Case, limit: float) -> tuple[float | None, float | None, float | None]:
-    """For runs, for ever, for the interface; the same for cases that differ in length alone."""
-    endless = endless_belt(case).length
-    return (
-        shortest_belt(case, limit, run_drift),
-        shortest_belt(case, limit, steady_drift),
-        shortest_belt(case, limit, interface_drift, min(LONGEST, endless)),
+        uncertainty(case, options.samples, rigs) if doubted else None,
     )
 
 
@@ -194,9 +176,10 @@ def work_off(study: Study, wanted: list[Case], jobs: int, progress: Progress) ->
     """
     answers = {one.case.with_length(1.0): one for one in study.answers}
     calls = [(case, study.options, answers.get(case.with_length(1.0))) for case in wanted]
-    for row in _in_processes(calls, jobs):
-        study.rows.append(row)
-        progress(1)
+    with processes(min(jobs, len(calls))) as mapped:
+        for row in mapped(_row, calls):
+            study.rows.append(row)
+            progress(1)
     study.complete = True
 
 
@@ -205,19 +188,8 @@ def answer_all(study: Study, wanted: list[Case], jobs: int, progress: Progress) 
     drives: dict[Case, list[Case]] = {}
     for case in wanted:
         drives.setdefault(case.with_length(1.0), []).append(case)
-    for cases_of in drives.values():
-        lengths = [case.length for case in cases_of]
-        options = study.options
-        answer = how_long(
-            cases_of[0], options.limit, samples=options.samples, jobs=jobs, lengths=lengths
-        )
-        study.answers.append(answer)
+    limit, samples = study.options.limit, study.options.samples
+    for belts in drives.values():
+        lengths = [case.length for case in belts]
+        study.answers.append(how_long(belts[0], limit, samples=samples, jobs=jobs, lengths=lengths))
         progress(1)
-
-
-def _in_processes(calls: list[tuple[Case, Options, Answer | None]], jobs: int) -> Iterator[Row]:
-    if jobs == 1 or len(calls) == 1:
-        yield from (_row(*call) for call in calls)
-        return
-    workers = Parallel(n_jobs=jobs, return_as="generator", **ENDING_WITH_PARENT)
-    yield from workers(delayed(_row)(*call) for call in calls)

@@ -18,18 +18,14 @@ from scipy.stats import t as student
 from .case import Case
 from .rigs import MOST_MELTING, Rigs
 from .unknowns import (
-    AIR,
-    CONTACT,
     ENTRY,
     INTERFACE,
-    RAILING,
-    ROLLERS,
-    SAMPLE,
     Melts,
     Unknown,
     answers,
     combined,
     needs,
+    weights,
     with_one,
 )
 
@@ -148,21 +144,12 @@ def quantiles(rises: Array) -> tuple[float, float, float]:
 
 
 def _single_changes(case: Case, unknowns: tuple[Unknown, ...]) -> tuple[SingleChange, ...]:
-    found = [
-        SingleChange(
-            one.key,
-            one.says,
-            one.unit,
-            one.low,
-            one.high,
-            _drift_with(case, one, one.low),
-            _drift_with(case, one, one.high),
-            needs(case, one.key),
-            one.basis,
-        )
-        for one in unknowns
-        if not one.fixed
-    ]
+    found = []
+    for one in unknowns:
+        if not one.fixed:
+            low, high = (_drift_with(case, one, end) for end in (one.low, one.high))
+            said = (one.key, one.says, one.unit, one.low, one.high)
+            found.append(SingleChange(*said, low, high, needs(case, one.key), one.basis))
     return tuple(sorted(found, key=lambda one: -abs(one.drift_high - one.drift_low)))
 
 
@@ -170,16 +157,9 @@ def _drift_with(case: Case, one: Unknown, end: float) -> float:
     """Rise of the belt at entry, K, with one unknown at an end of its range."""
     values = with_one(case, one.key, end)
     # what does nothing in this rig need not be asked for, which saves more than half of the time
-    heats = {
-        CONTACT: 1.0,
-        RAILING: values["railing_friction"] * values["railing_share"],
-        ROLLERS: values["roller_rise"],
-        SAMPLE: values["sample_rise"],
-        AIR: values["air_warming"],
-    }
-    columns = [column for column, heat in heats.items() if heat != 0.0]
-    parts = answers(case, values, columns)[ENTRY][None, :]
-    return float(combined(parts, {k: np.array([v]) for k, v in values.items()})[0])
+    columns = [column for column, weight in enumerate(weights(values)) if weight != 0.0]
+    parts = answers(case, values, columns)[[ENTRY]]
+    return float(combined(parts, values)[0])
 
 
 def _influences(

@@ -14,8 +14,12 @@ conduct, from the conductance between them and from where the heat arises.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+import tomllib
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from importlib.resources import files
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +37,7 @@ _ROLLERS, _ARC, _ARC_PART, _RAILING_PART = 2, 0.1, 0.2, 0.25
 
 @dataclass(frozen=True)
 class Unknown:
-    """A range, drawn evenly, or evenly in the logarithm; levels: how many values it has, 0 for all.
+    """A range, drawn evenly, or evenly in the logarithm; `unknowns.toml` says what the fields are.
 
     unit "x": a factor of the case's own number; basis: where the range comes from.
     """
@@ -44,9 +48,14 @@ class Unknown:
     low: float
     high: float
     basis: str
+    allowed: Sequence[float]
     logarithmic: bool = False
     levels: int = 0
     linear: bool = False
+    said_by: Sequence[str] = ()
+    good_to: Sequence[float] = (1.0, 1.0)
+    at_most: float = math.inf
+    there: str = ""
 
     @property
     def fixed(self) -> bool:
@@ -67,157 +76,16 @@ class Unknown:
         return (np.minimum(np.floor(share * self.levels), self.levels - 1) + 0.5) / self.levels
 
 
-#: Blocks of ice take time, so their two unknowns have levels.
-UNKNOWNS = (
-    Unknown(
-        "h",
-        "heat transfer to the air",
-        "W/m2K",
-        4.0,
-        25.0,
-        "still air with radiation, to a light draught",
-        logarithmic=True,
-    ),
-    Unknown(
-        "friction",
-        "friction coefficient of the ice",
-        "x",
-        0.7,
-        1.2,
-        "0.2086 was measured where the study's check of the belt takes 0.3; above: assumed",
-        linear=True,
-    ),
-    Unknown(
-        "conductivity",
-        "conductivity of the belt",
-        "x",
-        0.5,
-        4.0,
-        "assumed, of 0.5 W/mK: paper to cloth filled with a conductor",
-        logarithmic=True,
-    ),
-    Unknown(
-        "heat_capacity",
-        "heat capacity of the belt",
-        "x",
-        0.9,
-        1.5,
-        "assumed, of 840 J/kgK: glass fibre to plastics",
-    ),
-    Unknown(
-        "ice_conductivity",
-        "conductivity of the ice",
-        "x",
-        0.86,
-        1.09,
-        "of 2.2 W/mK: porous ice (assumed) to clear ice at -20 degC (Yen 1981)",
-        levels=5,
-    ),
-    Unknown(
-        "conductance",
-        "conductance of the contact",
-        "W/m2K",
-        1e3,
-        1e5,
-        "assumed: a poor contact to one next to perfect",
-        logarithmic=True,
-    ),
-    Unknown(
-        "belt_side",
-        "share of the heat that arises on the belt's face",
-        "1",
-        0.0,
-        1.0,
-        "all that is possible",
-    ),
-    Unknown(
-        "contact_area",
-        "real over nominal contact",
-        "x",
-        0.3,
-        1.0,
-        "assumed: ice that bears on a third of its face, to all of it",
-        levels=8,
-    ),
-    Unknown(
-        "railing_friction",
-        "friction on the railing",
-        "1",
-        0.0,
-        0.2,
-        "none, to the most that PTFE is known for",
-        linear=True,
-    ),
-    Unknown(
-        "railing_share",
-        "share of the railing's heat into the belt",
-        "1",
-        0.25,
-        0.75,
-        "assumed: about a half",
-        linear=True,
-    ),
-    Unknown(
-        "railing_conductance",
-        "conductance to the railing",
-        "W/m2K",
-        5.0,
-        100.0,
-        "assumed: a gap of air to a light touch",
-        logarithmic=True,
-    ),
-    Unknown(
-        "roller_conductance",
-        "conductance to the rollers",
-        "W/m2K",
-        10.0,
-        1000.0,
-        "assumed: rollers that hardly touch, to firm contact",
-        logarithmic=True,
-    ),
-    Unknown(
-        "roller_rise",
-        "rollers above the air",
-        "K",
-        0.0,
-        0.5,
-        "assumed: as cold as the air, to warmed by their drive",
-        linear=True,
-    ),
-    Unknown(
-        "sample_rise",
-        "sample above the air at the start, as the room's thermostat swings",
-        "K",
-        -0.5,
-        0.5,
-        "assumed: a thermostat lets the air swing by 1 K, which the sample does not follow",
-        linear=True,
-    ),
-    Unknown(
-        "air_warming",
-        "warming of the air in the run, as the room's thermostat swings",
-        "K/min",
-        -0.3,
-        0.3,
-        "assumed: the same swing up and down in ten minutes",
-        linear=True,
-    ),
-)
+_TABLES = tomllib.loads((files(__package__) / "unknowns.toml").read_text(encoding="utf-8"))
+UNKNOWNS = tuple(Unknown(key, **entries) for key, entries in _TABLES.items())
 #: With which the railing's share and the rollers' rise are seen where a rig has neither.
 SOME_FRICTION, SOME_CONDUCTANCE = 0.1, 100.0
-#: What A to E hang on.
-SHAPING = tuple(one for one in UNKNOWNS if not one.linear)
 
 
 def unknowns_of(case: Case) -> tuple[Unknown, ...]:
     """UNKNOWNS, with the ranges that a case has of its own."""
-    own = {one.key: one for one in case.ranges}
-    return tuple(
-        replace(one, low=own[one.key].low, high=own[one.key].high, basis=own[one.key].basis)
-        if one.key in own
-        else one
-        for one in UNKNOWNS
-    )
+    own = {one.key: one._asdict() for one in case.ranges}
+    return tuple(replace(one, **own.get(one.key, {})) for one in UNKNOWNS)
 
 
 #: Rises that are answered: of the belt at entry, of the interface at constant speed, of the ice's
@@ -240,10 +108,11 @@ class Melts(Exception):
 
 
 def answers(case: Case, values: dict[str, float], columns: Sequence[int] = COLUMNS) -> Array:
-    """A to E of the rises of a case with values of SHAPING, K: (3, 5), as if no ice melted.
+    """A to E of the rises of a case, K: (3, 5), as if no ice melted.
 
-    The interface's warming counts that of the air, with which a camera sees it. columns: those that
-    are wanted, the others are 0. Melts where the air is as warm as melting ice.
+    values: of all unknowns, by key; the linear ones do not count. columns: those that are wanted,
+    the others are 0. The interface's warming counts that of the air, with which a camera sees it.
+    Melts where the air is as warm as melting ice.
     """
     sliding = _shaped(case, values).sliding()
     force, found = sliding.force, np.zeros((3, len(COLUMNS)))
@@ -263,15 +132,16 @@ def answers(case: Case, values: dict[str, float], columns: Sequence[int] = COLUM
     return found / _LITTLE
 
 
-def combined(parts: Array, values: dict[str, Array]) -> Array:
-    """A rise, K, from its A to E (n, 5) and the other unknowns, each (n,)."""
-    return (
-        values["friction"] * parts[:, CONTACT]
-        + values["railing_friction"] * values["railing_share"] * parts[:, RAILING]
-        + values["roller_rise"] * parts[:, ROLLERS]
-        + values["sample_rise"] * parts[:, SAMPLE]
-        + values["air_warming"] * parts[:, AIR]
-    )
+def weights(values: Mapping[str, Any]) -> list[Any]:
+    """How many units of each of COLUMNS there are; values: numbers, or (n,) of each unknown."""
+    railing = values["railing_friction"] * values["railing_share"]
+    others = [values[key] for key in ("roller_rise", "sample_rise", "air_warming")]
+    return [values["friction"], railing, *others]
+
+
+def combined(parts: Array, values: Mapping[str, Any]) -> Array:
+    """A rise, K, from its A to E (n, 5) and the other unknowns, each a number or (n,)."""
+    return sum(weight * parts[:, column] for column, weight in enumerate(weights(values)))
 
 
 def as_it_is(case: Case, key: str) -> dict[str, float]:
@@ -315,11 +185,10 @@ def needs(case: Case, key: str) -> dict[str, float]:
 
 
 def _shaped(case: Case, values: dict[str, float]) -> Case:
-    """The case with values of SHAPING, and one unit of friction on the railing and of rise."""
-    rig = case.rig
-    belt, ice, contact = rig.belt, rig.ice, rig.contact
-    footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
+    """The case with the values that are not linear, and one unit of railing friction and rise."""
+    belt, ice, contact = case.rig.belt, case.rig.ice, case.rig.contact
     rollers = belt.rollers or _ROLLERS
+    short_arc = min(_ARC, _ARC_PART * 2.0 / rollers * case.length)
     keys = {
         "contact.conductance": values["conductance"],
         "contact.belt_side": values["belt_side"],
@@ -329,13 +198,12 @@ def _shaped(case: Case, values: dict[str, float]) -> Case:
         "belt.railing_friction": 1.0,
         "belt.railing_share": 1.0,
         "belt.rollers": rollers,
-        "belt.roller_arc": belt.roller_arc
-        if belt.rollers
-        else min(_ARC, _ARC_PART * 2.0 / rollers * case.length),
+        "belt.roller_arc": belt.roller_arc if belt.rollers else short_arc,
         "belt.roller_conductance": values["roller_conductance"],
         "belt.roller_rise": 1.0,
     }
     if not ice.mesh and values["contact_area"] != 1.0:
+        footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
         keys["contact.length"] = footprint.length * values["contact_area"]
     shaped = replace(case, h=values["h"], ice_rise=0.0, drawn=True)
     return _with_belt(shaped, values["conductivity"], values["heat_capacity"]).changed(keys)
@@ -343,8 +211,8 @@ def _shaped(case: Case, values: dict[str, float]) -> Case:
 
 def _room_for_railing(case: Case) -> float:
     """As long as the sample, or as the rollers that a belt is said to have leave room for, m."""
-    belt, contact = case.rig.belt, case.rig.contact
-    length = min(2.0 * contact.radius, _RAILING_PART * case.length)
+    belt = case.rig.belt
+    length = min(2.0 * case.rig.contact.radius, _RAILING_PART * case.length)
     if not belt.rollers:
         return length
     return min(length, 0.95 * (case.length / belt.rollers - belt.roller_arc))
@@ -352,23 +220,15 @@ def _room_for_railing(case: Case) -> float:
 
 def _with_belt(case: Case, conductivity: float, heat_capacity: float) -> Case:
     """Factors on the belt's conductivity and heat capacity, on those of each of its layers."""
+
+    def scaled(material):
+        factors = {"conductivity": conductivity, "heat_capacity": heat_capacity}
+        return material.model_copy(
+            update={name: factor * getattr(material, name) for name, factor in factors.items()}
+        )
+
     belt = case.rig.belt
-    if not belt.layers:
-        own = belt.conductivity if case.conductivity is None else case.conductivity
-        return case.changed(
-            {
-                "belt.conductivity": own * conductivity,
-                "belt.heat_capacity": belt.heat_capacity * heat_capacity,
-            }
-        )
-    layers = tuple(
-        layer.model_copy(
-            update={
-                "conductivity": layer.conductivity * conductivity,
-                "heat_capacity": layer.heat_capacity * heat_capacity,
-            }
-        )
-        for layer in belt.layers
-    )
-    rig = case.rig.model_copy(update={"belt": belt.model_copy(update={"layers": layers})})
-    return replace(case, rig=rig)
+    layers = tuple(scaled(layer) for layer in belt.layers)
+    belt = belt.model_copy(update={"layers": layers}) if layers else scaled(belt)
+    own = None if case.conductivity is None else conductivity * case.conductivity
+    return replace(case, rig=case.rig.model_copy(update={"belt": belt}), conductivity=own)

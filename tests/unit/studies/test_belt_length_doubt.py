@@ -13,7 +13,6 @@ from cosim.studies.belt_length.unknowns import (
     ENTRY,
     ICE,
     INTERFACE,
-    SHAPING,
     UNKNOWNS,
     answers,
     as_it_is,
@@ -138,7 +137,6 @@ def test_rigs_whose_ice_melts_are_counted(found):
 def test_unknowns_are_all_there_and_have_ranges_that_hold_their_usual_values():
     keys = [unknown.key for unknown in UNKNOWNS]
     assert len(set(keys)) == len(keys) == 15
-    assert {unknown.key for unknown in SHAPING} < set(keys)
     for unknown in UNKNOWNS:
         assert unknown.low <= as_it_is(CASE, "h")[unknown.key] <= unknown.high or (
             unknown.key == "roller_conductance"

@@ -21,7 +21,8 @@ from cosim.studies.belt_length import (
     with_ranges,
 )
 from cosim.studies.belt_length.lengths import rounded_up
-from cosim.studies.belt_length.show.verdict import answered, two_digits
+from cosim.studies.belt_length.show.answer import answered
+from cosim.studies.belt_length.show.wording import two_digits
 from cosim.studies.belt_length.unknowns import UNKNOWNS, answers, as_it_is, unknowns_of
 
 STEEL = """

@@ -30,9 +30,7 @@ def test_the_ramp_counts(h, printed):
     assert run_drift(Case(1.0, 0.15, h=15.0, protocol=Protocol(ramp=0.0))) < CAMERA
 
 
-@pytest.mark.parametrize(
-    ("speed", "with_ramp", "without"), [(0.15, 1.2, 1.0), (0.5, 4.8, 4.2), (0.82, 8.3, 7.3)]
-)
+@pytest.mark.parametrize(("speed", "with_ramp", "without"), [(0.15, 1.2, 1.0), (0.82, 8.3, 7.3)])
 def test_shortest_belts_with_and_without_ramp(speed, with_ramp, without):
     case = Case(1.0, speed, h=15.0)
     assert shortest_belt(case, CAMERA, run_drift) == pytest.approx(with_ramp, rel=AS_PRINTED)

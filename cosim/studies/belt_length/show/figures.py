@@ -2,19 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 from matplotlib.artist import Artist
+from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from numpy.typing import NDArray
 
 from cosim.report.style import BLUE, GREY, INK, RED, SERIES, panels, picture
 
 from ..case import Case
-from ..drift import endless_belt, never_comes_round, steady_drift
+from ..drift import endless_belt, followed, never_comes_round, steady_drift
 from ..lengths import DriftMap
 from ..result import Row, Study
+from ..uncertainty import SingleChange
+
+Array = NDArray[np.float64]
 
 #: Points along a curve.
 _CURVE = 40
@@ -52,86 +60,65 @@ def draw_drift(study: Study) -> Figure:
     """Two panels for the first choice of everything but length and speed."""
     speeds = sorted({row.case.speed for row in study.rows})
     lengths = sorted({row.case.length for row in study.rows})
-    firsts = [_first(study, speed) for speed in speeds]
+    firsts = [next(row.case for row in study.rows if row.case.speed == one) for one in speeds]
     low = max(0.5 * min(lengths), 1.2 * max(case.shortest for case in firsts))
     high = 4.0 * max(lengths)
     for answer in study.answers:
         low, high = min([low, *answer.lengths[:1]]), max([high, *answer.lengths[-1:]])
-    curve = np.geomspace(low, high, _CURVE)
     figure, axes = panels(2, 1, height=3.9, width=7.5, sharex=True)
+    entry, interface = axes[:, 0]
     for i, case in enumerate(firsts):
         colour = SERIES[i % len(SERIES)]
-        _curves(axes[:, 0], case, curve, colour, own=bool(study.answers))
-        _bands(axes[:, 0], study, case, colour)
-        aside = _ASIDE ** (i - 0.5 * (len(firsts) - 1))
-        _bars(axes[0, 0], study, case, SERIES[i % len(SERIES)], aside)
-    for ax in axes[:, 0]:
-        ax.axhline(study.options.limit, color=INK, linewidth=1.0)
-        ax.text(
-            1.01,
-            study.options.limit,
-            f"limit\n{study.options.limit:g} K",
-            va="center",
-            transform=ax.get_yaxis_transform(),
-        )
+        _curves((entry, interface), case, np.geomspace(low, high, _CURVE), colour, study)
+        _bands((entry, interface), study, case, colour)
+        _bars(entry, study, case, colour, _ASIDE ** (i - 0.5 * (len(firsts) - 1)))
+    limit = study.options.limit
+    for ax in (entry, interface):
+        ax.axhline(limit, color=INK, linewidth=1.0)
+        beside = ax.get_yaxis_transform()
+        ax.text(1.01, limit, f"limit\n{limit:g} K", va="center", transform=beside)
         ax.set(xscale="log", yscale="log")
         for length in lengths if study.answers else ():
             ax.axvline(length, color=GREY, linestyle="-.", linewidth=1.0)
-    axes[0, 0].set(ylabel="belt's rise at entry [K]", title=_title(firsts))
-    axes[1, 0].set(
-        xlabel="length of the belt [m]", ylabel="interface's rise\nat constant speed [K]"
-    )
-    axes[0, 0].set_ylim(bottom=_FLOOR)
-    _plain_ticks(axes[1, 0].xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50), curve[0], curve[-1])
-    axes[1, 0].set_xlim(curve[0], curve[-1])
-    _plain_ticks(axes[0, 0].yaxis, (1e-3, 1e-2, 0.1, 1, 10), _FLOOR, 100.0)
-    _plain_ticks(axes[1, 0].yaxis, (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2), *axes[1, 0].get_ylim())
+    entry.set(ylabel="belt's rise at entry [K]", title=_title(firsts))
+    entry.set_ylim(bottom=_FLOOR)
+    interface.set(xlabel="length of the belt [m]", ylabel="interface's rise\nat constant speed [K]")
+    _plain_ticks(interface.xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50), low, high)
+    interface.set_xlim(low, high)
+    _plain_ticks(entry.yaxis, (1e-3, 1e-2, 0.1, 1, 10), _FLOOR, 100.0)
+    _plain_ticks(interface.yaxis, (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2), *interface.get_ylim())
     figure.legend(handles=_key(speeds, study), ncols=4, loc="outside upper center")
     return figure
 
 
-def _bands(axes, study: Study, case: Case, colour: str) -> None:
-    """5 to 95 % of the rigs over the lengths, of an own rig with this speed."""
-    for answer in study.answers:
-        if answer.case.with_length(1.0) == case.with_length(1.0) and answer.lengths.size:
-            for ax, (low, _, high) in zip(axes, answer.levels, strict=True):
-                ax.fill_between(
-                    answer.lengths,
-                    np.maximum(low, 1e-2 * _FLOOR),
-                    high,
-                    color=colour,
-                    alpha=0.18,
-                    linewidth=0.0,
-                )
-
-
-def _curves(axes, case: Case, curve, colour: str, own: bool) -> None:
-    """Entry and interface of one speed over the lengths; own: not of the source study."""
+def _curves(axes: Sequence[Axes], case: Case, lengths: Array, colour: str, study: Study) -> None:
+    """Entry and interface of one speed over the lengths; one pass of the source study's rig."""
+    entry, interface = axes
     travel = case.protocol.runs * case.protocol.moving * case.speed
-    if curve[0] < travel < curve[-1]:
+    if lengths[0] < travel < lengths[-1]:
         # so that the curve falls where the last place comes round, not somewhere beyond
-        curve = np.sort([*curve, 0.98 * travel, travel, 1.03 * travel])
+        lengths = np.sort([*lengths, 0.98 * travel, travel, 1.03 * travel])
         if never_comes_round(endless_belt(case)):
-            _mark_end(axes[0], travel, colour)
-    belts = [case.with_length(float(length)) for length in curve]
-    followed = [one.follow(one.sliding()) for one in belts]
-    entry = [
-        0.0 if never_comes_round(one) else after.entry
-        for one, (_, after) in zip(belts, followed, strict=True)
+            _mark_end(entry, travel, colour)
+    belts = [case.with_length(float(length)) for length in lengths]
+    ends = [followed(one) for one in belts]
+    entries = [
+        0.0 if never_comes_round(one) else end.entry
+        for one, (_, end) in zip(belts, ends, strict=True)
     ]
-    axes[0].plot(curve, _falling(entry), color=colour)
-    axes[0].plot(curve, _falling([steady_drift(one) for one in belts]), "--", color=colour)
-    if not own:
+    # far below the axis where there is no rise, so that a curve leaves it instead of ending
+    least = 1e-3 * _FLOOR
+    entry.plot(lengths, np.maximum(entries, least), color=colour)
+    steady = [steady_drift(one) for one in belts]
+    entry.plot(lengths, np.maximum(steady, least), "--", color=colour)
+    if not study.answers:
         passed = [one.as_the_study().temperature_degC(one.length) for one in belts]
-        axes[0].plot(curve, np.array(passed) - case.ambient_degC, ":", color=colour)
-    axes[1].plot(
-        curve,
-        [after.mean_interface - before.mean_interface for before, after in followed],
-        color=colour,
-    )
+        entry.plot(lengths, np.array(passed) - case.ambient_degC, ":", color=colour)
+    warming = [end.mean_interface - start.mean_interface for start, end in ends]
+    interface.plot(lengths, warming, color=colour)
 
 
-def _mark_end(ax, length: float, colour: str) -> None:
+def _mark_end(ax: Axes, length: float, colour: str) -> None:
     """Where nothing comes round any more: a triangle at the foot, with the length."""
     ax.plot(length, _FLOOR, "v", color=colour, markersize=8.0, clip_on=False, zorder=5)
     ax.annotate(
@@ -145,47 +132,37 @@ def _mark_end(ax, length: float, colour: str) -> None:
     )
 
 
-def _first(study: Study, speed: float) -> Case:
-    """The first case with a speed."""
-    return next(row.case for row in study.rows if row.case.speed == speed)
+def _bands(axes: Sequence[Axes], study: Study, case: Case, colour: str) -> None:
+    """5 to 95 % of the rigs over the lengths, of an own rig with this speed."""
+    style: Any = {"color": colour, "alpha": 0.18, "linewidth": 0.0}
+    for answer in study.answers:
+        if answer.case.with_length(1.0) == case.with_length(1.0) and answer.lengths.size:
+            for ax, (low, _, high) in zip(axes, answer.levels, strict=True):
+                ax.fill_between(answer.lengths, np.maximum(low, 1e-2 * _FLOOR), high, **style)
+
+
+def _bars(ax: Axes, study: Study, case: Case, colour: str, aside: float) -> None:
+    """At the length, or a little aside of it where several speeds have one."""
+    style: Any = {"color": colour, "linewidth": 5.0, "alpha": 0.35}
+    for row in study.rows:
+        if row.uncertainty is not None and row.case == case.with_length(row.case.length):
+            ends = [max(row.uncertainty.low, _FLOOR), row.uncertainty.high]
+            ax.plot([aside * row.case.length] * 2, ends, solid_capstyle="butt", **style)
 
 
 def _key(speeds: list[float], study: Study) -> list[Artist]:
     """Colours say the speed, strokes the model."""
+    strokes: list[Any] = [("-", INK, "after the runs"), ("--", INK, "for ever")]
+    one_pass = (":", INK, "study, one pass")
+    strokes.append(("-.", GREY, "belt asked about") if study.answers else one_pass)
     handles: list[Artist] = [
         Line2D([], [], color=SERIES[i % len(SERIES)], label=f"{speed:g} m/s")
         for i, speed in enumerate(speeds)
     ]
-    handles += [
-        Line2D([], [], color=INK, linestyle="-", label="after the runs"),
-        Line2D([], [], color=INK, linestyle="--", label="for ever"),
-    ]
-    if not study.answers:
-        handles.append(Line2D([], [], color=INK, linestyle=":", label="study, one pass"))
-    else:
-        handles.append(Line2D([], [], color=GREY, linestyle="-.", label="belt asked about"))
-    if any(row.uncertainty for row in study.rows):
+    handles += [Line2D([], [], color=ink, linestyle=one, label=says) for one, ink, says in strokes]
+    if study.most_doubted:
         handles.append(Patch(color=GREY, alpha=0.35, label="5–95 %, after the runs"))
     return handles
-
-
-def _falling(rises: list[float]) -> list[float]:
-    """Far below the axis where there is none, so that a curve leaves it instead of ending."""
-    return [max(rise, 1e-3 * _FLOOR) for rise in rises]
-
-
-def _bars(ax, study: Study, case: Case, colour: str, aside: float) -> None:
-    """At the length, or a little aside of it where several speeds have one."""
-    for row in study.rows:
-        if row.uncertainty is not None and row.case == case.with_length(row.case.length):
-            ax.plot(
-                [aside * row.case.length] * 2,
-                [max(row.uncertainty.low, _FLOOR), row.uncertainty.high],
-                color=colour,
-                linewidth=5.0,
-                alpha=0.35,
-                solid_capstyle="butt",
-            )
 
 
 def _plain_ticks(axis, places, low: float, high: float) -> None:
@@ -236,7 +213,7 @@ def draw_doubt(row: Row) -> Figure:
     return figure
 
 
-def _span_of(one) -> str:
+def _span_of(one: SingleChange) -> str:
     unit = {"x": " times", "1": ""}.get(one.unit, f" {one.unit}")
     others = {
         "railing_friction": "friction on it {:g}",
@@ -255,19 +232,12 @@ def draw_map(drift: DriftMap, case: Case, limit: float) -> Figure:
     figure, axes = panels(1, 1, height=4.6, width=7.0)
     ax = axes[0, 0]
     shown = np.ma.masked_invalid(np.maximum(drift.drift, _FLOOR))
-    colours = ax.pcolormesh(
-        drift.lengths,
-        drift.speeds,
-        shown.T,
-        shading="nearest",
-        norm=LogNorm(_FLOOR, max(1.0, float(shown.max()))),
-        cmap="viridis",
-        rasterized=True,
-    )
+    norm = LogNorm(_FLOOR, max(1.0, float(shown.max())))
+    style: Any = {"shading": "nearest", "cmap": "viridis", "rasterized": True}
+    colours = ax.pcolormesh(drift.lengths, drift.speeds, shown.T, norm=norm, **style)
     if np.any(shown > limit) and np.any(shown < limit):
-        ax.contour(
-            drift.lengths, drift.speeds, shown.T, levels=[limit], colors="white", linewidths=2.0
-        )
+        line = {"levels": [limit], "colors": "white", "linewidths": 2.0}
+        ax.contour(drift.lengths, drift.speeds, shown.T, **line)
     moving = case.protocol.runs * case.protocol.moving
     ax.plot(drift.lengths, drift.lengths / moving, color="white", linestyle="--", linewidth=1.0)
     ax.set_ylim(drift.speeds[0], drift.speeds[-1])
