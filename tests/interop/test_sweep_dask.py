@@ -82,6 +82,6 @@ def test_a_killed_worker_loses_nothing(cluster, tmp_path):
 
 
 def test_no_scheduler_is_said_in_one_line(monkeypatch):
-    monkeypatch.setattr("cosim.studies.sweep.chunks.CONNECT_SECONDS", 0.5)
+    monkeypatch.setattr("cosim.studies.sweep.workers.CONNECT_SECONDS", 0.5)
     with pytest.raises(SweepError, match=r"^dask: no scheduler answers at tcp://127.0.0.1:1 \(.*"):
         sweep(BASE, {"rig.mass": [0.5, 0.6]}, duration=1.0, dask="tcp://127.0.0.1:1")

@@ -6,6 +6,7 @@ import math
 import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, get_args
 
@@ -28,6 +29,7 @@ MECHANICS = {key for key in known_keys(Parameters) if "." in key}
 SCENARIO = "scenario"
 #: A key of one table of a list: the list's key, the table's number from 1, its own key.
 LIST_ENTRY = re.compile(r"^(\w+\.\w+)\[(\d+)\]\.(\w+)$")
+_LARGEST = 2**1023
 #: Longest label of a value on an axis.
 LONGEST_LABEL = 32
 
@@ -109,21 +111,19 @@ def field_of(key: str) -> FieldInfo | None:
     place = list_entry(key)
     if place is None:
         return KEYS.get(key)
-    name, _, entry = place
-    field = KEYS.get(name)
-    kind = get_args(field.annotation)[0] if field and get_args(field.annotation) else None
-    fields = getattr(kind, "model_fields", {})
-    return fields.get(entry)
+    field = KEYS.get(place[0])
+    kinds = get_args(field.annotation) if field else ()
+    return getattr(kinds[0], "model_fields", {}).get(place[2]) if kinds else None
 
 
 def _check_key(key: str) -> None:
     if field_of(key) is not None:
         return
+    tables = dict.fromkeys(known.partition(".")[0] for known in KEYS)
+    siblings = [known for known in KEYS if known.partition(".")[0] == key.partition(".")[0]]
+    allowed = ", ".join(siblings) or f"a key of {', '.join(tables)}"
     near = nearest_key(key, KEYS)
-    block = key.partition(".")[0]
-    siblings = [known for known in KEYS if known.partition(".")[0] == block]
-    any_table = f"a key of {', '.join(dict.fromkeys(known.partition('.')[0] for known in KEYS))}"
-    hint = f"nearest: {near}" if near else f"allowed: {', '.join(siblings) or any_table}"
+    hint = f"nearest: {near}" if near else f"allowed: {allowed}"
     raise SweepError(f"{key}: no such key of a scenario, {hint}")
 
 
@@ -184,14 +184,9 @@ def _column(values: Sequence[Any], kind: type = float) -> np.ndarray:
 
 
 def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and _is_finite(value)
-
-
-def _is_finite(value: float) -> bool:
-    try:
-        return math.isfinite(value)
-    except OverflowError:
-        return False
+    # a whole number may be too large to be a float
+    whole = isinstance(value, int) and not isinstance(value, bool) and abs(value) < _LARGEST
+    return whole or isinstance(value, float) and math.isfinite(value)
 
 
 def _label(value: Any) -> str:
@@ -231,15 +226,13 @@ def parse_vary(texts: Iterable[str]) -> dict[tuple[str, ...], list[Any]]:
 def _values(text: str, values: str, count: int) -> list[Any]:
     if not values.strip():
         raise SweepError(f"--vary {text}: no values, {FORM}")
-    entries = [_split(text, part, ":") for part in _split(text, values, ",")]
-    if count == 1:
-        entries = [[part] for part in _split(text, values, ",")]
+    parts = _split(text, values, ",")
+    entries = [[part] if count == 1 else _split(text, part, ":") for part in parts]
+    wanted = "a value" if count == 1 else f"{count} values for the linked keys"
     for entry in entries:
         if len(entry) != count or not all(part.strip() for part in entry):
-            raise SweepError(
-                f"--vary {text}: {':'.join(entry).strip() or 'an empty value'} is not "
-                f"{'a value' if count == 1 else f'{count} values for the linked keys'}, {FORM}"
-            )
+            shown = ":".join(entry).strip() or "an empty value"
+            raise SweepError(f"--vary {text}: {shown} is not {wanted}, {FORM}")
     parsed = [tuple(_value(text, part) for part in entry) for entry in entries]
     return [entry[0] for entry in parsed] if count == 1 else parsed
 
@@ -266,22 +259,15 @@ def _split(text: str, values: str, separator: str) -> list[str]:
 def _value(text: str, part: str) -> Any:
     """A number, true or false, a list, a table, or a word with or without quotation marks."""
     part = part.strip()
-    if part in ("true", "false"):
-        return part == "true"
-    if part.startswith(("{", "[")):
-        try:
-            return _plain(tomllib.loads(f"value = {part}")["value"])
-        except tomllib.TOMLDecodeError as error:
-            if part.startswith("{") or "{" in part:
-                raise SweepError(f"--vary {text}: {part} is no TOML: {error}") from None
+    try:
+        return _plain(tomllib.loads(f"value = {part}")["value"])
+    except tomllib.TOMLDecodeError as error:
+        if "{" in part:
+            raise SweepError(f"--vary {text}: {part} is no TOML: {error}") from None
     if part.startswith("[") and part.endswith("]"):
-        inner = part[1:-1]
-        return tuple(_value(text, entry) for entry in _split(text, inner, ",") if entry.strip())
-    if len(part) > 1 and part[0] in QUOTES and part[-1] == part[0]:
-        return part[1:-1]
+        entries = _split(text, part[1:-1], ",")
+        return tuple(_value(text, entry) for entry in entries if entry.strip())
     for number in (int, float):
-        try:
+        with suppress(ValueError):
             return number(part)
-        except ValueError:
-            continue
     return part

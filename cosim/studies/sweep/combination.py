@@ -8,21 +8,22 @@ import inspect
 import json
 import platform
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib import resources
+from pathlib import Path
 from typing import Any, NamedTuple
 
-from pydantic import ValidationError
-from stickslip import Parameters, Trajectory, simulate
+from stickslip import Parameters, simulate
 from stickslip.generation.source import kernel_source
 
-from cosim.scenario import Scenario, ScenarioError
+from cosim.processes import is_stopped
+from cosim.scenario import Scenario
 
 from . import features as feature_module
-from .coupled import HEAT_FEATURES, changed, coupled_features, heat_version
+from .coupled import changed, coupled_features
 from .errors import SweepStopped
-from .features import FEATURES, features
+from .features import ALL, FEATURES, Feature, features
 
 COMPLETE, FAILED, ERROR = 0, 1, 2
 STATUS_MEANINGS = "complete failed error"
@@ -47,18 +48,36 @@ class Run(NamedTuple):
         return self._replace(duration=run.duration, output_interval=run.output_interval)
 
     @property
-    def features(self) -> dict[str, tuple[str, str]]:
-        """Name -> unit and long name of what is told of each run."""
-        return FEATURES | HEAT_FEATURES if self.coupled else FEATURES
+    def features(self) -> dict[str, Feature]:
+        """Name -> what is told of each run."""
+        return ALL if self.coupled else FEATURES
 
 
 class Row(NamedTuple):
-    """The outcome of one combination; values in the order of `FEATURES`."""
+    """The outcome of one combination; values in the order of its run's features, or none.
+
+    FAILED: the model gave up, and would again. ERROR: the program raised, worth another try.
+    """
 
     key: str
     status: int
     reason: str
-    values: tuple[float, ...]
+    values: tuple[float, ...] = ()
+
+
+class Work(NamedTuple):
+    """What all combinations of a sweep have in common."""
+
+    base: Parameters
+    run: Run
+    version: str
+
+
+class Task(NamedTuple):
+    """One combination: its content key and how it differs from the base."""
+
+    key: str
+    changes: Mapping[str, Any]
 
 
 @cache
@@ -67,9 +86,19 @@ def model_version() -> str:
     package = resources.files("stickslip")
     files = sorted(file.name for file in package.iterdir() if file.name.endswith(".py"))
     texts = [(package / name).read_text(encoding="utf-8") for name in files]
-    texts += [kernel_source(), inspect.getsource(feature_module)]
+    # rows are kept without the names of their numbers
+    texts += [kernel_source(), inspect.getsource(feature_module), repr(list(ALL))]
     plain = "\n".join(ast.unparse(ast.parse(text)) for text in texts)
     return hashlib.sha256(plain.encode()).hexdigest()[:KEY_DIGITS]
+
+
+@cache
+def heat_version() -> str:
+    """Hash of everything that a coupled run's numbers hang on beside the mechanics."""
+    folders = [Path(str(resources.files(package))) for package in ("thermal", "cosim.coupling")]
+    files = [file for folder in folders for file in folder.rglob("*.py")]
+    texts = sorted(file.read_text(encoding="utf-8") for file in files)
+    return hashlib.sha256("".join(texts).encode()).hexdigest()
 
 
 def content_key(parameters: Parameters, run: Run) -> str:
@@ -97,114 +126,61 @@ def with_changes(base: Parameters, changes: Mapping[str, Any]) -> Parameters:
     return Parameters.model_validate(tables, strict=True)
 
 
-def compute(
-    key: str, parameters: Parameters, run: Run, progress: Callable[[float], None] | None = None
-) -> Row:
-    """Simulate one combination. What goes wrong is in the row: it never ends a sweep.
-
-    FAILED: the model gave up, and would again. ERROR: the program raised, worth another try.
-    progress: called with the time reached; it ends the run by what is no Exception.
-    """
-    try:
-        if isinstance(parameters, Scenario):
-            return _of_scenario(key, parameters, run, progress)
-        trajectory = simulate(parameters, run.duration, run.output_interval, progress=progress)
-        if not trajectory.complete:
-            return without_values(key, FAILED, trajectory.reason)
-        return Row(key, COMPLETE, "", _values(trajectory))
-    except Exception as error:  # noqa: BLE001 - named in the row, for whoever reads the sweep
-        text = " ".join(str(error).split())
-        return without_values(key, ERROR, f"{type(error).__name__}: {text}")
-
-
-def _of_scenario(
-    key: str, scenario: Scenario, run: Run, progress: Callable[[float], None] | None
-) -> Row:
-    if run.coupled:
-        numbers, reason = coupled_features(scenario, progress)
-    else:
-        own = run.of(scenario)
-        trajectory = simulate(
-            scenario.mechanics,
-            own.duration,
-            own.output_interval,
-            interface_temperature=scenario.ambient.temperature_degC,
-            progress=progress,
-        )
-        reason = trajectory.reason
-        numbers = {} if reason else features(trajectory)
-    if reason:
-        return without_values(key, FAILED, reason)
-    return Row(key, COMPLETE, "", tuple(numbers[name] for name in run.features))
-
-
-def without_values(key: str, status: int, reason: str) -> Row:
-    """The row of a combination that has no features."""
-    return Row(key, status, reason, ())
-
-
-def _values(trajectory: Trajectory) -> tuple[float, ...]:
-    numbers = features(trajectory)
-    return tuple(numbers[name] for name in FEATURES)
-
-
-class Work(NamedTuple):
-    """What all combinations of a sweep have in common."""
-
-    base: Parameters
-    run: Run
-    version: str
-
-
-class Task(NamedTuple):
-    """One combination: its content key and how it differs from the base."""
-
-    key: str
-    changes: Mapping[str, Any]
-
-
-def compute_chunk(
-    work: Work, tasks: Sequence[Task], stopped: Callable[[], bool] = lambda: False
-) -> list[Row]:
-    """Run in a worker: the outcome of every task, of those before ``stopped`` where it says so.
+def compute_chunk(work: Work, tasks: Sequence[Task]) -> list[Row]:
+    """Run in a worker: the outcome of every task; in a process that is to stop, of those before.
 
     Raises SweepStopped where the worker has another version of the model.
     """
-    if stopped():
-        return []
     if model_version() != work.version:
         raise SweepStopped(
             f"the worker on {platform.node()} has another version of the model than this process; "
             "install the same one there, or start again if it was just changed"
         )
+    rows: list[Row] = []
     with warnings.catch_warnings():
         # what there is to warn of was said when the combinations were checked
         warnings.simplefilter("ignore", UserWarning)
-        return list(_outcomes(work, tasks, stopped))
-
-
-def _outcomes(work: Work, tasks: Sequence[Task], stopped: Callable[[], bool]) -> Iterator[Row]:
-    def stop_if_told(time: float) -> None:
-        if stopped():
-            raise _Stop
-
-    try:
-        for task in tasks:
-            yield _outcome(work, task, stop_if_told)
-    except _Stop:
-        return
+        try:
+            for task in tasks:
+                rows.append(compute(work, task))
+        except _Stop:
+            pass
+    return rows
 
 
 class _Stop(BaseException):
     """Leaves a run in its middle; not one of the errors that are recorded."""
 
 
-def _outcome(work: Work, task: Task, stop_if_told: Callable[[float], None]) -> Row:
+def _stop_if_told(time: float) -> None:
+    if is_stopped():
+        raise _Stop
+
+
+def compute(work: Work, task: Task) -> Row:
+    """Simulate one combination. What goes wrong is in the row: it never ends a sweep."""
     try:
-        parameters = with_changes(work.base, task.changes)
-    except (
-        ValidationError,
-        ScenarioError,
-    ) as error:  # checked before: only a worker's other pydantic refuses
-        return without_values(task.key, ERROR, " ".join(str(error).split()))
-    return compute(task.key, parameters, work.run, stop_if_told)
+        numbers, reason = _simulated(with_changes(work.base, task.changes), work.run)
+    except Exception as error:  # noqa: BLE001 - named in the row, for whoever reads the sweep
+        return Row(task.key, ERROR, f"{type(error).__name__}: {' '.join(str(error).split())}")
+    if reason:
+        return Row(task.key, FAILED, reason)
+    return Row(task.key, COMPLETE, "", tuple(numbers[name] for name in work.run.features))
+
+
+def _simulated(parameters: Parameters, run: Run) -> tuple[dict[str, float], str]:
+    """Features by name; or why there are none."""
+    duration, output_interval, coupled = run.of(parameters)
+    if not isinstance(parameters, Scenario):
+        trajectory = simulate(parameters, duration, output_interval, progress=_stop_if_told)
+    elif coupled:
+        return coupled_features(parameters, _stop_if_told)
+    else:
+        trajectory = simulate(
+            parameters.mechanics,
+            duration,
+            output_interval,
+            interface_temperature=parameters.ambient.temperature_degC,
+            progress=_stop_if_told,
+        )
+    return ({}, trajectory.reason) if trajectory.reason else (features(trajectory), "")

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
 import math
 from collections.abc import Callable, Mapping
-from functools import cache
-from importlib import resources
+from copy import deepcopy
 from typing import Any
 
 import numpy as np
@@ -22,17 +20,6 @@ from .features import features
 #: Tables of a scenario that only a coupled run has a use for.
 HEAT_TABLES = ("belt", "ice", "contact", "coupling")
 
-# name -> (unit, long name)
-HEAT_FEATURES = {
-    "interface_rise": ("K", "rise of the interface over the air at the end of the run"),
-    "interface_drift": ("K", "what of it came at constant surface speed"),
-    "belt_entry_rise": ("K", "rise of the belt where it enters the contact, at the end"),
-    "ice_face_rise": ("K", "rise of the ice's face over the air at the end"),
-    "belt_share": ("1", "share of the friction heat that the belt has taken, at the end"),
-    "melted_mass": ("kg", "ice that has melted"),
-    "heat_residual": ("J", "largest error of the heat ledger in the whole run"),
-}
-
 
 def changed(base: Scenario, changes: Mapping[str, Any]) -> Scenario:
     """A scenario with `block.key` -> value, `block.key[2].entry` for the second table of a list.
@@ -40,15 +27,11 @@ def changed(base: Scenario, changes: Mapping[str, Any]) -> Scenario:
     `SCENARIO` -> tables: of another scenario, in place of the base. ScenarioError in one line.
     """
     given = changes.get(SCENARIO)
-    tables = base.to_tables() if given is None else {k: _copied(v) for k, v in given.items()}
+    tables = base.to_tables() if given is None else deepcopy(dict(given))
     for key, value in changes.items():
         if key != SCENARIO:
             _set(tables, key, value)
     return Scenario.from_tables(tables)
-
-
-def _copied(table: Any) -> Any:
-    return dict(table) if isinstance(table, Mapping) else table
 
 
 def _set(tables: dict[str, Any], key: str, value: Any) -> None:
@@ -78,29 +61,8 @@ def differ_in_heat(scenarios: list[Scenario]) -> bool:
     )
 
 
-@cache
-def heat_version() -> str:
-    """Hash of everything that a coupled run's numbers hang on beside the mechanics."""
-    found = hashlib.sha256()
-    for package in ("thermal", "cosim.coupling"):
-        root = resources.files(package)
-        for text in sorted(one.read_text(encoding="utf-8") for one in _sources(root)):
-            found.update(text.encode())
-    return found.hexdigest()
-
-
-def _sources(folder: Any) -> list[Any]:
-    found = []
-    for entry in folder.iterdir():
-        if entry.is_dir():
-            found += _sources(entry)
-        elif entry.name.endswith(".py"):
-            found.append(entry)
-    return found
-
-
 def coupled_features(
-    scenario: Scenario, progress: Callable[[float], None] | None
+    scenario: Scenario, progress: Callable[[float], None]
 ) -> tuple[dict[str, float], str]:
     """Features of motion and heat of a coupled run; and why it is not complete, "" where it is."""
     from cosim.coupling.case import run_scenario

@@ -9,6 +9,9 @@ distance); slip times, shares and the frequency come from the located events.
 from __future__ import annotations
 
 import math
+import tomllib
+from importlib.resources import files
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,32 +21,23 @@ from stickslip.trajectory import break_away_frequency, slip_share
 
 Array = NDArray[np.float64]
 
-# name -> (unit, long name)
-FEATURES = {
-    "x_mean": ("m", "mean of x at constant surface speed"),
-    "x_min": ("m", "smallest x at constant surface speed"),
-    "x_max": ("m", "largest x at constant surface speed"),
-    "x_std": ("m", "standard deviation of x at constant surface speed"),
-    "y_mean": ("m", "mean of y at constant surface speed"),
-    "phi_max": ("rad", "largest rotation either way at constant surface speed"),
-    "frequency": (
-        "Hz",
-        "one over the mean period of the break-aways at constant surface speed; 0 without any",
-    ),
-    "slip_time": ("s", "mean length of the slip phases that lie in the constant-speed part"),
-    "slip_share": ("1", "share of the constant-speed part spent in slip"),
-    "friction_coefficient": (
-        "1",
-        "mean friction force along x over normal force at constant surface speed",
-    ),
-    "kinetic_coefficient": (
-        "1",
-        "mean size of the friction force over normal force in slip, at constant speed",
-    ),
-    "heat": ("J", "friction heat of the whole run"),
-    "sliding_distance": ("m", "sliding distance of the whole run, mean over the contact"),
-    "energy_residual": ("J", "largest error of the energy ledger in the whole run"),
-}
+
+class Feature(NamedTuple):
+    """What a number of a run is; `features.toml` says what the fields are."""
+
+    unit: str
+    long_name: str
+    label: str
+    factor: float = 1.0
+    usual: bool = False
+    nothing: float = 0.0
+    coupled: bool = False
+
+
+_TEXT = (files(__package__) / "features.toml").read_text(encoding="utf-8")
+#: All that is told of a coupled run; of a run of the mechanics alone.
+ALL = {name: Feature(**entries) for name, entries in tomllib.loads(_TEXT).items()}
+FEATURES = {name: one for name, one in ALL.items() if not one.coupled}
 
 
 def features(run: Trajectory) -> dict[str, float]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Collection, Sequence
+from itertools import product
 from typing import Any, Literal
 
 import matplotlib
@@ -15,43 +16,15 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosim.names import nearest
-from cosim.report.style import BLUE, FAINT_BLUE, INK, LIGHT_BLUE, picture
+from cosim.report.style import BLUE, FAINT_BLUE, INK, LIGHT_BLUE, at_least, picture
 
 from .errors import SweepError
+from .features import ALL
 
 Array = NDArray[np.float64]
 
-# feature -> label and factor to the unit in it
-SHOWN = {
-    "x_mean": ("mean x [mm]", 1e3),
-    "x_std": ("std of x [mm]", 1e3),
-    "phi_max": ("largest |φ| [°]", math.degrees(1.0)),
-    "frequency": ("frequency [Hz]", 1.0),
-    "slip_time": ("mean slip time [s]", 1.0),
-    "slip_share": ("slip share [1]", 1.0),
-    "friction_coefficient": ("mean friction / N [1]", 1.0),
-    "heat": ("friction heat [J]", 1.0),
-    "interface_rise": ("interface's rise [K]", 1.0),
-    "belt_entry_rise": ("belt's rise at entry [K]", 1.0),
-    "ice_face_rise": ("ice face's rise [K]", 1.0),
-    "belt_share": ("belt's share of heat [1]", 1.0),
-    "melted_mass": ("melted ice [g]", 1e3),
-    # where they are asked for
-    "x_min": ("smallest x [mm]", 1e3),
-    "x_max": ("largest x [mm]", 1e3),
-    "y_mean": ("mean y [mm]", 1e3),
-    "kinetic_coefficient": ("friction in slip / N [1]", 1.0),
-    "sliding_distance": ("sliding distance [m]", 1.0),
-    "interface_drift": ("interface's drift [K]", 1.0),
-    "energy_residual": ("energy residual [J]", 1.0),
-    "heat_residual": ("heat residual [J]", 1.0),
-}
-#: Those that nobody has to ask for.
-USUAL = list(SHOWN)[:13]
 #: What varies less than this, in parts of its size, is told in a line and not drawn.
 STILL = 1e-3
-#: Sizes below which a feature is nothing: its own unit's, not the label's.
-NOTHING = {"phi_max": 1e-4, "melted_mass": 1e-9, "x_mean": 1e-7, "x_std": 1e-7}
 # more lines than this in a panel are a tangle: their median and their range instead
 MOST_LINES = 7
 HALF, BAND = LIGHT_BLUE, FAINT_BLUE
@@ -64,14 +37,14 @@ def shown_features(dataset: xr.Dataset, asked: Sequence[str] = ()) -> tuple[list
     """Features to be drawn, and those that are the same in all runs; asked: by name."""
     if asked:
         return list(dict.fromkeys(asked)), []
-    there = [name for name in USUAL if name in dataset]
+    there = [name for name, one in ALL.items() if one.usual and name in dataset]
     drawn = [name for name in there if _varies(dataset[name])]
     return drawn or there[:1], [name for name in there if name not in drawn]
 
 
 def check_shown(asked: Sequence[str], features: Collection[str]) -> None:
     """SweepError for a name that is none of the features of a sweep."""
-    known = [one for one in SHOWN if one in features]
+    known = [name for name in ALL if name in features]
     for name in asked:
         if name not in known:
             near = nearest(name, known)
@@ -83,7 +56,7 @@ def _varies(values: xr.DataArray) -> bool:
     known = values.values[np.isfinite(values.values)]
     if known.size < 2:
         return False
-    size = max(float(np.abs(known).max()), NOTHING.get(str(values.name), 0.0))
+    size = max(float(np.abs(known).max()), ALL[str(values.name)].nothing)
     return bool(np.ptp(known) > STILL * size)
 
 
@@ -91,25 +64,24 @@ def still_sentence(dataset: xr.Dataset, names: Sequence[str]) -> str:
     """What is the same in all runs, in a sentence; "" where nothing is."""
     said, none = [], []
     for name in names:
-        label, factor = SHOWN[name]
-        words, _, unit = label.removesuffix("]").partition(" [")
+        feature = ALL[name]
+        words, _, unit = feature.label.removesuffix("]").partition(" [")
         known = dataset[name].values[np.isfinite(dataset[name].values)]
         if not known.size:
             none.append(words)
-            continue
-        if name == "frequency" and not known.any():
+        elif name == "frequency" and not known.any():
             said.append("no stick-slip")
-            continue
-        value = float(np.mean(known)) * factor
-        nothing = abs(value) <= NOTHING.get(name, 0.0) * factor
-        number = "0" if nothing else f"{value:.3g}"
-        where = " (where there is one)" if known.size < dataset[name].size else ""
-        said.append(f"{words} {number}{f' {unit}' if unit != '1' else ''}{where}")
-    same = [f"The same in all runs: {', '.join(said)}."] if said else []
-    absent = (
-        [f"In no run, for want of cycles at constant speed: {', '.join(none)}."] if none else []
-    )
-    return " ".join(same + absent)
+        else:
+            value = float(np.mean(known)) * feature.factor
+            nothing = abs(value) <= feature.nothing * feature.factor
+            of_unit = f" {unit}" if unit != "1" else ""
+            where = " (where there is one)" if known.size < dataset[name].size else ""
+            said.append(f"{words} {'0' if nothing else f'{value:.3g}'}{of_unit}{where}")
+    sentences = [f"The same in all runs: {', '.join(said)}."] if said else []
+    if none:
+        absent = "In no run, for want of cycles at constant speed"
+        sentences.append(f"{absent}: {', '.join(none)}.")
+    return " ".join(sentences)
 
 
 @picture(
@@ -129,28 +101,23 @@ def draw_sweep(dataset: xr.Dataset, features: Sequence[str] = ()) -> Figure:
     names = list(features) or shown_features(dataset)[0]
     figure, panels = _panels(dims, len(names))
     for row, feature in zip(panels, names, strict=True):
-        label, factor = SHOWN[feature]
         for axes, dim in zip(row, dims, strict=True):
-            _draw(axes, factor * _moving(dataset, feature), dim)
-        _widen(row[0])
-        row[0].set_ylabel(label)
-    for row, feature in zip(panels, names, strict=True):
-        if feature == "frequency":
-            for axes, dim in zip(row, dims, strict=True):
-                _mark_none(axes, dataset, dim)
+            _draw(axes, ALL[feature].factor * _moving(dataset, feature), dim)
+        # a range that is a small part of the values is not blown up to fill the axis
+        at_least(row[0], SMALLEST_SPAN * max(map(abs, row[0].get_ylim())))
+        row[0].set_ylabel(ALL[feature].label)
+        for axes, dim in zip(row, dims, strict=True) if feature == "frequency" else ():
+            _mark_none(axes, dataset, dim)
+    columns = len(dims) if len(dims) > 1 else min(2, len(names))
     for column, dim in enumerate(dims):
-        lowest = len(names) - (1 if len(dims) > 1 else min(2, len(names)))
+        lowest = len(names) - (1 if len(dims) > 1 else columns)
         for i, axes in enumerate(panels[:, column]):
-            _name_axis(axes, dataset, dim, i >= lowest)
+            _name_axis(axes, dataset[dim], i >= lowest)
         _explain(panels[0, column], dataset, dim, dims)
     complete = int(np.count_nonzero(dataset["status"] == 0))
-    columns = panels.shape[1] if len(dims) > 1 else min(2, len(names))
     said = f"{dataset.attrs['title']}: {complete} of {dataset['status'].size} combinations"
-    figure.suptitle(
-        textwrap.fill(said, 12 + 32 * columns, break_long_words=False),
-        x=0.01,
-        ha="left",
-    )
+    title = textwrap.fill(said, 12 + 32 * columns, break_long_words=False)
+    figure.suptitle(title, x=0.01, ha="left")
     return figure
 
 
@@ -163,44 +130,29 @@ def _moving(dataset: xr.Dataset, feature: str) -> xr.DataArray:
 def _mark_none(axes: Axes, dataset: xr.Dataset, dim: str) -> None:
     """Crosses where a complete run has no stick-slip."""
     none = (dataset["frequency"] == 0.0) & (dataset["status"] == 0)
-    others = [name for name in none.dims if name != dim]
-    at = none.any(others).values
-    if at.any():
-        axes.plot(
-            _places(dataset[dim])[at],
-            np.zeros(np.count_nonzero(at)),
-            "x",
-            color=INK,
-            transform=axes.get_xaxis_transform(),
-            clip_on=False,
-            label="_none",
-        )
+    at = none.any([name for name in none.dims if name != dim]).values
+    places = _places(dataset[dim])[at]
+    foot: Any = {"transform": axes.get_xaxis_transform(), "clip_on": False}
+    if places.size:
+        axes.plot(places, np.zeros(places.size), "x", color=INK, label="_none", **foot)
 
 
 def _panels(dims: list[str], features: int) -> tuple[Figure, NDArray[Any]]:
     """A figure and its panels (features, dims)."""
-    columns = len(dims) if len(dims) > 1 else min(2, features)
-    rows = features if len(dims) > 1 else math.ceil(features / columns)
+    several = len(dims) > 1
+    columns = len(dims) if several else min(2, features)
+    rows = features if several else math.ceil(features / columns)
     width, height = PANEL
     figure = Figure((1.0 + width * columns, 1.2 + height * rows), layout="constrained")
-    share_y: Literal["row", "none"] = "row" if len(dims) > 1 else "none"
-    panels = figure.subplots(rows, columns, sharex="col", sharey=share_y, squeeze=False)
-    if len(dims) > 1:
+    share: Literal["row", "none"] = "row" if several else "none"
+    panels = figure.subplots(rows, columns, sharex="col", sharey=share, squeeze=False)
+    if several:
         return figure, panels
     for spare in panels.ravel()[features:]:
         spare.set_visible(False)
     for axes in panels.ravel()[max(features - columns, 0) : features]:
         axes.tick_params(labelbottom=True)
     return figure, panels.ravel()[:features].reshape(features, 1)
-
-
-def _widen(axes: Axes) -> None:
-    """A range that is a small part of the values is not blown up to fill the axis."""
-    low, high = axes.get_ylim()
-    span = SMALLEST_SPAN * max(abs(low), abs(high))
-    if high - low < span:
-        middle = 0.5 * (low + high)
-        axes.set_ylim(middle - 0.5 * span, middle + 0.5 * span)
 
 
 def _draw(axes: Axes, values: xr.DataArray, dim: str) -> None:
@@ -249,21 +201,14 @@ def _places(coordinate: xr.DataArray) -> Array:
     return np.arange(coordinate.size, dtype=float)
 
 
-def _name_axis(axes: Axes, dataset: xr.Dataset, dim: str, last: bool) -> None:
-    coordinate = dataset[dim]
-    unit = coordinate.attrs["units"].replace("degC", "°C")
+def _name_axis(axes: Axes, coordinate: xr.DataArray, last: bool) -> None:
     if last:
-        axes.set_xlabel(dim if unit == "1" else f"{dim} [{unit}]")
+        axes.set_xlabel(titled(coordinate))
     if not _is_numeric(coordinate):
         labels = [str(label) for label in coordinate.values]
         long = sum(map(len, labels)) > 24
-        axes.set_xticks(
-            _places(coordinate),
-            labels,
-            rotation=60 if long else 0,
-            ha="right" if long else "center",
-            rotation_mode="anchor",
-        )
+        style: Any = {"rotation": 60, "ha": "right"} if long else {"rotation": 0, "ha": "center"}
+        axes.set_xticks(_places(coordinate), labels, rotation_mode="anchor", **style)
         axes.set_xlim(-0.4, coordinate.size - 0.6)
 
 
@@ -276,15 +221,12 @@ def _explain(axes: Axes, dataset: xr.Dataset, dim: str, dims: list[str]) -> None
     if lines > MOST_LINES:
         axes.set_title("median, middle half, range", fontsize=8.0, loc="left")
         return
-    grid = np.indices([dataset.sizes[name] for name in others]).reshape(len(others), -1).T
-    labels = [
-        ", ".join(_shown(dataset[name].values[i]) for name, i in zip(others, place, strict=True))
-        for place in grid
-    ]
+    places = product(*(dataset[name].values for name in others))
+    labels = [", ".join(_shown(value) for value in place) for place in places]
     axes.legend(
         axes.lines[: len(labels)],
         labels,
-        title=", ".join(_titled(dataset[name]) for name in others),
+        title=", ".join(titled(dataset[name]) for name in others),
         fontsize=7.5,
         title_fontsize=7.5,
         loc="lower left",
@@ -296,7 +238,7 @@ def _explain(axes: Axes, dataset: xr.Dataset, dim: str, dims: list[str]) -> None
     )
 
 
-def _titled(coordinate: xr.DataArray) -> str:
+def titled(coordinate: xr.DataArray) -> str:
     """A dimension with its unit."""
     unit = coordinate.attrs["units"].replace("degC", "°C")
     return str(coordinate.name) if unit == "1" else f"{coordinate.name} [{unit}]"

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -88,12 +88,9 @@ class Grid:
         """How each combination is run; given: duration, output_interval, s."""
         usual = {"duration": 30.0, "output_interval": 0.01}
         if isinstance(self.base, Scenario):
-            if given:
-                raise SweepError(
-                    f"{next(iter(given))}: a scenario has run.{next(iter(given))}, set that"
-                )
-            own = self.base.run
-            usual = {"duration": own.duration, "output_interval": own.output_interval}
+            for name in given:
+                raise SweepError(f"{name}: a scenario has run.{name}, set that")
+            usual = {name: getattr(self.base.run, name) for name in usual}
         return Run(**(usual | dict(given)), coupled=self.coupled)
 
     def keys(self, run: Run) -> list[str]:
@@ -115,14 +112,14 @@ class Grid:
         try:
             return with_changes(self.base, changes)
         except ScenarioError as error:
-            if any(str(error).startswith(key) for key in changes):
-                raise SweepError(str(error)) from None
-            raise SweepError(f"{_written(changes)}: {error}") from None
+            fault = str(error)
         except ValidationError as report:
             fault = describe_faults(report, Parameters)
-            if any(fault.startswith(f"{key}: ") for key in changes):
-                raise SweepError(fault) from None
-            raise SweepError(f"{_written(changes)}: {fault}") from None
+        raise SweepError(
+            fault
+            if any(fault.startswith(key) for key in changes)
+            else f"{_written(changes)}: {fault}"
+        )
 
     def _check_work(self, parameters: Parameters, changes: Settings, run: Run) -> None:
         try:
@@ -166,17 +163,16 @@ def product_grid(
         raise SweepError("coupled: mechanics alone cannot be, allowed is a scenario")
     if len(several) > 1:
         axes = (scenario_axis(scenarios), *axes)
-    base = several[0]
-    if coupled or whole or len(several) > 1:
-        return Grid(base, axes, patience=_patience_of(base), coupled=coupled)
-    if isinstance(base, Scenario) and _feels_temperature(base):
-        return Grid(base, axes, patience=_patience_of(base))
-    return Grid(mechanics_of(base), axes, patience=_patience_of(base))
+    base, patience = several[0], _patience_of(several[0])
+    if not (coupled or whole or len(several) > 1 or _feels_temperature(base)):
+        base = mechanics_of(base)
+    return Grid(base, axes, patience=patience, coupled=coupled)
 
 
-def _feels_temperature(scenario: Scenario) -> bool:
+def _feels_temperature(base: Parameters) -> bool:
     """Whether the air's temperature is not the one that the mechanics takes by itself."""
-    return scenario.ambient.temperature_degC != Scenario().ambient.temperature_degC
+    usual = Scenario().ambient.temperature_degC
+    return isinstance(base, Scenario) and base.ambient.temperature_degC != usual
 
 
 def mechanics_of(parameters: Parameters) -> Parameters:
@@ -191,14 +187,10 @@ def _patience_of(parameters: Parameters, without: float = inf) -> float:
 
 def _warn_once(warned: Counter[str]) -> None:
     """One warning for all combinations, whose texts differ by their numbers only."""
-    for text in _first(warned):
+    if warned:
         others = len(warned) - 1
         also = f" (and {others} like it in other combinations)" if others else ""
-        warnings.warn(text + also, stacklevel=3)
-
-
-def _first(warned: Counter[str]) -> Iterator[str]:
-    yield from list(warned)[:1]
+        warnings.warn(next(iter(warned)) + also, stacklevel=3)
 
 
 ICE = 0.461  # kg, the sample without added mass
@@ -238,24 +230,14 @@ def plan_grid(
     belts: name -> mu_k at -8 degC; mu_s follows by `STATIC_RATIO`. per_kelvin: see `PER_KELVIN`.
     """
     growth = [{"growth": 1.0 + per_kelvin * (TEMPERATURES[0] - each)} for each in TEMPERATURES]
+    friction = [{"mu_k": value} for value in belts.values()]
+    free = [{"rig.degrees_of_freedom": each} for each in GUIDES.values()]
     axes = (
         labelled_axis("temperature", "temperature of the room", "degC", TEMPERATURES, growth),
-        labelled_axis(
-            "belt",
-            "material of the belt",
-            "1",
-            list(belts),
-            [{"mu_k": value} for value in belts.values()],
-        ),
+        labelled_axis("belt", "material of the belt", "1", list(belts), friction),
         axis("rig.mass", [round(ICE + added, 3) for added in ADDED_MASSES]),
         axis("surface.speed", SPEEDS),
-        labelled_axis(
-            "guides",
-            "motion that the rig allows",
-            "1",
-            list(GUIDES),
-            [{"rig.degrees_of_freedom": each} for each in GUIDES.values()],
-        ),
+        labelled_axis("guides", "motion that the rig allows", "1", list(GUIDES), free),
     )
     return Grid(mechanics_of(parameters), axes, _with_friction, _patience_of(parameters))
 
@@ -271,7 +253,4 @@ def _with_friction(settings: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """Friction out of belt and temperature; the other axes' settings as they are."""
     growth, belt, *others = settings
     mu_k = belt["mu_k"] * growth["growth"]
-    changes = {"friction.mu_s": STATIC_RATIO * mu_k, "friction.mu_k": mu_k}
-    for other in others:
-        changes |= other
-    return changes
+    return {"friction.mu_s": STATIC_RATIO * mu_k, "friction.mu_k": mu_k} | merged(others)

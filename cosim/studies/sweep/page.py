@@ -8,9 +8,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from cosim.report.page import Picture, number, render
+from cosim.report.page import Picture, render
 
-from .figure import SHOWN, still_sentence
+from .features import ALL
+from .figure import still_sentence, titled
 
 #: Runs that the page lists; the rest is in the file.
 MOST_ROWS = 500
@@ -42,19 +43,21 @@ def page(
         "sweep.html.j2",
         "cosim.studies.sweep",
         name=name,
-        dims=[_varied(dataset, dim) for dim in dims],
+        coordinates=[dataset[dim] for dim in dims],
         coupled=bool(dataset.attrs["coupled"]),
-        total=len(rows),
         complete=sum(row["status"] == "complete" for row in rows),
         regimes=regimes_sentence(rows),
         still=still_sentence(dataset, still),
         figure_of=picture,
-        heads=[*(_headed(dataset, dim) for dim in dims), *(SHOWN[one][0] for one in drawn)],
-        rows=[_row(row, dims, drawn) for row in rows[:MOST_ROWS]],
-        failed=[(_where(row, dims), row["reason"]) for row in rows if row["reason"]],
+        drawn={name: ALL[name] for name in drawn},
+        rows=rows,
+        most=MOST_ROWS,
+        failed=[row for row in rows if row["reason"]],
         files=FILES,
         command=command,
         scenario=scenario,
+        titled=titled,
+        without_frequency=without_frequency,
     )
 
 
@@ -73,29 +76,7 @@ def _plain(value: Any) -> Any:
     return value.item() if isinstance(value, np.generic) else value
 
 
-def _varied(dataset: xr.Dataset, dim: str) -> tuple[str, str, str]:
-    """Key, its values, what it is."""
-    values = ", ".join(number(_plain(value), 4) for value in dataset[dim].values)
-    return _headed(dataset, dim), values, str(dataset[dim].attrs["long_name"])
-
-
-def _headed(dataset: xr.Dataset, dim: str) -> str:
-    unit = dataset[dim].attrs["units"].replace("degC", "°C")
-    return dim if unit == "1" else f"{dim} [{unit}]"
-
-
-def _row(row: Mapping[str, Any], dims: Sequence[str], drawn: Sequence[str]) -> list[str]:
-    cells = [number(row[dim], 5) for dim in dims]
-    for name in drawn:
-        value = row[name]
-        if name == "frequency" and value == 0.0:
-            cells.append(_without_frequency(row))
-        else:
-            cells.append(number(value * SHOWN[name][1]))
-    return cells
-
-
-def _without_frequency(row: Mapping[str, Any]) -> str:
+def without_frequency(row: Mapping[str, Any]) -> str:
     """What a block does that never breaks away at constant speed."""
     return SLIDES if row["slip_share"] == 1.0 else HOLDS
 
@@ -103,7 +84,7 @@ def _without_frequency(row: Mapping[str, Any]) -> str:
 def regimes_sentence(rows: Sequence[Mapping[str, Any]]) -> str:
     """In how many runs the block does what, where it does not stick and slip in all of them."""
     complete = [row for row in rows if row["status"] == "complete"]
-    does = [_without_frequency(row) for row in complete if row["frequency"] == 0.0]
+    does = [without_frequency(row) for row in complete if row["frequency"] == 0.0]
     if not does:
         return ""
     told = [
@@ -116,7 +97,3 @@ def regimes_sentence(rows: Sequence[Mapping[str, Any]]) -> str:
         f"speed: {', '.join(told)}. Another start may lead to stick-slip there; "
         "stickslip stability tells."
     )
-
-
-def _where(row: Mapping[str, Any], dims: Sequence[str]) -> str:
-    return ", ".join(f"{dim} = {number(row[dim], 5)}" for dim in dims)

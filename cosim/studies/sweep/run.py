@@ -4,60 +4,37 @@ from __future__ import annotations
 
 import json
 import math
-import time
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import xarray as xr
-from stickslip import Parameters, simulate
+from stickslip import Parameters
 
 from cosim.report.files import provenance
 from cosim.scenario import Scenario
 
-from .chunks import DaskWorkers, LocalWorkers, Store
-from .combination import (
-    COMPLETE,
-    STATUS_MEANINGS,
-    Row,
-    Run,
-    Task,
-    Work,
-    compute_chunk,
-    model_version,
-)
+from .combination import COMPLETE, STATUS_MEANINGS, Row, Run, Task, Work, model_version
 from .errors import SweepError, SweepStopped, WorkersLost
 from .grid import Grid, product_grid
+from .store import Store
+from .workers import Workers, dask_workers, local_workers
 
-#: Length of a chunk, s: long against the milliseconds of handing it over, short to lose.
-CHUNK_SECONDS = 0.5
-#: The first combination tells how many fit into that time; it may have failed at once.
+#: Simulated time in a chunk of the mechanics, s: half a second of work, which is long against the
+#: milliseconds of handing it over, and short to lose. A coupled run is a chunk of its own.
+CHUNK_TIME = 1000.0
 MOST_IN_CHUNK = 256
 #: Chunks per worker at least, so that none waits long for the last one.
 SHARES = 4
-#: Work shorter than this (s) is done before other processes have even been started.
-NOT_WORTH_PROCESSES = 1.5
+#: Mechanics that are done, in chunks, before other processes have even been started.
+NOT_WORTH_PROCESSES = 3
 #: Starts with fresh workers after some were lost, before a sweep gives up.
 ATTEMPTS = 3
 
-#: How a run ended, as numbers.
-CODES = np.arange(len(STATUS_MEANINGS.split()), dtype=np.int8)
-
 Progress = Callable[[int, int], None]
-
-
-class Workers(Protocol):
-    """Whoever computes chunks."""
-
-    @property
-    def count(self) -> int: ...
-
-    def run(
-        self, work: Work, chunks: Sequence[Sequence[Task]]
-    ) -> Generator[list[Row], None, None]: ...
 
 
 def sweep(
@@ -120,125 +97,90 @@ def run_grid(
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """`sweep` over combinations that are made already."""
-    _check(run)
+    _check(run, jobs)
     keys = grid.keys(run)
     store = Store(None if folder is None else Path(folder))
     rows = store.read()
-    work = Work(grid.base, run, model_version())
     # equal combinations have one key, and are run once
     tasks = {key: Task(key, changes) for key, changes in zip(keys, grid.changes, strict=True)}
-    sweeper = _Sweeper(work, tasks, rows, store, progress)
-    if sweeper.missing():
-        with LocalWorkers(jobs) if dask is None else DaskWorkers(dask) as workers:
-            sweeper.finish(workers)
+
+    def keep(new: Sequence[Row]) -> None:
+        store.write(new)
+        rows.update((row.key, row) for row in new)
+        if progress is not None:
+            progress(len(tasks.keys() & rows.keys()), len(tasks))
+
+    def missing() -> list[Task]:
+        return [task for key, task in tasks.items() if key not in rows]
+
+    keep(())
+    if todo := len(missing()):
+        few = not run.coupled and todo * run.duration < NOT_WORTH_PROCESSES * CHUNK_TIME
+        here = local_workers(1 if few else jobs)
+        with here if dask is None else dask_workers(dask) as workers:
+            _finish(workers, Work(grid.base, run, model_version()), missing, keep)
     return _dataset(grid, run, [rows[key] for key in keys])
 
 
-def _check(run: Run) -> None:
-    for name, value in zip(run._fields, run[:2], strict=False):
+def _check(run: Run, jobs: int | None) -> None:
+    for name, value in (("duration", run.duration), ("output_interval", run.output_interval)):
         if not (math.isfinite(value) and value > 0.0):
             raise SweepError(f"{name}: out of range ({value:g}), allowed is above 0 s")
+    if jobs is not None and jobs < 1:
+        raise SweepError(f"jobs: out of range ({jobs}), allowed is a whole number from 1")
 
 
-class _Sweeper:
-    """Tasks, the rows there are of them, and where to keep new ones."""
-
-    def __init__(
-        self,
-        work: Work,
-        tasks: dict[str, Task],
-        rows: dict[str, Row],
-        store: Store,
-        progress: Progress | None,
-    ):
-        self.work, self.tasks, self.rows, self.store = work, tasks, rows, store
-        self.done = len(tasks) - len(self.missing())
-        self.progress = progress or (lambda done, total: None)
-        self.progress(self.done, len(tasks))
-
-    def missing(self) -> list[Task]:
-        return [task for key, task in self.tasks.items() if key not in self.rows]
-
-    def keep(self, rows: list[Row]) -> None:
-        self.store.write(rows)
-        self.rows |= {row.key: row for row in rows}
-        self.done += len(rows)
-        self.progress(self.done, len(self.tasks))
-
-    def finish(self, workers: Workers) -> None:
-        """Compute what is missing, with fresh workers when some were lost."""
-        seconds = self._first()
-        for attempt in range(ATTEMPTS):
-            missing = self.missing()
-            if len(missing) * seconds < NOT_WORTH_PROCESSES and isinstance(workers, LocalWorkers):
-                workers = LocalWorkers(1)
-            # shorter chunks after a loss: what is lost with a worker is less
-            size = max(_chunk_size(missing, seconds, workers.count) // 4**attempt, 1)
-            chunks = [missing[i : i + size] for i in range(0, len(missing), size)]
-            try:
-                # closed at once where it is left in the middle, not when it is collected
-                with closing(workers.run(self.work, chunks)) as results:
-                    for rows in results:
-                        self.keep(rows)
-                return
-            except WorkersLost as error:
-                lost = error
-        raise SweepStopped(
-            f"workers died {ATTEMPTS} times ({lost}), {len(self.missing())} of "
-            f"{len(self.tasks)} combinations are missing: try fewer jobs"
-        ) from lost
-
-    def _first(self) -> float:
-        """Run the first combination here: how long one takes, s, the kernel's loading aside.
-
-        A coupled one builds the unit where it is missing, before all workers would.
-        """
-        task = self.missing()[:1]
-        # one row of it: compiles the kernel before the workers would, all at the same time
-        interval = self.work.run.output_interval
-        if isinstance(self.work.base, Scenario):
-            simulate(Parameters(), 1e-3, 1e-3)
-        else:
-            compute_chunk(self.work._replace(run=Run(interval, interval)), task)
-        start = time.perf_counter()
-        self.keep(compute_chunk(self.work, task))
-        return time.perf_counter() - start
+def _finish(
+    workers: Workers,
+    work: Work,
+    missing: Callable[[], list[Task]],
+    keep: Callable[[Sequence[Row]], None],
+) -> None:
+    """Compute what is missing, with fresh workers when some were lost."""
+    lost: WorkersLost | None = None
+    for attempt in range(ATTEMPTS):
+        tasks = missing()
+        # shorter chunks after a loss: what is lost with a worker is less
+        size = max(_chunk_size(len(tasks), work.run, workers.count) // 4**attempt, 1)
+        chunks = [tasks[i : i + size] for i in range(0, len(tasks), size)]
+        try:
+            # closed at once where it is left in the middle, not when it is collected
+            with closing(workers.run(work, chunks)) as results:
+                for rows in results:
+                    keep(rows)
+            return
+        except WorkersLost as error:
+            lost = error
+    raise SweepStopped(
+        f"workers died {ATTEMPTS} times ({lost}), {len(missing())} combinations are missing: try"
+        " fewer jobs"
+    ) from lost
 
 
-def _chunk_size(missing: Sequence[Task], seconds: float, workers: int) -> int:
+def _chunk_size(tasks: int, run: Run, workers: int) -> int:
     """Combinations in a chunk."""
-    most = math.ceil(len(missing) / (SHARES * workers))
-    return max(min(round(CHUNK_SECONDS / seconds), most, MOST_IN_CHUNK), 1)
+    if run.coupled:
+        return 1
+    most = math.ceil(tasks / (SHARES * workers))
+    return max(min(round(CHUNK_TIME / run.duration), most, MOST_IN_CHUNK), 1)
 
 
 def _dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
     """``rows``, in the grid's order, as variables over the grid's dimensions."""
     blank = (math.nan,) * len(run.features)
-    table = np.array([row.values or blank for row in rows])
-    variables: dict[str, Any] = {
-        name: (grid.dims, table[:, i].reshape(grid.shape), {"units": unit, "long_name": text})
-        for i, (name, (unit, text)) in enumerate(run.features.items())
-    }
+    table = np.array([row.values or blank for row in rows], dtype=float)
     status = np.array([row.status for row in rows], dtype=np.int8)
     reason = np.array([row.reason for row in rows], dtype=object)
-    variables["status"] = (
-        grid.dims,
-        status.reshape(grid.shape),
-        {
-            "units": "1",
-            "long_name": "how the run ended",
-            "flag_values": CODES,
-            "flag_meanings": STATUS_MEANINGS,
-        },
-    )
-    variables["reason"] = (
-        grid.dims,
-        reason.reshape(grid.shape),
-        {
-            "units": "1",
-            "long_name": "why the run is not complete; empty when it is",
-        },
-    )
+    variables: dict[str, Any] = {
+        name: (grid.dims, column.reshape(grid.shape), {"units": of.unit, "long_name": of.long_name})
+        for column, (name, of) in zip(table.T, run.features.items(), strict=True)
+    }
+    how: dict[str, Any] = {"units": "1", "long_name": "how the run ended"}
+    how["flag_values"] = np.arange(len(STATUS_MEANINGS.split()), dtype=np.int8)
+    how["flag_meanings"] = STATUS_MEANINGS
+    why = {"units": "1", "long_name": "why the run is not complete; empty when it is"}
+    variables["status"] = (grid.dims, status.reshape(grid.shape), how)
+    variables["reason"] = (grid.dims, reason.reshape(grid.shape), why)
     coordinates = {
         name: (axis.name, values, attributes)
         for axis in grid.axes

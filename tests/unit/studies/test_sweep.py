@@ -8,7 +8,6 @@ import subprocess
 import sys
 from collections import Counter
 
-import joblib
 import numpy as np
 import pytest
 import xarray as xr
@@ -17,7 +16,8 @@ from stickslip import Friction, Parameters, Rig, Surface, simulate
 from cosim.studies.sweep import SweepError, SweepStopped, features, product_grid, sweep
 from cosim.studies.sweep import combination as combination_module
 from cosim.studies.sweep import run as run_module
-from cosim.studies.sweep.chunks import LocalWorkers, Store
+from cosim.studies.sweep import store as store_module
+from cosim.studies.sweep.store import Store
 
 BASE = Parameters(rig=Rig(degrees_of_freedom=("x",)), surface=Surface(run_up_time=0.5))
 SHORT = {"duration": 2.0, "output_interval": 0.02, "jobs": 1}
@@ -26,14 +26,13 @@ VARY = {"rig.mass": [0.5, 0.7, 0.9], "surface.speed": [0.1, 0.2]}
 
 @pytest.fixture
 def computed(monkeypatch):
-    """Counts the rows that are computed, the pilot's first look at the kernel aside."""
+    """Counts the rows that are computed."""
     counts = Counter()
     compute = combination_module.compute
 
-    def counting(key, parameters, run, progress):
-        if run.duration > run.output_interval:
-            counts[key] += 1
-        return compute(key, parameters, run, progress)
+    def counting(work, task):
+        counts[task.key] += 1
+        return compute(work, task)
 
     monkeypatch.setattr(combination_module, "compute", counting)
     return counts
@@ -79,22 +78,17 @@ def test_words_and_lists_are_varied_too(tmp_path):
 
 
 def test_processes_give_the_same_numbers(monkeypatch):
-    monkeypatch.setattr(run_module, "NOT_WORTH_PROCESSES", 0.0)
+    monkeypatch.setattr(run_module, "NOT_WORTH_PROCESSES", 0)
     alone = sweep(BASE, VARY, **SHORT)
     shared = sweep(BASE, VARY, **SHORT | {"jobs": 2})
     assert alone.drop_attrs().identical(shared.drop_attrs())
 
 
-def test_nothing_is_computed_twice(tmp_path, computed):
+def test_what_changed_is_computed_and_nothing_else(tmp_path, computed, monkeypatch):
     first = sweep(BASE, VARY, **SHORT, folder=tmp_path)
-    assert len(computed) == 6
     again = sweep(BASE, VARY, **SHORT, folder=tmp_path)
-    assert set(computed.values()) == {1} and len(computed) == 6
     assert first.drop_attrs().identical(again.drop_attrs())
-
-
-def test_what_changed_is_computed_and_nothing_else(tmp_path, computed):
-    sweep(BASE, VARY, **SHORT, folder=tmp_path)
+    assert set(computed.values()) == {1} and len(computed) == 6
     more = {"rig.mass": [0.5, 0.7, 0.9, 1.1], "surface.speed": [0.1, 0.2]}
     sweep(BASE, more, **SHORT, folder=tmp_path)
     assert len(computed) == 8
@@ -103,15 +97,10 @@ def test_what_changed_is_computed_and_nothing_else(tmp_path, computed):
     assert len(computed) == 14
     sweep(BASE, VARY, **SHORT | {"duration": 3.0}, folder=tmp_path)
     assert len(computed) == 20
-
-
-def test_another_version_of_the_model_is_computed_anew(tmp_path, computed, monkeypatch):
-    sweep(BASE, VARY, **SHORT, folder=tmp_path)
-    for module in (combination_module, run_module):
+    for module in (combination_module, run_module, store_module):
         monkeypatch.setattr(module, "model_version", lambda: "0" * 32)
-    monkeypatch.setattr("cosim.studies.sweep.chunks.model_version", lambda: "0" * 32)
     sweep(BASE, VARY, **SHORT, folder=tmp_path)
-    assert len(computed) == 12
+    assert len(computed) == 26, "another version of the model"
 
 
 @pytest.mark.parametrize("counts", [True, False])
@@ -133,7 +122,7 @@ def test_a_worker_with_another_model_is_refused(monkeypatch):
 
 
 def test_a_sweep_stopped_in_the_middle_goes_on(tmp_path, computed, monkeypatch):
-    monkeypatch.setattr(run_module, "CHUNK_SECONDS", 0.0)
+    monkeypatch.setattr(run_module, "CHUNK_TIME", 0.0)
 
     def stop(done, total):
         if done == 3:
@@ -166,7 +155,7 @@ def test_a_killed_sweep_goes_on(tmp_path):
 import os, signal
 from cosim.studies.sweep import run as run_module, sweep
 from stickslip import Parameters
-run_module.CHUNK_SECONDS = 0.0
+run_module.CHUNK_TIME = 0.0
 def kill(done, total):
     if done == 5:
         os.kill(os.getpid(), signal.SIGKILL)
@@ -179,8 +168,8 @@ sweep(Parameters(), {{"rig.mass": [0.3 + 0.1 * i for i in range(10)]}}, duration
 
 
 def test_a_killed_process_of_the_pool_is_replaced(tmp_path, monkeypatch):
-    monkeypatch.setattr(run_module, "NOT_WORTH_PROCESSES", 0.0)
-    monkeypatch.setattr(run_module, "CHUNK_SECONDS", 0.05)
+    monkeypatch.setattr(run_module, "NOT_WORTH_PROCESSES", 0)
+    monkeypatch.setattr(run_module, "CHUNK_TIME", 0.05)
     killed = []
 
     def kill(done, total):
@@ -224,19 +213,12 @@ def test_errors_of_the_program_are_recorded_and_tried_again(tmp_path, monkeypatc
     [
         ({}, "nothing is varied"),
         ({"rig.mas": [1.0]}, "rig.mas: no such key of a scenario, nearest: rig.mass"),
-        ({"stiffness": [1.0]}, "stiffness: no such key .*, nearest: springs.stiffness"),
-        (
-            {"ambient.temperature_degC": [1.0]},
-            "is no key of the mechanics, allowed with a ",
-        ),
+        ({"ambient.temperature_degC": [1.0]}, "is no key of the mechanics, allowed with a "),
         ({"rig.mass": []}, "rig.mass: no values, allowed is at least one"),
         ({"rig.mass": 1.0}, r"rig.mass: not a list \(1.0\)"),
         ({"rig.mass": [1.0, 1]}, "rig.mass: 1 is there twice"),
         ({"rig.mass": [1.0, "heavy"]}, r'rig.mass: not a number \("heavy"\), allowed is a number'),
-        ({"rig.mass": [True]}, "rig.mass: not a number"),
-        ({"rig.mass": [1.0, np.nan]}, "rig.mass: not a finite number"),
         ({"rig.mass": [1.0, -2.0]}, r"rig.mass: out of range \(-2.0\), allowed .* greater than 0"),
-        ({"rig.surface": ["belt", "sea"]}, 'rig.surface: not known .*, allowed is "belt" or'),
         ({"rig.mass": [1.0], ("rig.mass", "surface.speed"): [(2.0, 1.0)]}, "rig.mass: varied"),
         ({("rig.mass", "rig.mass"): [(1.0, 1.0)]}, "links a key with itself"),
         ({("rig.mass", "surface.speed"): [(1.0,)]}, "not one value for each linked key"),
@@ -274,14 +256,3 @@ def test_equal_combinations_run_once(computed):
     )
     assert sum(computed.values()) == 1
     assert twice.x_mean.values[0] == twice.x_mean.values[1]
-
-
-def test_workers_use_one_thread_each(monkeypatch):
-    """Else two processes of BLAS on two cores would be four."""
-    names = ["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"]
-    monkeypatch.setattr(
-        "cosim.studies.sweep.chunks._compute",
-        lambda work, names: [os.getenv(name) for name in names],
-    )
-    assert list(LocalWorkers(2).run(None, [names, names])) == [["1", "1"]] * 2
-    assert LocalWorkers().count == joblib.cpu_count()

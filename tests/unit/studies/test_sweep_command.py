@@ -15,8 +15,8 @@ from cosim import read_scenario
 from cosim.cli.studies import sweep as sweep_command
 from cosim.studies.sweep import Run, SweepError
 from cosim.studies.sweep.axis import parse_vary
-from cosim.studies.sweep.chunks import Store
 from cosim.studies.sweep.grid import BELTS, plan_grid, repeats_grid
+from cosim.studies.sweep.store import Store
 
 
 def call(*argv):
@@ -33,31 +33,28 @@ def case(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "text, keys, values",
+    "text, values",
     [
-        ("rig.mass=0.67,2", ("rig.mass",), [0.67, 2]),
-        ("rig.mass = 1e-1 , .5", ("rig.mass",), [0.1, 0.5]),
-        ("surface.speed=-0.1", ("surface.speed",), [-0.1]),
-        ("rig.inertia=disc,'ring',0.1", ("rig.inertia",), ["disc", "ring", 0.1]),
+        ("a.b= 1e-1 , .5,2,-0.1", [0.1, 0.5, 2, -0.1]),
+        ("a.b=disc,'ring',0.1", ["disc", "ring", 0.1]),
+        ('a.b=[x],["x", phi]', [("x",), ("x", "phi")]),
+        ("a.b=[],[0,1]", [(), (0, 1)]),
+        ("a.b=true,false,'true'", [True, False, "true"]),
         (
-            'rig.degrees_of_freedom=[x],["x", phi]',
-            ("rig.degrees_of_freedom",),
-            [("x",), ("x", "phi")],
-        ),
-        (
-            "friction.mu_s+friction.mu_k=0.2:0.1,0.3:0.2",
-            ("friction.mu_s", "friction.mu_k"),
-            [(0.2, 0.1), (0.3, 0.2)],
-        ),
-        (
-            "springs.force_curve_extension=[],[0,1]",
-            ("springs.force_curve_extension",),
-            [(), (0, 1)],
+            "a.b=[{thickness=1e-3, density=700}],[]",
+            [({"thickness": 1e-3, "density": 700},), ()],
         ),
     ],
 )
-def test_text_to_values(text, keys, values):
-    assert parse_vary([text]) == {keys: values}
+def test_text_to_values(text, values):
+    """As TOML has them, and words without quotation marks."""
+    assert parse_vary([text]) == {("a.b",): values}
+
+
+def test_text_to_values_of_linked_keys():
+    linked = ("friction.mu_s", "friction.mu_k")
+    text = "friction.mu_s+friction.mu_k=0.2:0.1,0.3:0.2"
+    assert parse_vary([text]) == {linked: [(0.2, 0.1), (0.3, 0.2)]}
 
 
 @pytest.mark.parametrize(

@@ -41,7 +41,7 @@ def coulomb():
 def test_every_feature_is_there_with_unit_and_words(coulomb):
     assert list(coulomb) == list(FEATURES)
     assert all(math.isfinite(value) for value in coulomb.values())
-    assert all(unit and words for unit, words in FEATURES.values())
+    assert all(one.unit and one.long_name for one in FEATURES.values())
 
 
 @pytest.mark.parametrize(
