@@ -13,7 +13,7 @@ from cosim.gap.extended import Part, as_points, part_of
 from cosim.gap.judge import (
     explains,
     halves,
-    is_scattered,
+    is_near,
     judge,
     judged,
     leaves,
@@ -23,7 +23,7 @@ from cosim.gap.judge import (
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
 from cosim.gap.plan.next_run import next_experiment
-from cosim.gap.rates import Scatter, by_direction, rates_of
+from cosim.gap.rates import by_direction, rates_of
 from cosim.gap.report_of_findings import (
     exponents_of,
     law_of,
@@ -33,9 +33,10 @@ from cosim.gap.report_of_findings import (
     where_of,
 )
 from cosim.gap.result import Doubt, Gap, Rejected, Rung
+from cosim.gap.scatter import Scatter
 from cosim.gap.weak_form.camera_faults import FAULTS
-from cosim.gap.weak_form.constants import ALIKE
-from cosim.gap.weak_form.ladder import Ladder, price_of
+from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
+from cosim.gap.weak_form.ladder import Finding, Ladder, price_of
 from cosim.gap.weak_form.track import thinned
 
 #: Steps of the bar: checks, search, and the models that are fitted.
@@ -162,6 +163,7 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
                 along = {part.finding.name for part in parts if part.finding.added}
                 doubted = fitting.rejected(parts, named, along - faint)
         if doubted is None:
+            named = fitting.told_apart(parts, named)
             return _Agreed(named, found, models, tuple(rejected))
         rejected.append(doubted)
 
@@ -207,13 +209,30 @@ class _Fitting:
         if not part.in_kernel:
             return leaves(without.ladder[-1].gap), None
         gained = without.gained(part)
-        asked, alone = runs_ask(gained - price_of(part.finding.name)), len(parts) == 1
-        if asked and (alone or leaves(without.ladder[-1].gap)):
-            return True, gained
-        may_halve = is_scattered(part.finding) or asked
-        if not (may_halve and leaves(without.unscattered)):
+        if not runs_ask(gained - price_of(part.finding.name)):
             return False, gained
-        return halves(self._fitted(named, parts).unscattered, without.unscattered), gained
+        if len(parts) == 1 or leaves(without.ladder[-1].gap):
+            return True, gained
+        left = without.unscattered
+        return leaves(left) and halves(self._fitted(named, parts).unscattered, left), gained
+
+    def told_apart(self, parts: Sequence[Part], named: Named) -> Named:
+        """A lone finding without rivals that the rows confuse with it and simulated runs do not."""
+        if len(parts) != 1 or not parts[0].in_kernel:
+            return named
+        offers, (finding,) = named.ladder.first_offers, named.findings
+        rivals = [name for name in offers if is_near(finding, name)]
+        if not rivals:
+            return named
+        without, others = self._fitted(named, []), dict(finding.others)
+        least = without.gained(parts[0]) - LEAST_GAIN
+        for name in rivals:
+            added = offers[name][1]
+            rows = named.system.rung(added)
+            rival = part_of(self.campaign, named.system, rows, Finding(name, added, 0.0))
+            if rival.in_kernel and without.gained(rival) - price_of(name) < least:
+                del others[name]
+        return replace(named, findings=(replace(finding, others=others),))
 
     def _fitted(self, named: Named, parts: Sequence[Part]) -> Models:
         for models in self.known:

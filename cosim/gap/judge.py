@@ -8,7 +8,8 @@
  4. An argument is a finding where the rows are e^6 times as probable with it (e^3 the first), and
     it takes more than a small part of what was missing at first; the best joins, all others are
     asked again.
- 5. Findings within e^3 of one another in the same place cannot be told apart: a class.
+ 5. Findings within e^3 of one another in the same place, of the rows and within e^6 of simulated
+    runs, cannot be told apart: a class.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
@@ -25,6 +26,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import inf
 
 from cosim.gap.rates import confirmed
 from cosim.gap.result import Rates, Rung, Score
@@ -41,8 +43,6 @@ EXPLAINED = 1.3
 SURE = 500.0
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5
-#: What friction that scatters from run to run, and from stick to stick, takes up.
-SCATTERED = ("load_dependence", "static_strengthening")
 #: Part of the misfit that a finding must take to be named as a part of what is missing.
 MOST = 0.8
 
@@ -106,14 +106,6 @@ def runs_ask(gained: float) -> bool:
     return gained > LEAST_GAIN
 
 
-def is_scattered(finding: Finding) -> bool:
-    """Whether a finding acts from run to run or from stick to stick, as scatter of friction does.
-
-    The simulated runs then gain nothing by a law of it.
-    """
-    return finding.name in SCATTERED
-
-
 def halves(left: Score, before: Score) -> bool:
     """Whether a finding takes half of what a contact leaves whose friction may not scatter.
 
@@ -126,6 +118,11 @@ def halves(left: Score, before: Score) -> bool:
 def leaves(score: Score) -> bool:
     """Whether something is missing that the model does not hold: what has no law may be it."""
     return max(score.fit, judged(score)) > NOTHING_MISSING
+
+
+def is_near(finding: Finding, other: str) -> bool:
+    """Whether the rows do not tell another explanation from it."""
+    return finding.others.get(other, -inf) > -ALIKE
 
 
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:

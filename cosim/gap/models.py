@@ -10,10 +10,9 @@ import numpy as np
 
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part, contact_numbers, scatter_numbers, started_from
-from cosim.gap.quantities import scatter_text
-from cosim.gap.rates import Scatter
 from cosim.gap.report_of_findings import text_of
 from cosim.gap.result import Rung, Score
+from cosim.gap.scatter import Scatter, averaged_over, scatter_text
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import STICK_SCATTER
 from cosim.gap.weak_form.system import Rung as Rows
@@ -27,6 +26,9 @@ from cosim.gap.windows.windows import Windows
 FELT_PART, FELT_GAP = 0.02, 0.01
 #: Gap up to which noise is all that is left: fitted starts take 1 or 2 % of it.
 ONLY_NOISE = 1.02
+#: Part of a finding with which a fit sets out from the model without it: at 0 the motion does not
+#: feel what else its law has.
+HARDLY = 0.02
 
 #: Numbers of a model, and its settings.
 _Free = tuple[list[Number], dict[str, float]]
@@ -118,34 +120,48 @@ class Models:
     def gained(self, part: Part) -> float:
         """ln of how much more probable the runs are with a finding beside all that the ladder has.
 
-        From where the ladder ended. A number that is less known with the finding is less probable
-        beforehand, in every run.
+        From where the ladder ended, scatters of friction averaged over. A number that is less known
+        with the finding is less probable beforehand, in every run.
         """
         (numbers, settings, scatter), near = self.free[-1], self.fits[-1]
-        found = fit(
-            self.campaign, self.windows, [*part.numbers, *numbers], {**settings, **part.settings},
-            scatter, [{**near.values, **part.starts}], near, self.jobs,
-        )  # fmt: skip
+        # from next to nothing of it, where no run is lost; else as the rows have it all
+        rows = self.system.rung([*self._added, *part.finding.added])
+        slight = {n.key: HARDLY * n.start for n in part.numbers if n.low <= 0.0 <= n.high}
+        starts = [
+            {**near.values, **part.starts, **slight},
+            {**near.values, **part.starts, **started_from(self.campaign, rows)},
+        ]
+        free = [*part.numbers, *numbers], {**settings, **part.settings}
+        found = self._fitted_once(free, scatter, starts, near)
         known = {number.key: number.prior for number in numbers}
         wider = sum(
             math.log(number.prior / before) for number in part.numbers
             if number.prior and (before := known.get(number.key))
         )  # fmt: skip
-        return found.gain_over(near) - len(near.runs) * wider
+        gain = found.gain_over(near) - len(near.runs) * wider
+        if scatter == 0.0:  # neither runs nor sticks have friction of their own
+            return gain
+        expected = self.campaign.errors.friction
+        less, more = (averaged_over(each, scatter, expected) for each in (near, found))
+        return gain + more - less
 
     def _fit(self, free: _Free, scatter: float, rows: Rows) -> Fitted:
-        """The same numbers are fitted once, wherever the rows would have them set out from."""
-        same = _same(*free, scatter)
-        if same not in self.known:
-            self.known[same] = self._fitted_from(free, scatter, rows)
-        return self.known[same]
-
-    def _fitted_from(self, free: _Free, scatter: float, rows: Rows) -> Fitted:
         near = self.fits[-1] if self.fits else None
         own = {label: value for part in self.parts for label, value in part.starts.items()}
         before = {**own, **(near.values if near else {})}
         starts = [{**before, **started_from(self.campaign, rows)}, before]
-        return fit(self.campaign, self.windows, *free, scatter, starts, near, self.jobs)
+        return self._fitted_once(free, scatter, starts, near)
+
+    def _fitted_once(
+        self, free: _Free, scatter: float, starts: Sequence[dict[str, float]], near: Fitted | None
+    ) -> Fitted:
+        """The same numbers are fitted once, wherever the rows would have them set out from."""
+        same = _same(*free, scatter)
+        if same not in self.known:
+            self.known[same] = fit(
+                self.campaign, self.windows, *free, scatter, starts, near, self.jobs
+            )
+        return self.known[same]
 
     def _add(
         self, name: str, text: str, free: _Free, rows: Rows, fitted: Fitted | None = None,

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from cosim.gap.result import NINETY, Gap
-from cosim.gap.weak_form.constants import SCATTER_RANGE
 from cosim.report.page import unit_text
 from cosim.scenario import Scenario
 from cosim.scenario.validation import known_keys, unit_of
@@ -132,19 +131,6 @@ def with_digits(*values: float) -> list[str]:
     return [
         f"{round(one, decimals) + 0.0:.{max(decimals, 0)}f}".replace("-", "−") for one in values
     ]
-
-
-def scatter_text(scatter: tuple[float, float, float]) -> str:
-    """Of friction, (value, low, high): at most so much where it is not determined."""
-    value, low, high = with_digits(*(100.0 * part for part in scatter))
-    if not scatter_is_determined(scatter):
-        return f"friction scatters from run to run by at most {high} %"
-    return f"friction scatters from run to run by {value} % ({low} to {high} %)"
-
-
-def scatter_is_determined(scatter: tuple[float, float, float]) -> bool:
-    """Whether its interval leaves out the least scatter that is asked for."""
-    return scatter[1] > 2.0 * SCATTER_RANGE[0]
 
 
 def percent(part: float) -> str:

@@ -17,6 +17,7 @@ from scipy.linalg import block_diag
 from scipy.special import logsumexp
 
 from cosim.gap.result import Rates
+from cosim.gap.scatter import Scatter
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.added import Added, factor_of, factors_of
 from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN, SCALES_ASKED
@@ -175,24 +176,6 @@ def drawn(
         sizes = random.standard_normal((len(factor), count))
         rows += system.columns(each.unknown) @ (factor @ sizes)
     return rows
-
-
-@dataclass(frozen=True)
-class Scatter:
-    """Of friction from run to run, a part of it: median and 90 % interval, (3,) each.
-
-    seen : as the rows alone have it; expected : with what the campaign expects beforehand
-    """
-
-    seen: tuple[float, float, float]
-    expected: tuple[float, float, float]
-
-    @classmethod
-    def of(cls, rung: Rung) -> Scatter:
-        """As a rung's rows have it."""
-        spreads, *weights = rung.scatter_posterior()
-        shares = [np.interp([0.5, 0.05, 0.95], np.cumsum(w), spreads).tolist() for w in weights]
-        return cls(*(tuple(share) for share in shares))
 
 
 def rates_of(

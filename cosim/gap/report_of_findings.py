@@ -83,10 +83,10 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
         return f"Nothing is named while the data are in doubt. {severe[0]}"
     each = [text_of(part) + _size(part, gap) for part in parts]
     found = "; ".join([*each[:1], *map(_lower, each[1:])])
-    if gap.verdict == "named":
+    if gap.verdict in ("named", "class", "partial"):
+        found += "".join(f"; these runs cannot tell {' from '.join(one)}" for one in gap.classes)
+    if gap.verdict in ("named", "class"):
         return f"{found}."
-    if gap.verdict == "class":
-        return f"{found}; these runs cannot tell {' from '.join(gap.effects)}."
     if gap.verdict == "partial":
         nuisances = [rung.name for rung in gap.ladder if rung.name in ("contact", "scatter")]
         this = " and ".join(["this", *nuisances])

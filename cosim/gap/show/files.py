@@ -11,8 +11,9 @@ import numpy as np
 from cosim.coupling import FmuParticipant
 from cosim.files import write_bytes, write_text
 from cosim.fmu.build import FmuBuildError, own_fmu
-from cosim.gap.quantities import digits, fitted_quantities, scatter_text, with_digits
+from cosim.gap.quantities import digits, fitted_quantities, with_digits
 from cosim.gap.result import Gap
+from cosim.gap.scatter import scatter_text
 from cosim.gap.windows.camera import seen, true_time
 from cosim.interrupts import held_interrupts
 from cosim.report.page import Picture, render

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from dataclasses import asdict, is_dataclass
 from typing import Any
 
-from cosim.gap.quantities import scatter_is_determined, undetermined
+from cosim.gap.quantities import undetermined
 from cosim.gap.result import NINETY, Gap, Law, Ranked
+from cosim.gap.scatter import is_determined
 from cosim.gap.windows import Fitted
 from cosim.report.files import json_text
 
@@ -61,7 +62,7 @@ def ranked(row: Ranked) -> dict[str, Any]:
 
 def _scatter(scatter: tuple[float, float, float]) -> dict[str, Any]:
     numbers = dict(zip(("value", "low", "high"), scatter, strict=True))
-    return numbers | {"determined": scatter_is_determined(scatter)}
+    return numbers | {"determined": is_determined(scatter)}
 
 
 def _curve(law: Law) -> dict[str, Any]:

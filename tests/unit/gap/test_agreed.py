@@ -10,6 +10,7 @@ from cosim.gap import find
 from cosim.gap.extended import Part
 from cosim.gap.judge import SURE
 from cosim.gap.models import _same
+from cosim.gap.naming import Named
 from cosim.gap.result import Doubt, Rejected, Score
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.ladder import Finding
@@ -31,7 +32,9 @@ class Rows:
     def named(self, without):
         self.asked.append(tuple(without))
         left = [one for one in self.findings if one.name not in without]
-        return SimpleNamespace(findings=tuple(left[: self.most]), system=None, rung=None)
+        ladder = SimpleNamespace(first_offers={})
+        found = tuple(left[: self.most])
+        return SimpleNamespace(findings=found, ladder=ladder, system=None, rung=None)
 
 
 def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0)):
@@ -105,6 +108,29 @@ def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monke
                 finding("surface_pattern", 80.0), most=3)  # fmt: skip
     gained = {"surface_pattern": 0.0, "run_in": 0.0}  # film_drag: KeyError
     assert agreed(monkeypatch, rows, gained) == (["film_drag"], ("surface_pattern", "run_in"))
+
+
+@pytest.mark.parametrize(("gained", "stays"), [(14.1, True), (13.9, False)])
+def test_rivals_of_a_class_do_as_well_in_simulated_runs(monkeypatch, gained, stays):
+    """20 of the finding; what the rows tell apart, or no model has, is not asked of them."""
+    wave = Added(Unknown("surface_pattern", "", None, np.eye(1)))
+    one = Finding("run_in", (wave,), 30.0, {"film_drag": -2.9, "other.order": 0.0, "scale": -3.1})
+    offers = {name: (0.0, (wave,)) for name in one.others}
+    system = SimpleNamespace(rung=lambda added: None)
+    ladder = SimpleNamespace(first_offers=offers)
+    named = Named(ladder, (one,), system, None, {})
+    monkeypatch.setattr(
+        find, "part_of", lambda campaign, system, rung, one: Part(
+            one, None, (), (), {} if one.name == "other.order" else {"on": 1.0})
+    )  # fmt: skip
+    fitting = find._Fitting(None, lambda: None, 1)
+    gains = {"run_in": 20.0, "film_drag": gained}
+    models = SimpleNamespace(gained=lambda part: gains[part.finding.name])
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts: models)
+    part = Part(one, None, (), (), {"on": 1.0})
+    left = fitting.told_apart([part], named).findings[0].others
+    assert ("film_drag" in left) is stays
+    assert {"other.order", "scale"} <= set(left)
 
 
 def test_a_problem_of_least_squares_is_the_same_from_any_start():

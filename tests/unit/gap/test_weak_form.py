@@ -9,8 +9,7 @@ from scipy.special import logsumexp
 from scipy.stats import multivariate_normal
 
 from cosim.gap import read_campaign
-from cosim.gap.quantities import scatter_text
-from cosim.gap.rates import Scatter
+from cosim.gap.scatter import Scatter, scatter_text
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.arguments import Arguments
 from cosim.gap.weak_form.constants import SCATTER_RANGE
