@@ -166,7 +166,7 @@ def _grids(arguments: Namespace, scenario: Scenario) -> dict[str, Grid]:
     """Group of the result file -> combinations."""
     from cosim.studies.sweep import SweepError, product_grid
     from cosim.studies.sweep.axis import parse_vary
-    from cosim.studies.sweep.grid import plan_grid, repeats_grid
+    from cosim.studies.sweep.plan import plan_grid, repeats_grid
 
     if arguments.test_plan:
         if arguments.others or arguments.coupled:

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from cosim.scenario import Scenario
 
@@ -27,8 +26,8 @@ from .unknowns import ENTRY, INTERFACE, Melts
 
 Array = NDArray[np.float64]
 
-#: Lengths at which the rigs are looked at, and how many rigs there are, a power of two.
-POINTS, RIGS = 40, 2048
+#: Lengths at which the rigs are looked at.
+POINTS = 40
 #: The lengths go from this part of the nominal shortest belt to this many times its length: the
 #: sampled rigs need hardly less, and up to ten times as much.
 _PART, _TIMES = 0.7, 16.0
@@ -165,12 +164,11 @@ def how_long(
         rigs = Rigs(case, samples, (low, high), _FLOOR * limit, jobs)
     except Melts:
         return replace(plain, reason="the air is as warm as melting ice")
-    drawn = qmc.Sobol(len(rigs.unknowns), rng=2).random(RIGS)
-    melts = rigs.melting(drawn, case.length)
+    melts = rigs.melting(case.length)
     if melts > MOST_MELTING:
         why = f"in {melts:.0%} of the sampled rigs the ice comes to melt"
         return replace(plain, reason=why, melts=melts)
-    return _doubted(plain, rigs, drawn, np.geomspace(low, high, POINTS), melts)
+    return _doubted(plain, rigs, np.geomspace(low, high, POINTS), melts)
 
 
 def _range(case: Case, shortest: float, belts: Sequence[float]) -> tuple[float, float]:
@@ -182,9 +180,9 @@ def _range(case: Case, shortest: float, belts: Sequence[float]) -> tuple[float, 
     return low, max(high, 1.01 * max(belts), 1.5 * low)
 
 
-def _doubted(plain: Answer, rigs: Rigs, drawn: Array, lengths: Array, melts: float) -> Answer:
-    """An answer with what the rigs at shares (n, unknowns) of their ranges say."""
-    case, limit, levels = plain.case, plain.limit, {}
+def _doubted(plain: Answer, rigs: Rigs, lengths: Array, melts: float) -> Answer:
+    """An answer with what the sampled rigs say."""
+    case, limit, drawn, levels = plain.case, plain.limit, rigs.drawn(), {}
 
     def sure(question: Question, rise: int) -> Question:
         own = rigs.rise(rise, drawn, case.length)

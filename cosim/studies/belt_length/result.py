@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field, fields
-from functools import reduce
+from importlib.resources import files
 
 import pandas as pd
 
@@ -15,56 +16,8 @@ from .lengths import Length, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
 
-#: Field of a case -> column of the table.
-COLUMNS = {
-    "length": "length [m]",
-    "speed": "speed [m/s]",
-    "mass": "mass [kg]",
-    "conductivity": "conductivity [W/mK]",
-    "friction": "friction",
-    "ambient_degC": "ambient [degC]",
-    "conductance": "conductance [W/m2K]",
-    "thickness": "thickness [m]",
-}
-
-
-#: Column of the table -> where a row has it.
-_FOUND = {
-    "study [K]": "drift.study",
-    "single pass mended [K]": "drift.single_pass",
-    "drift [K]": "drift.run",
-    "drift low [K]": "uncertainty.low",
-    "drift high [K]": "uncertainty.high",
-    "drift steady [K]": "drift.steady",
-    "interface drift [K]": "drift.interface_drift",
-    "interface drift low [K]": "uncertainty.interface_low",
-    "interface drift high [K]": "uncertainty.interface_high",
-    "interface [K]": "drift.interface_run",
-    "interface drift, endless belt [K]": "drift.interface_drift_endless",
-    "ice [K]": "drift.ice_run",
-    "ice steady [K]": "drift.ice_steady",
-    "flash [K]": "drift.flash_run",
-    "belt share": "drift.belt_share",
-    "belt share steady": "drift.belt_share_steady",
-    "seen by camera": "drift.seen_by_camera",
-    "steady melts": "drift.steady_melts",
-    "mu change": "effect.mu_change",
-    "drift, weaker friction [K]": "effect.drift",
-    "frequency [Hz]": "effect.frequency",
-    "frequency change": "effect.frequency_change",
-    "shortest belt [m]": "shortest_run",
-    "shortest belt steady [m]": "shortest_steady",
-    "shortest belt interface [m]": "shortest_interface",
-    "wait [s]": "wait.begin",
-    "wait drift [s]": "wait.drift",
-}
-#: Rise and level -> column of the shortest belt in doubt.
-_IN_DOUBT = {
-    ("run", "median"): "shortest belt, median [m]",
-    ("run", "high"): "shortest belt, 95 % [m]",
-    ("interface", "median"): "shortest belt interface, median [m]",
-    ("interface", "high"): "shortest belt interface, 95 % [m]",
-}
+#: Column of the table -> place in a case's JSON.
+_COLUMNS = tomllib.loads((files(__package__) / "columns.toml").read_text(encoding="utf-8"))
 #: Of a case, what JSON has elsewhere, or not at all.
 _NOT_TOLD = ("rig", "protocol", "ranges", "drawn")
 
@@ -88,23 +41,6 @@ class Row:
     changes: tuple[Change, ...]
     uncertainty: Uncertainty | None
 
-    @property
-    def used(self) -> dict[str, float | None]:
-        """The numbers of the case, those of the rig where the case has none of its own."""
-        thermal, layered = self.case.thermal(), bool(self.case.rig.belt.layers)
-        own = {
-            "conductivity": None if layered else thermal.belt.conductivity,
-            "thickness": None if layered else thermal.belt.thickness,
-            "conductance": thermal.contact.conductance,
-        }
-        return {name: own.get(name, getattr(self.case, name)) for name in COLUMNS}
-
-    def flat(self) -> dict[str, object]:
-        """One row of the table: columns named by what they hold, with units."""
-        own = {column: self.used[name] for name, column in COLUMNS.items()}
-        found = {column: _reached(self, path) for column, path in _FOUND.items()}
-        return own | {"h [W/m2K]": self.case.film} | found
-
     def questions(self, limit: float) -> dict[str, dict[str, object]]:
         """The two questions about a belt, with their answers."""
         d, u = self.drift, self.uncertainty
@@ -127,15 +63,20 @@ class Row:
 
     def as_dict(self, limit: float) -> dict[str, object]:
         """Everything, for JSON."""
-        own = [one.name for one in fields(Case) if one.name not in _NOT_TOLD]
-        case = {name: getattr(self.case, name) for name in own} | self.used
-        air = {
+        case = {one.name: getattr(self.case, one.name) for one in fields(Case)}
+        case = {name: value for name, value in case.items() if name not in _NOT_TOLD}
+        thermal = self.case.thermal()
+        layered = bool(thermal.belt.layers)
+        used = {
+            "conductivity": None if layered else thermal.belt.conductivity,
+            "thickness": None if layered else thermal.belt.thickness,
+            "conductance": thermal.contact.conductance,
             "h": self.case.film,
             "h_of_still_air": self.case.h is None,
             "frost": self.case.frost and self.case.frost._asdict(),
         }
         return {
-            "case": case | air,
+            "case": case | used,
             "questions": self.questions(limit),
             "drift": asdict(self.drift),
             "effect": asdict(self.effect),
@@ -147,11 +88,6 @@ class Row:
             "changes": [asdict(one) for one in self.changes],
             "seen_by_camera": self.drift.seen_by_camera,
         }
-
-
-def _reached(row: object, path: str) -> object:
-    """The value behind the names of a path; None where one of them is not there."""
-    return reduce(lambda found, name: found and getattr(found, name), path.split("."), row)
 
 
 @dataclass(frozen=True)
@@ -174,15 +110,9 @@ class Study:
     answers: list[Answer] = field(default_factory=list)
 
     def table(self) -> pd.DataFrame:
-        """One row a case."""
-        doubted = self.shortest_in_doubt()
-        rows = []
-        for row in self.rows:
-            levels = doubted[row.case.with_length(1.0)]
-            found = {column: levels[rise][level].length
-                     for (rise, level), column in _IN_DOUBT.items()}  # fmt: skip
-            rows.append(row.flat() | found)
-        return pd.DataFrame(rows)
+        """One row a case; NaN where nothing is known."""
+        table = pd.json_normalize(self._cases())
+        return table.reindex(columns=list(_COLUMNS.values())).set_axis(list(_COLUMNS), axis=1)
 
     def shortest_in_doubt(self) -> dict[Case, Levels]:
         """By rise and level, for each choice of everything but the length, which is 1 m there."""
@@ -206,18 +136,15 @@ class Study:
         return self._each(lambda row: [] if row.uncertainty is None else row.uncertainty.table())
 
     def _each(self, of: Callable[[Row], list[dict]]) -> pd.DataFrame:
-        return pd.DataFrame(
-            [
-                {
-                    "length [m]": row.case.length,
-                    "speed [m/s]": row.case.speed,
-                    "ambient [degC]": row.case.ambient_degC,
-                }
-                | one
-                for row in self.rows
-                for one in of(row)
-            ]
-        )
+        rows = []
+        for row in self.rows:
+            case = {
+                "length [m]": row.case.length,
+                "speed [m/s]": row.case.speed,
+                "ambient [degC]": row.case.ambient_degC,
+            }
+            rows += [case | one for one in of(row)]
+        return pd.DataFrame(rows)
 
     @property
     def material(self) -> str:
@@ -242,20 +169,22 @@ class Study:
         if self.rows:
             shared["protocol"] = asdict(self.rows[0].case.protocol)
             shared["rig"] = _shared([row.case.thermal().model_dump() for row in self.rows])
-        doubted = self.shortest_in_doubt()
-        cases = []
-        for row in self.rows:
-            levels = doubted[row.case.with_length(1.0)].items()
-            in_doubt = {rise: {level: asdict(one) for level, one in belts.items()}
-                        for rise, belts in levels}  # fmt: skip
-            cases.append(row.as_dict(self.options.limit) | {"shortest_in_doubt": in_doubt})
         return {
             "complete": self.complete,
             "limit": self.options.limit,
             **shared,
             "answers": [one.as_dict() for one in self.answers],
-            "cases": cases,
+            "cases": self._cases(),
         }
+
+    def _cases(self) -> list[dict[str, object]]:
+        doubted, cases = self.shortest_in_doubt(), []
+        for row in self.rows:
+            levels = doubted[row.case.with_length(1.0)].items()
+            in_doubt = {rise: {level: asdict(one) for level, one in belts.items()}
+                        for rise, belts in levels}  # fmt: skip
+            cases.append(row.as_dict(self.options.limit) | {"shortest_in_doubt": in_doubt})
+        return cases
 
 
 def _of_answer(answer: Answer) -> Levels:

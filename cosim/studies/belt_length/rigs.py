@@ -34,6 +34,8 @@ Array = NDArray[np.float64]
 #: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
 FEWEST_SAMPLES = 32
 _TESTED = 0.25
+#: Rigs among which a share of them is counted.
+DRAWN = 2048
 #: Largest share of the rigs that may melt their ice: rises are as if none did, which is too much
 #: for those that do, and no answer where half of them are.
 MOST_MELTING = 0.5
@@ -108,9 +110,13 @@ class Rigs:
             points = np.column_stack((points, np.full(len(points), place)))
         return self._of(which, self._levelled(points), values(self.unknowns, shares))
 
-    def melting(self, shares: Array, length: float | None = None) -> float:
-        """Share of the rigs, as of `rise`, in which the ice's face comes to melt."""
-        return float(np.mean(self.rise(ICE, shares, length) >= self._melts_at))
+    def drawn(self, count: int = DRAWN) -> Array:
+        """Shares of the ranges, evenly spread: (count, unknowns); count: a power of two."""
+        return qmc.Sobol(len(self.unknowns), rng=2).random(count)
+
+    def melting(self, length: float) -> float:
+        """Share of the rigs, on a belt of a length, m, in which the ice's face comes to melt."""
+        return float(np.mean(self.rise(ICE, self.drawn(), length) >= self._melts_at))
 
     def _of(self, which: int, points: Array, meant: dict[str, Array]) -> Array:
         parts = np.stack([one(points) for one in self._polynomials[which]], axis=1)

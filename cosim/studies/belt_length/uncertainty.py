@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc, sobol_indices, uniform
+from scipy.stats import sobol_indices, uniform
 from scipy.stats import t as student
 
 from .case import Case
@@ -36,8 +36,6 @@ INTERVAL = (0.05, 0.95)
 #: Of Sobol's sequence for the indices, and how often, scrambled anew: their 95 % intervals, from
 #: the spread of these, are then below 0.05.
 SEQUENCE, REPLICATES = 2**10, 8
-#: Of the sequence where a share of the rigs is counted.
-RIGS = 2048
 
 
 @dataclass(frozen=True)
@@ -110,13 +108,13 @@ def uncertainty(case: Case, samples: int, rigs: Rigs | None = None) -> Uncertain
     """
     try:
         rigs = Rigs(case, samples) if rigs is None else rigs
-        melts = rigs.melting(_drawn(rigs, RIGS), case.length)
+        melts = rigs.melting(case.length)
         if melts > MOST_MELTING:
             return None
         single_changes = _single_changes(case, rigs.unknowns)
     except Melts:
         return None
-    drawn = _drawn(rigs, REPLICATES * SEQUENCE)
+    drawn = rigs.drawn(REPLICATES * SEQUENCE)
     drifts = rigs.rise(ENTRY, drawn, case.length)
     interface = rigs.rise(INTERFACE, drawn, case.length)
     keys = [one.key for one in rigs.unknowns]
@@ -130,11 +128,6 @@ def uncertainty(case: Case, samples: int, rigs: Rigs | None = None) -> Uncertain
         rigs.unexplained[INTERFACE],
         melts,
     )
-
-
-def _drawn(rigs: Rigs, count: int) -> Array:
-    """Shares of the ranges, evenly spread: (count, unknowns)."""
-    return qmc.Sobol(len(rigs.unknowns), rng=2).random(count)
 
 
 def quantiles(rises: Array) -> tuple[float, float, float]:

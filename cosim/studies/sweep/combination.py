@@ -127,7 +127,7 @@ def with_changes(base: Parameters, changes: Mapping[str, Any]) -> Parameters:
 
 
 def compute_chunk(work: Work, tasks: Sequence[Task]) -> list[Row]:
-    """Run in a worker: the outcome of every task; in a process that is to stop, of those before.
+    """Run in a worker: the outcome of every task.
 
     Raises SweepStopped where the worker has another version of the model.
     """
@@ -136,25 +136,16 @@ def compute_chunk(work: Work, tasks: Sequence[Task]) -> list[Row]:
             f"the worker on {platform.node()} has another version of the model than this process; "
             "install the same one there, or start again if it was just changed"
         )
-    rows: list[Row] = []
     with warnings.catch_warnings():
         # what there is to warn of was said when the combinations were checked
         warnings.simplefilter("ignore", UserWarning)
-        try:
-            for task in tasks:
-                rows.append(compute(work, task))
-        except _Stop:
-            pass
-    return rows
-
-
-class _Stop(BaseException):
-    """Leaves a run in its middle; not one of the errors that are recorded."""
+        return [compute(work, task) for task in tasks]
 
 
 def _stop_if_told(time: float) -> None:
+    """Leaves a run in its middle, in a process of the pool that is to end."""
     if is_stopped():
-        raise _Stop
+        raise KeyboardInterrupt
 
 
 def compute(work: Work, task: Task) -> Row:

@@ -104,11 +104,15 @@ def run_grid(
     # equal combinations have one key, and are run once
     tasks = {key: Task(key, changes) for key, changes in zip(keys, grid.changes, strict=True)}
 
+    done = len(tasks.keys() & rows.keys())
+
     def keep(new: Sequence[Row]) -> None:
+        nonlocal done
         store.write(new)
         rows.update((row.key, row) for row in new)
+        done += len(new)
         if progress is not None:
-            progress(len(tasks.keys() & rows.keys()), len(tasks))
+            progress(done, len(tasks))
 
     def missing() -> list[Task]:
         return [task for key, task in tasks.items() if key not in rows]

@@ -15,7 +15,7 @@ from stickslip import simulate
 from cosim import read_scenario
 from cosim.studies.sweep import Run, run_grid
 from cosim.studies.sweep.combination import with_changes
-from cosim.studies.sweep.grid import plan_grid, repeats_grid
+from cosim.studies.sweep.plan import plan_grid, repeats_grid
 
 SAMPLE = 48  # every so manieth combination is timed alone
 

@@ -15,7 +15,7 @@ from cosim import read_scenario
 from cosim.cli.studies import sweep as sweep_command
 from cosim.studies.sweep import Run, SweepError
 from cosim.studies.sweep.axis import parse_vary
-from cosim.studies.sweep.grid import BELTS, plan_grid, repeats_grid
+from cosim.studies.sweep.plan import BELTS, plan_grid, repeats_grid
 from cosim.studies.sweep.store import Store
 
 
