@@ -125,10 +125,11 @@
     return values.map((value) => (value === null ? "" : live.told(value, 6)));
   }
 
+  // A label that is longer than the plot is high stands above it; of plots side by side, all do.
+  const isAbove = (panel, data) => data.columns > 1 || panel.label.length > 20;
   const unitOf = (panel) => (panel.label.match(/\[(.*)\]/) || ["", ""])[1];
 
   function options(panel, data, first, last, onCursor, holder) {
-    const unit = unitOf(panel);
     const series = panel.curves.map((curve) => ({
       label: curve.label,
       stroke: curve.fill ? undefined : curve.colour,
@@ -143,14 +144,15 @@
       ticks: { stroke: "#8a8a8a", width: 1, size: 5 }, values: axisTold };
     return {
       width: 300,
-      height: HEIGHT + (first ? 14 : 0) + (last ? 18 : 0),
+      height: HEIGHT + (first && data.marks.length ? 14 : 0) + (last ? 18 : 0),
       padding: [first && data.marks.length ? 20 : 6, besidePlots(data), 0, 0],
       legend: { show: false },
       scales: { x: { time: false }, y: scaleOf(panel) },
       axes: [
         { ...look, size: 26, label: last ? "time [s]" : undefined, labelSize: 18 },
-        // of a long label the unit: the name stands above the plot
-        { ...look, size: 58, label: panel.label.length > 24 && unit ? `[${unit}]` : panel.label, labelSize: 18 },
+        isAbove(panel, data)
+          ? { ...look, size: data.columns > 1 ? 58 : 58 + 18 }
+          : { ...look, size: 58, label: panel.label, labelSize: 18 },
       ],
       cursor: { sync: { key: data.group }, drag: { x: true, y: false }, points: { size: 7 } },
       series: [{}, ...series],
@@ -168,15 +170,18 @@
   }
 
   // A button for each curve that shows its value where the pointer is, and takes it away.
-  function keys(panel, box) {
+  function keys(panel, box, above) {
     const bar = live.element("div", { class: "bar" });
+    // a lone curve by the name of its panel
+    const lone = panel.curves.length === 1 && panel.label.startsWith(panel.curves[0].label);
+    if (above && !lone) box.append(live.element("div", { class: "small" }, panel.label));
     const found = panel.curves.map((curve) => {
       const key = live.element("button", { type: "button", class: "key", "aria-pressed": "true" });
       const swatch = live.element("span", { class: "swatch" });
       swatch.style.background = curve.colour;
       if (curve.dash) swatch.style.height = ".15rem";
       const value = live.element("span");
-      key.append(swatch, `${curve.label} `, value);
+      key.append(swatch, `${above && lone ? panel.label : curve.label} `, value);
       bar.append(key);
       return { key, value };
     });
@@ -186,10 +191,11 @@
 
   function makePanel(room, data, panel, number) {
     const box = live.element("div", { class: "panel" });
-    const shown = keys(panel, box);
+    const shown = keys(panel, box, isAbove(panel, data));
     const unit = unitOf(panel);
     const values = panel.curves.map((curve) => live.numbers(curve.values));
-    const last = number >= data.panels.length - data.columns;
+    // beside each other there is no lowest panel that could have the title for all
+    const last = data.columns > 1 || number === data.panels.length - 1;
     const onCursor = (plot) => {
       const at = plot.cursor.idx;
       shown.forEach(({ value }, n) => {

@@ -1,13 +1,14 @@
 // On every page: boxes that scroll can be reached with the keyboard, and paper shows what is folded.
 "use strict";
 (() => {
-  const boxes = document.querySelectorAll(".wide, pre");
+  const boxes = document.querySelectorAll(".wide, pre, figure.still");
+  const words = { PRE: "text", FIGURE: "picture" };
   function reachable() {
     for (const box of boxes) {
       if (box.scrollWidth > box.clientWidth + 1) {
         box.tabIndex = 0;
         box.setAttribute("role", "group");
-        box.setAttribute("aria-label", box.tagName === "PRE" ? "text, scrolls sideways" : "table, scrolls sideways");
+        box.setAttribute("aria-label", `${words[box.tagName] || "table"}, scrolls sideways`);
       } else {
         for (const name of ["tabindex", "role", "aria-label"]) box.removeAttribute(name);
       }

@@ -18,8 +18,8 @@ RESIDUAL = "coupling_residual"
 def system_columns(run: SystemRun) -> Columns:
     """All outputs and connected inputs as `unit.port` over ``time`` (n,), steps over ``step_time``.
 
-    Attributes of a variable: units, participant, causality, fed_by for an input; where its unit is
-    defined, base_units, si_factor and si_offset (value in them = factor * value + offset).
+    Attributes of a variable: units, participant, causality, nominal, fed_by for an input; where its
+    unit is defined, base_units, si_factor and si_offset (value in them = factor * value + offset).
     """
     result, sources, steps = run.result, _sources(run), run.steps
     variables = {
@@ -71,6 +71,7 @@ def _attributes(run: SystemRun, name: str, sources: dict[str, str]) -> dict[str,
         "long_name": name,
         "participant": participant,
         "causality": str(causality),
+        "nominal": described.nominal,
     }
     if causality is Causality.INPUT:
         found["fed_by"] = sources.get(name, "")

@@ -12,8 +12,8 @@ from matplotlib.patches import FancyBboxPatch, PathPatch
 from matplotlib.path import Path
 
 from cosim.coupling import Causality, Connection, CoupledSystem
-from cosim.coupling.conversion import NO_UNIT
-from cosim.coupling.system import find_port
+from cosim.coupling.conversion import NO_UNIT, watts
+from cosim.coupling.system import ENERGY_UNIT, find_port
 from cosim.report.style import (
     GREY,
     INK,
@@ -57,7 +57,7 @@ class Box:
     "system",
     "Units with the ports that are connected, from left to right in the order in which they step."
     " What feeds back runs below, what passes by other units above. At a line: what the value goes"
-    " through, where it is converted or scaled. Red: energy, orange: power.",
+    " through, where it is converted or scaled.",
 )
 def diagram(system: CoupledSystem, order: Sequence[str]) -> Figure:
     """Units from left to right as values go through them in the order in which they step."""
@@ -78,7 +78,7 @@ def diagram(system: CoupledSystem, order: Sequence[str]) -> Figure:
     axes.set(xlim=(0.0, width), ylim=(height, 0.0))
     axes.axis("off")
     for number, each in enumerate(back):
-        _draw_around(axes, system, boxes, each, lowest - 0.2 + LANE * number, number)
+        _draw_around(axes, system, boxes, each, lowest - 0.14 + LANE * number, number)
     for number, each in enumerate(over):
         _draw_around(axes, system, boxes, each, MARGIN + LANE * (number - 0.5), number)
     for each in system.connections:
@@ -87,6 +87,20 @@ def diagram(system: CoupledSystem, order: Sequence[str]) -> Figure:
     for box in boxes.values():
         _draw_box(axes, system, box)
     return figure
+
+
+def colour_key(system: CoupledSystem) -> str:
+    """What the colours of energy and power stand for, as far as the system has any."""
+    colours = {_colour(system, each) for each in system.connections}
+    told = [
+        f"{words} and thick: {what}"
+        for colour, words, what in (
+            (RED, "dark orange", "energy"),
+            (ORANGE, "light orange", "power"),
+        )
+        if colour in colours
+    ]
+    return f" {', '.join(told).capitalize()}." if told else ""
 
 
 def is_legible(system: CoupledSystem, order: Sequence[str]) -> bool:
@@ -188,8 +202,9 @@ def _draw_forth(
     x1, y1, x2, y2 = _ends(boxes, connection)
     reach = 0.5 * (x2 - x1)
     points = [(x1, y1), (x1 + reach, y1), (x2 - reach, y2), (x2, y2)]
-    _line(axes, points, [Path.MOVETO, *3 * [Path.CURVE4]], _colour(system, connection))
-    _arrow(axes, x2, y2, _colour(system, connection))
+    colour = _colour(system, connection)
+    _line(axes, points, [Path.MOVETO, *3 * [Path.CURVE4]], colour)
+    _arrow(axes, x2, y2, colour)
     _say(axes, system, connection, x2 - 0.12, y2 - 0.04)
 
 
@@ -218,7 +233,8 @@ def _line(
     axes: Axes, points: Sequence[tuple[float, float]], codes: Sequence[Any], colour: str
 ) -> None:
     path = Path(points, codes)
-    axes.add_patch(PathPatch(path, facecolor="none", edgecolor=colour, linewidth=1.2, zorder=1))
+    width = 2.4 if colour in (RED, ORANGE) else 1.2
+    axes.add_patch(PathPatch(path, facecolor="none", edgecolor=colour, linewidth=width, zorder=1))
 
 
 def _arrow(axes: Axes, x: float, y: float, colour: str) -> None:
@@ -243,9 +259,9 @@ def _say(
 
 
 def _colour(system: CoupledSystem, connection: Connection) -> str:
-    unit = find_port(system.participants, connection.source).unit
-    if unit in ("J", "W"):
-        return RED if unit == "J" else ORANGE
+    source = find_port(system.participants, connection.source)
+    if source.unit == ENERGY_UNIT or watts(source) is not None:
+        return RED if source.unit == ENERGY_UNIT else ORANGE
     others = [each for each in SERIES if each not in (RED, ORANGE)]
     names = list(system.participants)
     return others[names.index(connection.source.participant) % len(others)]

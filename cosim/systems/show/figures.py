@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosim.coupling import Ledger
+from cosim.coupling.conversion import NO_UNIT
 from cosim.names import unknown_name
 from cosim.report.columns import Columns
 from cosim.report.live import Curve, Live, Panel, over_time
@@ -32,16 +33,19 @@ from cosim.report.style import (
     shown,
 )
 from cosim.systems.run import SystemRun
-from cosim.systems.show.diagram import diagram, is_legible
+from cosim.systems.show.diagram import colour_key, diagram, is_legible
 from cosim.systems.show.matrix import matrix
 
-#: Panels of a figure; of more signals the first are drawn.
-MOST_PANELS = 24
-COLUMNS = 3
+#: Panels of the first figure, and of the one below with the others, of which the first are drawn.
+FIRST_PANELS, MOST_PANELS = 4, 24
+#: Letters of a panel's title; a longer one has the unit's name on a line of its own.
+LONGEST_TITLE = 42
 #: Units that a prefix is put before.
 PREFIXED = ("m", "s", "N", "J", "W", "Pa", "A", "V", "rad", "m/s", "m/s2", "rad/s", "N.m", "J/kg")
 #: Change of a signal that is none, as a part of it.
 NOTHING = 1e-6
+#: Size of a signal that is none: of what its participant has in the same unit, and of its nominal.
+OF_ALIKE, OF_NOMINAL = 1e-11, 1e-13
 
 #: What makes a picture of these arguments.
 Drawer = tuple[Callable[..., Picture], tuple[Any, ...]]
@@ -51,13 +55,19 @@ def pictures(run: SystemRun, columns: Columns) -> dict[str, Picture]:
     """Every figure that the run has something for: name -> picture, in the page's order."""
     alive: dict[str, Callable[..., Picture]] = {
         "signals": signals,
+        "more_signals": more_signals,
         "energy": energy,
         "steps": steps,
     }
-    return {
+    found = {
         name: alive.get(name, draw)(*arguments)
         for name, (draw, arguments) in _drawers(run, columns).items()
     }
+    system = run.assembly.system
+    if is_legible(system, run.assembly.order):
+        shown_there = found["system"].caption + colour_key(system)
+        found["system"] = replace(found["system"], caption=shown_there)
+    return found
 
 
 def figure_of(run: SystemRun, columns: Columns, name: str) -> Figure:
@@ -77,6 +87,8 @@ def _drawers(run: SystemRun, columns: Columns) -> dict[str, Drawer]:
     }
     if any(each.attrs.get("causality") == "output" for each in columns.data_vars.values()):
         found["signals"] = _signals, (columns,)
+    if len(_drawn(columns)[0]) > FIRST_PANELS:
+        found["more_signals"] = _more_signals, (columns,)
     if run.result.ledger.flows:
         found["energy"] = _energy, (run.result.time, run.result.ledger)
     if run.steps.count:
@@ -85,8 +97,14 @@ def _drawers(run: SystemRun, columns: Columns) -> dict[str, Drawer]:
 
 
 def signals(columns: Columns) -> Picture:
-    """A panel for every output, up to `MOST_PANELS`."""
+    """A panel for each of the first outputs."""
     return _alive(_signals(columns), "Outputs over time.", _signals_live(columns))
+
+
+def more_signals(columns: Columns) -> Picture:
+    """The outputs after those, up to `MOST_PANELS`."""
+    live = _signals_live(columns, more=True)
+    return _alive(_more_signals(columns), "Further outputs over time.", live)
 
 
 def energy(time: NDArray[np.float64], ledger: Ledger) -> Picture:
@@ -107,33 +125,47 @@ def _alive(drawn: Picture, alt: str, live: Live) -> Picture:
 
 @picture(
     "signals",
-    f"Outputs over time at the recorded times, those that are connected first, and of more than"
-    f" {MOST_PANELS} the first; the numbers below and the files have all.",
+    "Outputs over time at the recorded times, those that are connected first.",
 )
 def _signals(columns: Columns) -> Figure:
-    names, flat = _drawn(columns)
-    rows = -(-len(names) // COLUMNS)
-    figure, axes = panels(rows, COLUMNS, height=1.7, width=10.5, sharex=True)
+    return _signals_figure(columns, more=False)
+
+
+@picture(
+    "more_signals",
+    f"Further outputs over time, of more than {MOST_PANELS} the first; the numbers below and the"
+    " files have all.",
+)
+def _more_signals(columns: Columns) -> Figure:
+    return _signals_figure(columns, more=True)
+
+
+def _signals_figure(columns: Columns, more: bool) -> Figure:
+    names, said = _shown(columns, more)
+    across = 3 if more else 2
+    rows = -(-len(names) // across)
+    figure, axes = panels(rows, across, height=1.7, width=10.5, sharex=True)
     time = columns["time"].values
     for panel, name in zip(axes.flat, names, strict=False):
         label, values, least = _signal(columns, name)
         line(panel, time, values, color=BLUE)
-        panel.set_title(label, fontsize=9)
+        is_long = len(label) > LONGEST_TITLE
+        panel.set_title(label.replace(".", ".\n", 1) if is_long else label, fontsize=9)
         plain_ticks(panel)
         at_least(panel, least)
     _end(axes, len(names))
-    if flat:
-        figure.supxlabel("\n".join(textwrap.wrap(flat, 130)), x=0.008, ha="left", fontsize=9)
+    if said:
+        figure.supxlabel("\n".join(textwrap.wrap(said, 130)), x=0.008, ha="left", fontsize=9)
     return figure
 
 
-def _signals_live(columns: Columns) -> Live:
-    names, flat = _drawn(columns)
+def _signals_live(columns: Columns, more: bool = False) -> Live:
+    names, said = _shown(columns, more)
     panels = []
     for name in names:
         label, values, least = _signal(columns, name)
         panels.append(Panel(label, [Curve(name, values, BLUE)], span=least))
-    return over_time(columns["time"].values, panels, note=flat, columns=2)
+    return over_time(columns["time"].values, panels, note=said, columns=2)
 
 
 def _signal(columns: Columns, name: str) -> tuple[str, NDArray[np.float64], float]:
@@ -142,9 +174,20 @@ def _signal(columns: Columns, name: str) -> tuple[str, NDArray[np.float64], floa
     Else the last bits of what stays the same would fill the panel.
     """
     values, unit = columns[name].values, columns[name].attrs["units"]
+    if _is_rounding(columns, name):
+        values = np.zeros_like(values)  # of a figure that has nothing else
     scaled = readable(values, unit) if unit in PREFIXED else Scaled(1.0, unit)
     least = NOTHING * scaled.factor * float(np.max(np.abs(values)))
-    return f"{name} [{SPELLING.get(scaled.unit, scaled.unit)}]", scaled(values), least
+    told = SPELLING.get(scaled.unit, scaled.unit)
+    return name if told == NO_UNIT else f"{name} [{told}]", scaled(values), least
+
+
+def _shown(columns: Columns, more: bool) -> tuple[list[str], str]:
+    """Of `_drawn` what the first figure shows, or the one with more; the text is below the last."""
+    names, said = _drawn(columns)
+    if more:
+        return names[FIRST_PANELS : FIRST_PANELS + MOST_PANELS], said
+    return names[:FIRST_PANELS], said if len(names) <= FIRST_PANELS else ""
 
 
 def _drawn(columns: Columns) -> tuple[list[str], str]:
@@ -157,29 +200,48 @@ def _drawn(columns: Columns) -> tuple[list[str], str]:
     ]
     connected = [name for name in outputs if columns[name].attrs["long_name"] in sources]
     ordered = [*connected, *(name for name in outputs if name not in connected)]
-    flat = [name for name in ordered if _is_flat(columns[name].values)]
+    noise = [name for name in ordered if _is_rounding(columns, name)]
+    flat = [name for name in ordered if name not in noise and _is_flat(columns[name].values)]
     # a figure of nothing at all would be less than one of something flat
-    shown = [name for name in ordered if name not in flat] or ordered[:1]
-    said = [_constant(columns, name) for name in flat if name not in shown]
-    note = f"Not drawn, as they do not change: {'; '.join(said)}." if said else ""
-    return shown[:MOST_PANELS], note
+    shown = [name for name in ordered if name not in (*flat, *noise)] or ordered[:1]
+    constant = "; ".join(_constant(columns, name) for name in flat if name not in shown)
+    rounding = ", ".join(name for name in noise if name not in shown)
+    said = f"Not drawn, as they do not change: {constant}." if constant else ""
+    if rounding:
+        said = f"{said} Not drawn, as they are 0 but for rounding: {rounding}.".strip()
+    return shown, said
 
 
 def _is_flat(values: NDArray[np.float64]) -> bool:
     return bool(np.ptp(values) <= NOTHING * np.max(np.abs(values)))
 
 
+def _is_rounding(columns: Columns, name: str) -> bool:
+    """Whether it is never more than rounding of what its participant computes with."""
+    own = columns[name].attrs
+    size = float(np.max(np.abs(columns[name].values)))
+    alike = [
+        float(np.max(np.abs(each.values)))
+        for each in columns.data_vars.values()
+        if each.attrs.get("participant") == own["participant"]
+        and each.attrs["units"] == own["units"] != NO_UNIT
+    ]
+    return 0.0 < size < max(OF_NOMINAL * own["nominal"], OF_ALIKE * max(alike, default=0.0))
+
+
 def _constant(columns: Columns, name: str) -> str:
     unit = columns[name].attrs["units"]
-    return f"{name} {number(float(columns[name].values[-1]))} {SPELLING.get(unit, unit)}".strip()
+    told = "" if unit == NO_UNIT else SPELLING.get(unit, unit)
+    return f"{name} {number(float(columns[name].values[-1]))} {told}".strip()
 
 
 def _end(axes: NDArray[Any], used: int) -> None:
     """Time below the lowest panel of each column; no empty panels."""
+    across = axes.shape[1]
     for place, panel in enumerate(axes.flat):
         if place >= used:
             panel.set_visible(False)
-        elif place + COLUMNS >= used:
+        elif place + across >= used:
             panel.set_xlabel("time [s]")
             panel.tick_params(labelbottom=True)
 
@@ -200,7 +262,13 @@ def _energy(time: NDArray[np.float64], ledger: Ledger) -> Figure:
     axes[1, 0].set_ylabel("in transit [J]")
     axes[1, 0].set_xlabel("time [s]")
     plain_ticks(axes[0, 0])
+    at_least(axes[1, 0], _least_in_transit(ledger))
     return figure
+
+
+def _least_in_transit(ledger: Ledger) -> float:
+    """Rounding of what was handed over is not drawn as energy in transit."""
+    return NOTHING * max(float(np.max(np.abs(flow.handed), initial=0.0)) for flow in ledger.flows)
 
 
 def _energy_live(time: NDArray[np.float64], ledger: Ledger) -> Live:
@@ -210,7 +278,8 @@ def _energy_live(time: NDArray[np.float64], ledger: Ledger) -> Live:
         handed.append(Curve(name, flow.handed, colour))
         handed.append(Curve(f"{name}, taken up", flow.taken, INK, dash=True, width=0.8))
         transit.append(Curve(name, flow.in_transit, colour))
-    return over_time(time, [Panel("handed over [J]", handed), Panel("in transit [J]", transit)])
+    below = Panel("in transit [J]", transit, span=_least_in_transit(ledger))
+    return over_time(time, [Panel("handed over [J]", handed), below])
 
 
 def _colours(count: int) -> Sequence[str]:

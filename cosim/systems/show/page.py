@@ -12,6 +12,10 @@ from cosim.report.coupling import doubts, step_rows
 from cosim.report.page import Picture, number, render
 from cosim.report.style import SPELLING
 
+#: In the order of the page.
+PICTURES = ("signals", "system", "more_signals", "energy", "steps")
+#: Part of the energy handed over that may be missing where all of it was taken up.
+TAKEN_UP = 1e-9
 OWN_FILES = {
     "result.nc": "everything, with units: netCDF 4, for xarray, ParaView, Matlab",
     "result.csv": "all time series as a table with a header, digits in full",
@@ -33,35 +37,64 @@ def page(
         "cosim.systems.show",
         numbers=numbers,
         created=datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z"),
-        overview=overview(numbers),
+        sentence=sentence(numbers),
+        tiles=tiles(numbers),
         doubts=[f"{each}." for each in doubts(numbers["coupling"])],
         connections=[_connection_row(each) for each in numbers["connections"]],
         units=_units(numbers["participants"]),
         steps=step_rows(numbers["coupling"]),
-        figures={**dict.fromkeys(("system", "signals", "energy", "steps")), **figures},
+        figures={**dict.fromkeys(PICTURES), **figures},
         files=own | dict(files or {}),
         example=next(iter(numbers["outputs"]), "time"),
         command=command,
     )
 
 
-def overview(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """What stands at the top."""
-    coupling = numbers["coupling"]
-    found = [
+def sentence(numbers: Mapping[str, Any]) -> str:
+    """What came of the run, in one sentence."""
+    units = len(numbers["participants"])
+    steps = numbers["coupling"]["steps"]
+    told = (
+        f"{units} coupled unit{'s' * (units != 1)} ran for {_seconds(numbers['time_reached'])} in "
+        f"{steps} step{'s' * (steps != 1)}"
+    )
+    ended = "" if numbers["status"] == "complete" else ", then the run ended before its time"
+    flows = numbers["ledger"]["energies"]
+    handed = sum(flow["handed"] or 0.0 for flow in flows)
+    missing = sum(abs(flow["in_transit"] or 0.0) for flow in flows)
+    if flows and not ended and missing <= TAKEN_UP * abs(handed):
+        ended = f", and all of the {number(handed, 3)} J handed over was taken up"
+    left = "; ".join(
+        f"from {_seconds(each['since'])} on {each['unit']} moves as no rig does: {each['says']}"
+        for each in numbers["beyond_rig"]
+    )
+    return f"{told}{ended}{f'; but {left}' if left else ''}."
+
+
+def tiles(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """The four figures that stand below the first picture."""
+    coupling, flows = numbers["coupling"], numbers["ledger"]["energies"]
+    handed = sum(flow["handed"] or 0.0 for flow in flows)
+    missing = sum(flow["in_transit"] or 0.0 for flow in flows)
+    rejected = coupling.get("rejected")
+    return [
         ("simulated", _seconds(numbers["time_reached"])),
-        ("units", str(len(numbers["participants"]))),
-        ("connections", str(len(numbers["connections"]))),
-        ("macro steps", str(coupling["steps"])),
-        ("computing time", _seconds(numbers["wall_time"])),
+        (
+            f"macro steps, {rejected} taken back" if rejected else "macro steps",
+            str(coupling["steps"]),
+        ),
+        (
+            f"of {number(handed, 3)} J handed over not taken up",
+            f"{number(missing, 2, largest=handed)} J",
+        )
+        if flows
+        else ("connections", str(len(numbers["connections"]))),
+        ("computing time of the units", _seconds(numbers["wall_time"], 2)),
     ]
-    if coupling.get("rejected"):
-        found.insert(4, ("steps taken back", str(coupling["rejected"])))
-    return found
 
 
-def _seconds(value: float | None) -> str:
-    return f"{number(value)} s" if value is not None else number(None)
+def _seconds(value: float | None, digits: int = 4) -> str:
+    return f"{number(value, digits)} s" if value is not None else number(None)
 
 
 def _connection_row(each: Mapping[str, Any]) -> tuple[str, str, str, str]:

@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 
-from cosim.coupling import Connection, CoupledSystem
+from cosim.coupling import Causality, Connection, CoupledSystem
 from cosim.coupling.conversion import watts
 from cosim.coupling.messages import WARNING
 from cosim.coupling.system import ENERGY_UNIT, find_port
-from cosim.report.columns import Column, Columns
+from cosim.report.columns import Columns
 from cosim.report.coupling import efforts, step_numbers
 from cosim.report.files import results_line
 from cosim.report.page import number
@@ -26,8 +26,8 @@ MOST_NOTES = 4
 
 
 def summary(run: SystemRun, columns: Columns) -> dict[str, Any]:
-    """Status, steps, participants, connections, ledger, outputs, remarks, versions, the system, and
-    what the units warned of.
+    """Status, steps, participants, connections, ledger, outputs, remarks, versions, the system,
+    what the units warned of, and which of them left their rig.
 
     Times are in s, energies in J, outputs in their own units, which stand beside them; a number
     that a run does not have is None.
@@ -46,9 +46,10 @@ def summary(run: SystemRun, columns: Columns) -> dict[str, Any]:
         "participants": {name: _participant(run, name) for name in system.participants},
         "connections": [_connection(system, each) for each in system.connections],
         "ledger": ledger(run),
-        "outputs": _outputs(run, columns),
+        "outputs": _outputs(columns),
         "remarks": [*run.assembly.remarks, *result.remarks],
         "warnings": warnings(run),
+        "beyond_rig": beyond_rig(run),
         "created": columns.attrs["created"],
         "versions": json.loads(columns.attrs["versions"]),
         "source": run.specification.source,
@@ -65,6 +66,27 @@ def warnings(run: SystemRun) -> list[str]:
                 said = f"{message.source}: {message.when}: {message.text}"
                 found.setdefault((message.source, message.text), said)
     return list(found.values())
+
+
+#: Outputs by which a unit says that no rig moves as it does, and what they say.
+BEYOND_RIG = {
+    "off_belt": "the block has left the belt",
+    "spring_overstretched": "a spring is longer than it can be",
+}
+
+
+def beyond_rig(run: SystemRun) -> list[dict[str, Any]]:
+    """Units that say so of themselves, with the time (s) from which on."""
+    found = []
+    for name, values in run.result.values.items():
+        unit, _, port = name.rpartition(".")
+        is_output = port in BEYOND_RIG and (
+            run.assembly.system.participants[unit].ports[port].causality is Causality.OUTPUT
+        )
+        if is_output and np.any(values):
+            since = float(run.result.time[np.flatnonzero(values)[0]])
+            found.append({"unit": unit, "output": port, "since": since, "says": BEYOND_RIG[port]})
+    return found
 
 
 def ledger(run: SystemRun) -> dict[str, Any]:
@@ -173,26 +195,20 @@ def _connection(system: CoupledSystem, connection: Connection) -> dict[str, Any]
     }
 
 
-def _outputs(run: SystemRun, columns: Columns) -> dict[str, dict[str, Any]]:
+def _outputs(columns: Columns) -> dict[str, dict[str, Any]]:
     found = {}
     for name, variable in columns.data_vars.items():
         if variable.attrs.get("causality") == "output":
             values = variable.values
             found[str(name)] = {
                 "unit": variable.attrs["units"],
-                "nominal": _nominal(run, variable),
+                "nominal": variable.attrs["nominal"],
                 "start": _number(float(values[0])) if values.size else None,
                 "end": _last(values),
                 "lowest": _number(float(np.min(values))) if values.size else None,
                 "highest": _number(float(np.max(values))) if values.size else None,
             }
     return found
-
-
-def _nominal(run: SystemRun, variable: Column) -> float:
-    """Size that is typical of an output, in its units, as whoever made it states it."""
-    participant, _, port = variable.attrs["long_name"].partition(".")
-    return run.assembly.system.participants[participant].ports[port].nominal
 
 
 def _last(values: np.ndarray) -> float | None:
