@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from cosim.gap.data import Campaign
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.arguments import Arguments
-from cosim.gap.weak_form.asked import Unknowns, asked_of
-from cosim.gap.weak_form.camera_faults import SMOOTHING, filters
+from cosim.gap.weak_form.camera_faults import SMOOTHING, camera_faults, filters
 from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Finding, Ladder, Search
 from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
@@ -19,6 +18,16 @@ from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import thinned
 from cosim.gap.weak_form.unknowns import Unknown
+
+#: effect, fault or other finding -> its variants.
+Unknowns = dict[str, list[Unknown]]
+
+
+def asked_of(campaign: Campaign, rows: Sequence[RunRows]) -> tuple[System, Arguments, Unknowns]:
+    """Rows of all runs, held out or not, their arguments, and these with the camera's faults."""
+    system = System(campaign, rows, every=True)
+    arguments = Arguments(campaign, system.runs, system.level)
+    return system, arguments, {**arguments.unknowns(), **camera_faults(system.rung())}
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from cosim.gap.data.campaign_file import FILE_NAME, RunTable, read_tables
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.data.friction_table import read_friction_table
 from cosim.gap.data.units import COARSEST
-from cosim.gap.weak_form.asked import Unknowns, asked_of
+from cosim.gap.naming import Unknowns, asked_of
 from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth, thinned
