@@ -24,7 +24,8 @@ LOW, HIGH = 0.5, 2.0
     "pretension_map",
     "Largest multiplier of a small disturbance to the side or in rotation "
     "in one cycle, over pretension and speed of the surface: below 1 it dies out, above it "
-    "grows. Line: the border. Dots: the block does not stick there. Cross: the scenario. "
+    "grows. Line: the border, between the points of the map. Rings: the block does not stick "
+    "there. Cross: the scenario. "
     "Grey: no motion that can be followed.",
 )
 def draw_pretension_map(found: PretensionMap, case: Case):
@@ -47,7 +48,11 @@ def draw_pretension_map(found: PretensionMap, case: Case):
     if np.nanmin(found.growth) < 1.0 < np.nanmax(found.growth):
         ax.contour(speeds, stretched, found.growth, levels=[1.0], colors=INK, linewidths=1.4)
     sliding = np.argwhere(found.sticks == 0.0)
-    ax.plot(speeds[sliding[:, 1]], stretched[sliding[:, 0]], ".", color=INK, ms=2.0)
+    # seen on dark and on pale colours
+    ax.plot(
+        speeds[sliding[:, 1]], stretched[sliding[:, 0]], "o", color="white", ms=3.2,
+        markeredgecolor=INK, markeredgewidth=0.6,
+    )  # fmt: skip
     _cross(ax, abs(case.parameters.surface.speed), 1e3 * _pretension(case))
     ax.set(
         xlabel="speed of the surface [m/s]",
@@ -70,7 +75,7 @@ def _pretension(case: Case) -> float:
     "regime_map",
     "Regime that the model comes to from three starts, over the surface's speed "
     "and µ_s/µ_k at the scenario's µ_k. Where the panels differ, regimes exist side by side. "
-    "Lines: borders of the Coulomb oscillator in closed form, where the scenario is one. "
+    "Dots: borders of the Coulomb oscillator in closed form, where the scenario is one. "
     "Cross: the scenario.",
 )
 def draw_regime_map(found: RegimeMap, case: Case):
@@ -85,12 +90,11 @@ def draw_regime_map(found: RegimeMap, case: Case):
         ax.pcolormesh(
             found.speeds, found.ratios, numbers, cmap=colours, norm=norm, shading="nearest"
         )
-        if found.closed_form is not None:
-            border = _numbered(found.closed_form[k], kinds).astype(float)
-            if np.ptp(border) > 0.0:
-                ax.contour(
-                    found.speeds, found.ratios, border, levels=[0.5], colors=INK, linewidths=1.4
-                )
+        if found.borders:
+            ax.plot(
+                *found.borders[k].T, "o", color=INK, ms=3.2, markeredgecolor="white",
+                markeredgewidth=0.5,
+            )  # fmt: skip
         friction = case.parameters.friction
         _cross(ax, abs(case.parameters.surface.speed), friction.mu_s / friction.mu_k)
         ax.set(xlabel="speed of the surface [m/s]", title=TITLES[start])

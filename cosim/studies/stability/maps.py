@@ -7,6 +7,7 @@ is known in closed form.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -21,9 +22,9 @@ from stickslip.steady_motion import Assessment, Interface, RunEnded, assess, wit
 from stickslip.steady_motion.numbers import at_speed, with_ratio
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP, regime_of
 from stickslip.steady_motion.stability import cycle_stability, guided
-from stickslip.steady_motion.starts import RAMP, REST, RIDING, STARTS, other_starts
+from stickslip.steady_motion.starts import OWN, RAMP, REST, RIDING, STARTS, other_starts
 
-from cosim.report.page import Picture, render
+from cosim.report.page import Picture, number, render
 from cosim.scenario import Scenario
 
 #: Length of a run after the surface has its speed, s, and in natural periods.
@@ -132,7 +133,8 @@ class RegimeMap:
     """Names of regimes (3, n, m) from `MAPPED`, at ratios mu_s/mu_k (n,) and speeds (m,) m/s.
 
     simulated: by the model; an empty name is a run that ended early. closed_form: of the Coulomb
-    oscillator with the same numbers; None where the scenario's motion is not that of one.
+    oscillator with the same numbers; None where the scenario's motion is not that of one. borders:
+    of that closed form, for each start (k, 2) of speed and ratio, far closer than the grid.
     """
 
     ratios: np.ndarray
@@ -140,6 +142,7 @@ class RegimeMap:
     simulated: np.ndarray
     closed_form: np.ndarray | None
     fastest_from_rest: float | None
+    borders: tuple[np.ndarray, ...] = ()
 
     @property
     def wrong(self) -> int | None:
@@ -164,9 +167,14 @@ def regime_map(
                 closed[:, i, j] = predicted(parameters)
             done(1)
     fastest = belt_start(case.parameters).fastest_from_rest if known else None
-    return RegimeMap(
-        np.asarray(ratios), np.asarray(speeds), simulated, closed if known else None, fastest
+    borders = tuple(
+        _borders(case.parameters, start, names, ratios, speeds)
+        for start, names in zip(MAPPED if known else (), closed, strict=False)
     )
+    return RegimeMap(
+        np.asarray(ratios), np.asarray(speeds), simulated, closed if known else None, fastest,
+        borders,
+    )  # fmt: skip
 
 
 def _simulated(parameters: Parameters, interface: Interface) -> list[str]:
@@ -221,15 +229,48 @@ def belt_start(parameters: Parameters) -> BeltStart:
     )
 
 
+STICKS: dict[str, Callable[[BeltStart], bool]] = {
+    REST: BeltStart.sticks_from_rest,
+    RIDING: BeltStart.sticks_riding,
+    RAMP: BeltStart.sticks_after_run_up,
+}
+
+
 def predicted(parameters: Parameters) -> list[str]:
     """Names of the regimes from `MAPPED` in closed form."""
     start = belt_start(parameters)
-    sticks = {
-        REST: start.sticks_from_rest(),
-        RIDING: start.sticks_riding(),
-        RAMP: start.sticks_after_run_up(),
-    }
-    return [STICK_SLIP if sticks[name] else SLIDING for name in MAPPED]
+    return [STICK_SLIP if STICKS[name](start) else SLIDING for name in MAPPED]
+
+
+#: Halvings of a cell in which a border lies.
+HALVINGS = 7
+
+
+def _borders(
+    parameters: Parameters, start: str, names: np.ndarray, ratios: np.ndarray, speeds: np.ndarray
+) -> np.ndarray:
+    """Between neighbours of the grid whose ``names`` (n, m) differ, where: (k, 2) speed, ratio."""
+
+    def sticks(point: np.ndarray) -> bool:
+        speed, ratio = point
+        return STICKS[start](belt_start(with_ratio(at_speed(parameters, speed), ratio)))
+
+    grid = np.stack(np.meshgrid(speeds, ratios), axis=-1)
+    pairs = [
+        *zip(
+            *(part[names[:, 1:] != names[:, :-1]] for part in (grid[:, :-1], grid[:, 1:])),
+            strict=True,
+        ),
+        *zip(*(part[names[1:] != names[:-1]] for part in (grid[:-1], grid[1:])), strict=True),
+    ]
+    found = []
+    for one, other in pairs:
+        here = sticks(one)
+        for _ in range(HALVINGS):
+            middle = 0.5 * (one + other)
+            one, other = (middle, other) if sticks(middle) == here else (one, middle)
+        found.append(0.5 * (one + other))
+    return np.reshape(found, (-1, 2))
 
 
 def as_json(
@@ -259,19 +300,40 @@ def as_json(
             else dict(zip(MAPPED, regimes.closed_form.tolist(), strict=True)),
             "cells_that_differ": regimes.wrong,
             "fastest_from_rest": regimes.fastest_from_rest,
+            "closed_form_borders": {
+                start: points.tolist()
+                for start, points in zip(MAPPED, regimes.borders, strict=False)
+            },
         },
     }
 
 
 def page(numbers: dict[str, Any], sentences: Sequence[str], pictures: Sequence[Picture]) -> str:
-    """HTML of the numbers of `as_json`, what they say, and the maps."""
+    """HTML of the numbers of `as_json`, what they say, the first of it first, and the maps."""
+    # the heading is one sentence, and what it goes on with stands below
+    sentence, *rest = re.split(r"(?<=\.) (?=[A-Z])", sentences[0], maxsplit=1)
     return render(
         "stability.html.j2",
         "cosim.studies.stability",
         numbers=numbers,
-        sentences=sentences,
+        sentence=sentence,
+        sentences=[*rest, *sentences[1:]],
+        tiles=tiles(numbers),
         pictures=pictures,
     )
+
+
+def tiles(numbers: dict[str, Any]) -> list[tuple[str, str]]:
+    """Four figures: how fast disturbances grow, what would help, and what the run does."""
+    found, own = numbers["stability"], numbers["regimes"][OWN]
+    growth, least = found.get("growth"), found.get("least_pretension")
+    there = [
+        ("growth of a disturbance in a cycle", growth and f"{number(growth, 3)} times"),
+        ("least pretension for stability", least and f"{number(1e3 * least, 3)} mm"),
+        ("break-aways", own["frequency"] and f"{number(own['frequency'], 3)} Hz"),
+        ("of the time in slip", f"{number(100.0 * own['slip_share'], 3)} %"),
+    ]
+    return [(words, value) for words, value in there if value]
 
 
 def _plain(table: np.ndarray) -> list[list[float | None]]:

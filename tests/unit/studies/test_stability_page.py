@@ -1,0 +1,73 @@
+"""The page and the maps of `stickslip stability`, of numbers that are known."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from matplotlib.colors import to_rgb
+
+from cosim import read_scenario
+from cosim.report.style import shown
+from cosim.studies.stability import PretensionMap, maps
+from cosim.studies.stability.figures import draw_pretension_map, draw_regime_map
+
+PARAMETERS = read_scenario("study").mechanics
+CASE = SimpleNamespace(name="known", parameters=PARAMETERS, interface=None)
+RATIOS, SPEEDS = np.array([1.2, 1.6]), np.array([0.1, 0.2, 0.6])
+
+
+@pytest.fixture(scope="module")
+def regimes():
+    """The map as the closed form has it, without a simulation."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(maps, "_simulated", lambda parameters, interface: maps.predicted(parameters))
+        return maps.regime_map(CASE, RATIOS, SPEEDS, lambda done: None)
+
+
+def test_borders_are_those_of_the_closed_form_and_not_of_the_grid(regimes):
+    from_rest = regimes.borders[0]
+    assert len(from_rest) == len(RATIOS)
+    step = np.diff(SPEEDS)[0] / 2**maps.HALVINGS
+    for speed, ratio in from_rest:
+        moving = maps.with_ratio(PARAMETERS, ratio)
+        assert maps.belt_start(moving).fastest_from_rest == pytest.approx(speed, abs=step)
+    assert not np.isin(np.round(from_rest[:, 0], 6), [0.15, 0.4]).any()  # halfway in the grid
+
+
+def test_the_drawn_borders_are_these(regimes):
+    for panel, border in zip(
+        shown(draw_regime_map, regimes, CASE).axes, regimes.borders, strict=True
+    ):
+        drawn = panel.lines[0].get_xydata()
+        np.testing.assert_array_equal(drawn, border)
+    assert "Dots: borders" in draw_regime_map(regimes, CASE).caption
+
+
+def test_where_the_block_does_not_stick_is_seen_on_every_colour():
+    low = PretensionMap(
+        np.array([0.0, 0.01]), np.array([0.1, 0.2]), np.full((2, 2), 0.4), np.zeros((2, 2))
+    )
+    dots = shown(draw_pretension_map, low, CASE).axes[0].lines[0]
+    assert to_rgb(dots.get_markerfacecolor()) == (1.0, 1.0, 1.0)
+    assert sum(to_rgb(dots.get_markeredgecolor())) < 0.6
+
+
+def test_one_sentence_then_a_picture_then_four_figures():
+    regime = dict(name="stick-slip", frequency=1.7, slip_share=0.9)
+    regime |= dict(mean_x=0.01, half_range_x=0.01, max_y=0.0, max_rotation_deg=0.0)
+    numbers = {
+        "name": "known",
+        "stability": {"verdict": "unstable", "growth": 1.42061, "least_pretension": 0.0083211},
+        "regimes": {"own": regime},
+        "starts": {"own": "as the scenario starts"},
+    }
+    low = PretensionMap(np.array([0.0]), np.array([0.1]), np.ones((1, 1)), np.ones((1, 1)))
+    drawn = draw_pretension_map(low, CASE)
+    page = maps.page(numbers, ["It is unstable. It is stable from 8.32 mm on.", "More."], [drawn])
+    assert "<h1>It is unstable.</h1>" in page
+    places = [
+        page.index(each) for each in ("<h1>", "<figure", 'class="tiles"', "8.32 mm on", "<h2")
+    ]
+    assert places == sorted(places)
+    assert maps.tiles(numbers)[0] == ("growth of a disturbance in a cycle", "1.42 times")
+    assert '<td class="start">' in page and "td.start { min-width" in page
