@@ -125,7 +125,7 @@ def figure(picture: Picture, alt: str = "") -> Markup:
     alt = alt or picture.alt or picture.caption
     if picture.live is None:
         encoded = base64.b64encode(picture.png).decode("ascii")
-        image = '<img width="{}" src="data:image/png;base64,{}" alt="{}">'
+        image = '<img width="{0}" style="--own: {0}px" src="data:image/png;base64,{1}" alt="{2}">'
         kind, shown = "still", Markup(image).format(_width(picture.png), encoded, alt)
     else:
         sent = (

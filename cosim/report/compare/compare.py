@@ -57,7 +57,9 @@ class Difference(NamedTuple):
     def relative(self) -> float | None:
         if self.a is None or self.difference is None or self.unit in NO_PARTS:
             return None
-        return None if self._is_nothing(self.a) else self.difference / abs(self.a)
+        # beside the other it is nothing: a part of it would be one of a rounding error
+        nothing = self._is_nothing(self.a) or abs(self.a) < SAME * abs(self.difference)
+        return None if nothing else self.difference / abs(self.a)
 
     def _is_nothing(self, value: float) -> bool:
         least = max(ROUNDING.get(self.unit, 0.0), PART_OF_SIZE * self.size)
@@ -125,7 +127,8 @@ class Comparison:
             one
             for one in self.apart
             if not any(part.endswith(RESIDUALS) for part in one.name.split("."))
-            and abs(one.largest) > max(ROUNDING.get(one.unit, 0.0), SAME * one.span)
+            and abs(one.largest)
+            > max(ROUNDING.get(one.unit, 0.0), SAME * one.span, PART_OF_SIZE * one.size)
         ]
 
     @property

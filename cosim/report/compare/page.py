@@ -8,13 +8,17 @@ from typing import Any
 from cosim.report.page import Picture, render
 from cosim.report.quantities import DIGITS, NONE, ROUNDING, digits, told, worded
 
-from .compare import Comparison, Difference
+from .compare import SAME, Comparison, Difference
 from .series import Apart
 
 #: What a difference of two values in such a unit is in.
 DEGREES = {"degC": "K"}
 #: A difference by so many times the value is told as times the value.
 MANY = 10.0
+#: Of two numbers that differ by less than is told of them.
+EQUAL = "equal within rounding"
+#: Digits of the sentence and the figures at the top; curves among them.
+AT_TOP, CURVES_AT_TOP = 3, 2
 #: Titles of the summary's groups.
 TITLES = {
     "": "Run",
@@ -39,6 +43,8 @@ def page(both: Comparison, pictures: Sequence[Picture], command: str = "") -> st
         "cosim.report.compare",
         a=both.a,
         b=both.b,
+        sentence=sentence(both),
+        tiles=tiles(both),
         remarks=both.remarks,
         keys=[(key, _key(left), _key(right)) for key, (left, right) in both.keys.items()],
         alike=bool(both.a.scenario) is bool(both.b.scenario),
@@ -46,11 +52,47 @@ def page(both: Comparison, pictures: Sequence[Picture], command: str = "") -> st
         groups=groups(both.different),
         of_one=[(name, _of_one(both, side)) for name, side in (("A", "a"), ("B", "b"))],
         curves=[curve_cells(one) for one in both.curves],
-        same=sum(one.same for one in both.numbers),
+        same=_same(both),
         different=len(both.different),
         pictures=pictures,
         command=command,
     )
+
+
+def sentence(both: Comparison) -> str:
+    """Whether the two differ, and by how much, in one sentence."""
+    names = f"{both.a.label} and {both.b.label}"
+    different, curves = len(both.different), both.curves
+    if not different and not curves:
+        return f"{names} are equal within rounding, in all that both have."
+    told = f"{names} differ in {different} of {different + _same(both)} numbers"
+    if curves:
+        most, part = _at_top(curves[0]), curve_cells(curves[0])[-1]
+        told += f"; {_plain(curves[0].name)} by up to {most}"
+        told += f", {part} of what it spans" if part != NONE else ""
+    return f"{told}."
+
+
+def tiles(both: Comparison) -> list[tuple[str, str]]:
+    """Up to four figures: what differs in what made them, in the numbers, and how far in curves."""
+    different = len(both.different)
+    found = [(f"of {different + _same(both)} numbers differ", str(different))]
+    if bool(both.a.scenario) is bool(both.b.scenario):
+        found.insert(0, ("different keys", str(len(both.keys))))
+    curves = both.curves[:CURVES_AT_TOP]
+    return [*found, *((f"{_plain(one.name)}, apart at most", _at_top(one)) for one in curves)]
+
+
+def _at_top(one: Apart) -> str:
+    return told(abs(one.largest), DEGREES.get(one.unit, one.unit), count=AT_TOP)
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def _same(both: Comparison) -> int:
+    return sum(one.same for one in both.numbers)
 
 
 def _key(value: Any) -> str:
@@ -77,7 +119,7 @@ def _of_one(both: Comparison, side: str) -> list[tuple[str, list[tuple[str, str]
 def curve_cells(one: Apart) -> tuple[str, str, str, str, str]:
     """Name, largest difference, when, root of the mean square, the largest by A's span."""
     unit = DEGREES.get(one.unit, one.unit)
-    nothing = ROUNDING.get(unit, 0.0)
+    nothing = max(ROUNDING.get(unit, 0.0), SAME * abs(one.largest))
     return (
         one.name,
         told(one.largest, unit, count=DIGITS),
@@ -90,12 +132,20 @@ def curve_cells(one: Apart) -> tuple[str, str, str, str, str]:
 def cells(one: Difference) -> tuple[str, str, str, str]:
     """A, B, difference and relative difference as they are read."""
     share = one.name.endswith("share") or one.name.startswith("heat_shares.")
-    return (
-        told(one.a, one.unit, share, DIGITS),
-        told(one.b, one.unit, share, DIGITS),
-        told(one.difference, DEGREES.get(one.unit, one.unit), share, DIGITS),
-        NONE if one.relative is None else _percent(one.relative),
-    )
+    a, b = (told(value, one.unit, share, DIGITS) for value in (one.a, one.b))
+    difference = told(one.difference, DEGREES.get(one.unit, one.unit), share, DIGITS)
+    if one.in_both and a == b and _is_zero(difference):
+        relative = EQUAL
+    elif one.relative is None or _is_zero(a):
+        relative = NONE  # nobody can check a part of what reads 0
+    else:
+        relative = _percent(one.relative)
+    return a, b, difference, relative
+
+
+def _is_zero(told: str) -> bool:
+    """Whether a number reads 0, with whatever digits: "0.00°"."""
+    return not any(digit in told.split(" ")[0] for digit in "123456789")
 
 
 def _percent(part: float) -> str:

@@ -56,7 +56,7 @@ class Apart(NamedTuple):
     """How far two curves are apart where both runs are, by the rows of the one with fewer.
 
     largest: with its sign, B less A, at the time ``at`` (s). rms: root of the mean square. span:
-    of A in that time, which both are judged by. All in ``unit``.
+    of A in that time, which both are judged by. size: its largest value. All in ``unit``.
     """
 
     name: str
@@ -65,6 +65,7 @@ class Apart(NamedTuple):
     at: float
     rms: float
     span: float
+    size: float
 
 
 def matched(a: xr.Dataset, b: xr.Dataset) -> tuple[list[Series], list[str]]:
@@ -101,9 +102,8 @@ def apart(series: Series, a: xr.Dataset, b: xr.Dataset) -> Apart | None:
         return None
     most = int(np.argmax(np.abs(off)))
     rms = math.sqrt(float(np.mean(off**2)))
-    return Apart(
-        series.name, series.unit, float(off[most]), float(at[most]), rms, float(np.ptp(ours))
-    )
+    largest, size = float(off[most]), float(np.max(np.abs(ours)))
+    return Apart(series.name, series.unit, largest, float(at[most]), rms, float(np.ptp(ours)), size)
 
 
 def ends(series: Series, a: xr.Dataset, b: xr.Dataset) -> dict[str, tuple[float, float]]:

@@ -2,6 +2,7 @@
 
 import argparse
 import json
+import re
 
 import pytest
 
@@ -9,6 +10,7 @@ from cosim.cli.runs import compare as compare_command
 from cosim.cli.runs import simulate as simulate_command
 from cosim.report.compare import Difference, compare, read_result
 from cosim.report.compare.figures import moving
+from cosim.report.compare.page import cells, sentence
 
 CASE = """
 name = "{name}"
@@ -146,3 +148,39 @@ def test_a_folder_that_is_no_result_is_refused_in_one_line(place, tmp_path, made
 def test_a_difference(a, b, difference, relative, same):
     one = Difference("after_run_up.mean_x", "m", a, b)
     assert (one.difference, one.relative, one.same) == (difference, relative, same)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit", "a", "b", "told"),
+    [
+        ("whole_run.max_rotation_deg", "deg", 9.2e-15, 0.2, "–"),
+        ("whole_run.max_rotation_deg", "deg", 1e-6, 2e-4, "equal within rounding"),
+        ("whole_run.max_rotation_deg", "deg", 1e-3, 0.2, "–"),
+        ("regimes.own.max_rotation_deg", "deg", 14.62, 14.620001, "equal within rounding"),
+        ("outputs.a.y", "1", 1e-17, 0.3, "–"),
+        ("whole_run.max_x", "m", 0.001, 0.021, "21 times"),
+    ],
+)
+def test_no_ratio_is_told_of_what_reads_0(name, unit, a, b, told):
+    assert cells(Difference(name, unit, a, b))[3] == told
+
+
+def test_two_rounding_errors_of_an_angle_are_the_same():
+    assert Difference("whole_run.max_rotation_deg", "deg", 9.2e-15, 2e-11).same
+
+
+def test_the_page_begins_with_whether_they_differ(place):
+    one = read_result(place / "results")
+    assert sentence(compare(one, one)) == (
+        "light (A) and light (B) are equal within rounding, in all that both have."
+    )
+    out = place / "first"
+    assert call(compare_command, place / "results", place / "heavy.toml", "-o", out) == 0
+    text = (out / "report.html").read_text()
+    places = [text.index(each) for each in ("<h1>", "<figure", 'class="tiles"', "<h2")]
+    assert places == sorted(places)
+    assert re.search(
+        r"<h1>light and heavy differ in \d+ of \d+ numbers; x by up to [^;]+\.</h1>", text
+    )
+    tiles = text[places[2] : text.index('<p class="soft">Of the numbers')]
+    assert tiles.count("<b>") == 4
