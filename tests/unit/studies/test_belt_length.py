@@ -128,7 +128,7 @@ def test_still_air_takes_its_number_from_speed_and_length():
     assert Case(1.0, 0.5, h=15.0).film == Case(1.0, 0.5, h=15.0).pause_film == 15.0
 
 
-@pytest.mark.parametrize(("length", "speed"), [(1.0, 0.15), (4.0, 0.15), (1.0, 0.82), (4.0, 0.82)])
+@pytest.mark.parametrize(("length", "speed"), [(1.0, 0.15), (4.0, 0.82)])
 def test_still_air_takes_its_number_from_the_rise_that_the_belt_has(length, speed):
     """Natural convection was that of a belt 1 K warm: 7.0 W/m2K on 1 m at 0.15 m/s, 6.4 on 4 m."""
     case = Case(length, speed)

@@ -45,12 +45,7 @@ def test_the_varied_keys_are_the_dimensions():
     assert done.attrs["status"] == "complete"
     for name in done.variables:
         assert done[name].attrs["units"] and done[name].attrs["long_name"]
-    one = BASE.model_copy(
-        update={
-            "rig": BASE.rig.model_copy(update={"mass": 0.9}),
-            "surface": BASE.surface.model_copy(update={"speed": 0.1}),
-        }
-    )
+    one = combination_module.with_changes(BASE, {"rig.mass": 0.9, "surface.speed": 0.1})
     alone = features(simulate(one, 2.0, 0.02))
     here = done.sel({"rig.mass": 0.9, "surface.speed": 0.1})
     for name, value in alone.items():
