@@ -210,9 +210,19 @@ def in_full(axis: Axis) -> None:
 def logarithmic_x(axes: Axes) -> None:
     """A scale of 1, 2, 5, 10, ... with digits in full."""
     axes.set_xscale("log")
-    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    axes.xaxis.set_major_formatter(StrMethodFormatter("{x:g}"))
-    axes.xaxis.set_minor_formatter(NullFormatter())
+    _one_two_five(axes.xaxis)
+
+
+def logarithmic_y(axes: Axes) -> None:
+    """The same upright: no "6 x 10^-1" where it reaches over less than a decade."""
+    axes.set_yscale("log")
+    _one_two_five(axes.yaxis)
+
+
+def _one_two_five(axis: Axis) -> None:
+    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def at_least(axes: Axes, span: float) -> None:

@@ -1,13 +1,15 @@
 """Steady sliding at every speed and ambient temperature, and the slopes of friction over speed.
 
 Where friction falls with the speed, a block on springs swings of itself. Here guides keep it on its
-line and a damper against the frame, three times what the falling friction drives, keeps it at rest
-there, so that what is seen is the friction of one speed. A block at rest takes nothing from the
+line and a damper against the frame, three times what the falling friction drives, and enough for a
+block of dry friction not to swing either, keeps it at rest there, so that what is seen is the
+friction of one speed. A block at rest takes nothing from the
 damper: neither friction nor its heat is another for it.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
@@ -114,9 +116,14 @@ def steady_scenario(
     return case.changed(
         {
             "initial.x": force / (4.0 * case.springs.stiffness),
-            "structural_damping.coefficient": DAMPING * max(0.0, fall),
+            "structural_damping.coefficient": max(DAMPING * fall, _critical_damping(case)),
         }
     )
+
+
+def _critical_damping(case: Scenario) -> float:
+    """With it, N s/m, the block on its springs comes to rest without swinging."""
+    return 4.0 * math.pi * case.mechanics.natural_frequency * case.rig.mass
 
 
 def _friction(parameters: Parameters, speed: float, temperature: float) -> tuple[float, float]:
@@ -132,6 +139,8 @@ Array = NDArray[np.float64]
 #: Points that a slope over a decade needs at least.
 FEWEST = 4
 FEWEST_OF_MINIMUM = 3
+#: Friction that differs by less than this part over the speeds is the same at all of them.
+SAME = 1e-3
 #: A decade may be short or long by this part, for speeds that are rounded and blocks that creep.
 ROUNDING = 1e-2
 
@@ -201,6 +210,18 @@ class FrictionMap:
         """The points of one ambient temperature, speed growing."""
         return [point for point in self.points if point.ambient_degC == ambient_degC]
 
+    def is_flat(self, ambient_degC: float) -> bool:
+        """Whether friction is the same at all speeds of one temperature."""
+        friction = [point.friction for point in self.at(ambient_degC)]
+        return max(friction) - min(friction) <= SAME * max(friction)
+
+    def no_slope(self, ambient_degC: float) -> str:
+        """Why there is no slope over a decade of speed, where there is none."""
+        speeds = [point.speed for point in self.at(ambient_degC)]
+        if max(speeds) < 10.0 * min(speeds) * (1.0 - ROUNDING):
+            return "less than a decade of speeds"
+        return f"fewer than {FEWEST} speeds in a decade"
+
     def regimes(self, ambient_degC: float) -> dict[str, Any]:
         """Steepest fall and rise over a decade of speed, and the minimum, of one temperature.
 
@@ -222,7 +243,8 @@ class FrictionMap:
             found["steepest_fall_over_warming"] = _extreme(
                 decade_slopes(speed, friction / warming), min
             )
-        lowest = lowest_friction(speed, friction) if len(points) >= FEWEST_OF_MINIMUM else None
+        changes = len(points) >= FEWEST_OF_MINIMUM and not self.is_flat(ambient_degC)
+        lowest = lowest_friction(speed, friction) if changes else None
         found["minimum"] = lowest and {"speed": lowest[0], "friction": lowest[1]}
         return found
 

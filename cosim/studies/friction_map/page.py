@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from stickslip import friction_coefficient
 
-from cosim.report.page import Picture, render
-from cosim.report.style import GREY, INK, SERIES, panels, picture
+from cosim.report.page import Picture, number, render
+from cosim.report.style import GREY, INK, SERIES, logarithmic_x, logarithmic_y, panels, picture
 
 from .laws import laws_of
-from .map import FrictionMap, steady_scenario
+from .map import SAME, FrictionMap, SteadySliding, steady_scenario
 
 #: The law is drawn this far beyond the slowest and the fastest run.
 BELOW, ABOVE = 300.0, 5.0
+#: A law that is the same at all speeds only so far: there is nothing else to see beyond.
+BESIDE = 2.0
+#: Digits of what stands at the top: a friction is known to percents.
+AT_TOP = 3
 #: Least slope of the law, either sign, at which a regime is named.
 NAMED = 0.3
 
@@ -29,6 +35,10 @@ def draw_map(found: FrictionMap) -> Figure:
     figure, ((ax,),) = panels(1, 1, height=4.6, width=8.0)
     speeds = [point.speed for point in found.points]
     wide = np.geomspace(min(speeds) / BELOW, max(speeds) * ABOVE, 400)
+    laws = [_law(found, ambient, wide) for ambient in found.ambients]
+    is_flat = all(float(np.ptp(law)) <= SAME * float(np.max(law)) for law in laws)
+    if is_flat:
+        wide = np.geomspace(min(speeds) / BESIDE, max(speeds) * BESIDE, 400)
     for index, ambient in enumerate(found.ambients):
         law = _draw_ambient(ax, found, ambient, wide, SERIES[index % len(SERIES)])
         if index == 0:
@@ -37,15 +47,26 @@ def draw_map(found: FrictionMap) -> Figure:
             _mark_slopes(ax, wide, law)
     ax.set(
         xscale="log",
-        yscale="log",
         xlabel="sliding speed [m/s]",
         ylabel="friction coefficient [1]",
         title="lines: the law at the ambient temperature; points: coupled runs",
     )
     low, high = ax.dataLim.intervaly
-    ax.set_ylim(low / 1.5, 2.5 * high)  # room for words; a law without speed is a line in it
+    if is_flat:
+        logarithmic_x(ax)
+        ax.set_ylim(0.0, 1.4 * high)
+    else:
+        logarithmic_y(ax)
+        ax.set_ylim(low / 1.5, 2.5 * high)  # room for words
     figure.legend(loc="outside right upper", title="ambient")
     return figure
+
+
+def _law(found: FrictionMap, ambient: float, speeds: np.ndarray) -> np.ndarray:
+    """The law at an ambient temperature, degC, over speeds (n,): (n,)."""
+    first = found.at(ambient)[0].speed
+    case = steady_scenario(found.scenario, first, ambient, found.duration)
+    return friction_coefficient(case.mechanics, speeds, ambient)
 
 
 def _draw_ambient(
@@ -53,8 +74,7 @@ def _draw_ambient(
 ) -> np.ndarray:
     """The law at an ambient temperature, degC, over speeds (n,), and the runs; the law (n,)."""
     points = found.at(ambient)
-    case = steady_scenario(found.scenario, points[0].speed, ambient, found.duration)
-    law = friction_coefficient(case.mechanics, speeds, ambient)
+    law = _law(found, ambient, speeds)
     ax.plot(speeds, law, color=colour, label=f"{ambient:g} °C".replace("-", "−"))
     ax.plot([p.speed for p in points], [p.friction for p in points], "o", color=colour)
     return law
@@ -110,19 +130,77 @@ def _mark_slopes(ax: Axes, speed: np.ndarray, law: np.ndarray) -> None:
         )
 
 
+def sentence(found: FrictionMap) -> str:
+    """How friction goes with the speed, of the coldest air."""
+    ambient = found.ambients[0]
+    points = found.at(ambient)
+    first, last = points[0], points[-1]
+    speeds = f"from {number(first.speed, AT_TOP)} to {number(last.speed, AT_TOP)} m/s"
+    air = f"in air of {number(ambient)}\u00a0°C"
+    if len(points) == 1:
+        return f"Friction is {_at(first)}, {air}."
+    if found.is_flat(ambient):
+        told = number(first.friction, AT_TOP)
+        dry = "" if laws_of(found) else ": the contact is dry"
+        return f"Friction is {told} at all {len(points)} speeds {speeds}, {air}{dry}."
+    lowest = found.regimes(ambient)["minimum"]
+    if lowest is None:
+        goes = "falls" if last.friction < first.friction else "rises"
+        return f"Friction {goes} from {_at(first)} to {_at(last)}, {air}."
+    least = f"{number(lowest['friction'], AT_TOP)} at {number(lowest['speed'], AT_TOP)} m/s"
+    return f"Friction falls from {_at(first)} to {least} and rises to {_at(last)}, {air}."
+
+
+def _at(point: SteadySliding) -> str:
+    return f"{number(point.friction, AT_TOP)} at {number(point.speed, AT_TOP)} m/s"
+
+
+def tiles(found: FrictionMap) -> list[tuple[str, str]]:
+    """Up to four figures, over all temperatures of the air."""
+    least, *_, largest = sorted((*found.points, found.points[0]), key=lambda each: each.friction)
+    told = [
+        (f"{words} friction, at {number(point.speed, AT_TOP)} m/s", number(point.friction, AT_TOP))
+        for words, point in (("least", least), ("largest", largest))
+    ]
+    if largest.friction - least.friction <= SAME * largest.friction:
+        told = [("friction, at all speeds", number(least.friction, AT_TOP))]
+    regimes = [found.regimes(ambient) for ambient in found.ambients]
+    falls = [row["steepest_fall"]["slope"] for row in regimes if row["steepest_fall"]]
+    if falls:
+        told.append(("steepest slope over a decade", _slope(min(falls), 2)))
+    warmest = max(point.interface_degC for point in found.points)
+    return [*told, ("warmest contact", f"{number(warmest, AT_TOP)} °C")]
+
+
+def _row(found: FrictionMap, ambient: float) -> dict[str, Any]:
+    """The regimes of a temperature, and what stands where there is none."""
+    row = found.regimes(ambient)
+    end = "the same at all speeds" if found.is_flat(ambient) else "at an end of the speeds"
+    return row | {"no_slope": found.no_slope(ambient), "no_minimum": end}
+
+
+def _slope(slope: float, digits: int = 3) -> str:
+    """With its sign, unless it is 0."""
+    told = f"{slope:+z.{digits}f}".replace("-", "−")
+    return "0" if not told.strip("+0.") else told
+
+
 def page(found: FrictionMap, picture: Picture, command: str) -> str:
     """HTML of a map, its figure, and the command line that made it."""
     return render(
         "friction_map.html.j2",
         "cosim.studies.friction_map",
         name=found.scenario.name,
+        sentence=sentence(found),
+        tiles=tiles(found),
         speeds=len({point.speed for point in found.at(found.ambients[0])}),
         duration=found.duration,
-        regimes=[found.regimes(ambient) for ambient in found.ambients],
+        regimes=[_row(found, ambient) for ambient in found.ambients],
         points=found.points,
         failed=found.failed,
         laws=laws_of(found),
         picture=picture,
+        slope_text=_slope,
         scenario=found.scenario.to_toml(),
         command=command,
     )

@@ -3,6 +3,7 @@
 import argparse
 import csv
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 from cosim import read_scenario
 from cosim.cli.studies import friction_map as friction_regimes_command
+from cosim.report.style import shown
 from cosim.studies.friction_map import (
     FrictionMap,
     SteadySliding,
@@ -20,6 +22,7 @@ from cosim.studies.friction_map import (
 )
 from cosim.studies.friction_map import map as map_module
 from cosim.studies.friction_map.laws import conducted_share, laws_of
+from cosim.studies.friction_map.page import draw_map, page, tiles
 
 CASE = read_scenario("melting_friction").changed(
     {"ice.radial_elements": 2, "ice.axial_elements": 3, "belt.cell_length": 4e-3}
@@ -135,3 +138,64 @@ def test_a_run_that_was_interrupted_ends_the_map(monkeypatch):
     monkeypatch.setattr(map_module, "run_scenario", lambda case: stopped)
     with pytest.raises(KeyboardInterrupt):
         friction_map(CASE, [0.1, 0.2], [-8.0], 0.1)
+
+
+DRY = read_scenario("reference").changed({"ice.radial_elements": 2, "ice.axial_elements": 3})
+SPEEDS = (0.05, 0.1, 0.2, 0.5)
+
+
+@pytest.fixture(scope="module")
+def dry():
+    return friction_map(DRY, SPEEDS, [-10.0], 1.0)
+
+
+def test_a_dry_block_slides_at_the_speed_of_the_belt(dry):
+    """Else 0.05 to 0.5 m/s, at which blocks that swing are a little slower, were no decade."""
+    assert [each.speed for each in dry.points] == pytest.approx(SPEEDS, rel=1e-3)
+    fall = dry.regimes(-10.0)["steepest_fall"]
+    assert fall["slope"] == pytest.approx(0.0, abs=1e-3)
+    assert dry.regimes(-10.0)["minimum"] is None  # of rounding
+
+
+def test_a_line_that_is_flat_fills_its_picture(dry):
+    (axes,) = shown(draw_map, dry).axes
+    assert axes.get_yscale() == "linear" and axes.get_ylim()[0] == 0.0
+    left, right = axes.get_xlim()
+    assert left > SPEEDS[0] / 4.0 and right < SPEEDS[-1] * 4.0
+    text = page(dry, draw_map(dry), "command")
+    assert "Friction is 0.209 at all 4 speeds from 0.05 to 0.5 m/s" in text
+    assert "the contact is dry" in text and "less than a decade" not in text
+    assert "Dry friction alone" in text and "−0 " not in text
+
+
+def flowing(*speeds):
+    return FrictionMap(CASE, 2.0, tuple(point(speed) for speed in speeds))
+
+
+def test_numbers_at_a_logarithmic_axis_are_in_full():
+    (axes,) = shown(draw_map, flowing(0.05, 0.1)).axes
+    axes.figure.canvas.draw()
+    assert axes.get_yscale() == "log"
+    said = [
+        label.get_text()
+        for which in ("major", "minor")
+        for label in axes.get_yticklabels(which=which)
+    ]
+    assert said and not any("10^" in text for text in said)
+
+
+def test_why_there_is_no_slope():
+    assert flowing(0.05, 0.1).no_slope(-8.0) == "less than a decade of speeds"
+    assert flowing(0.05, 0.5).no_slope(-8.0) == "fewer than 4 speeds in a decade"
+
+
+def test_the_page_begins_with_a_sentence_a_picture_and_figures():
+    found = FrictionMap(
+        CASE, 2.0, tuple(replace(point(v), friction=f) for v, f in ((0.1, 0.3), (1, 0.1), (9, 0.2)))
+    )
+    text = page(found, draw_map(found), "command")
+    places = [
+        text.index(each) for each in ("<h1>Friction falls", "<figure", 'class="tiles"', "<h2")
+    ]
+    assert places == sorted(places) and 2 <= len(tiles(found)) <= 4
+    assert "rises to 0.2 at 9 m/s, in air of −8\u00a0°C." in text
