@@ -234,12 +234,3 @@ def _outlive_no(parent: int) -> None:
     while os.getppid() == parent:
         time.sleep(LOOK_SECONDS)
     os._exit(1)  # the parent was killed; it would be waited for, for ever
-
-
-def _look_after(parent: int) -> None:
-    """Begin the life of a process of joblib's: it ends with the one that started it."""
-    threading.Thread(target=_outlive_no, args=(parent,), daemon=True).start()
-
-
-#: Arguments of joblib.Parallel; a process of it would wait for one that was killed, for ever.
-ENDING_WITH_PARENT: dict[str, Any] = {"initializer": _look_after, "initargs": (os.getpid(),)}

@@ -111,20 +111,20 @@ def test_an_interrupt_ends_a_call_apart(tmp_path):
 
 
 KILLED = """
-import os, signal, time
-from joblib import Parallel, delayed
-from cosim.processes import ENDING_WITH_PARENT
+import os, time
+from cosim.processes import processes
 
 def work(place):
     open(os.path.join(place, str(os.getpid())), "w").close()
     time.sleep(600.0)
 
-Parallel(n_jobs=2, **ENDING_WITH_PARENT)(delayed(work)(PLACE) for _ in range(2))
+with processes(2) as mapped:
+    list(mapped(work, [(PLACE,)] * 2))
 """
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="looks in /proc")
-def test_workers_of_joblib_end_with_a_parent_that_was_killed(tmp_path):
+def test_workers_end_with_a_parent_that_was_killed(tmp_path):
     """They would wait for it, for ever."""
     place, script = tmp_path / "there", tmp_path / "killed.py"
     place.mkdir()
