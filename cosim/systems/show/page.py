@@ -65,7 +65,7 @@ def sentence(numbers: Mapping[str, Any]) -> str:
     if flows and not ended and missing <= TAKEN_UP * abs(handed):
         ended = f", and all of the {number(handed, 3)} J handed over was taken up"
     left = "; ".join(
-        f"from {_seconds(each['since'])} on {each['unit']} moves as no rig does: {each['says']}"
+        f"from {_seconds(each['since'])} on, {each['unit']} moves as no rig does: {each['says']}"
         for each in numbers["beyond_rig"]
     )
     return f"{told}{ended}{f'; but {left}' if left else ''}."
