@@ -150,7 +150,8 @@ def test_it_never_scrolls_sideways(browser, page, width):
 def test_paper_has_what_the_scripts_draw_without_what_is_pressed(opened):
     opened.command("Emulation.setEmulatedMedia", media="print")
     shown = opened.js(
-        "return ['.stage', '.stage button:not(.key)', '.stage .key'].map((name) => [...document.querySelectorAll("
+        "return ['.stage', '.stage button:not(.key)', '.stage .key']"
+        ".map((name) => [...document.querySelectorAll("
         "'figure.live ' + name)].map((each) => getComputedStyle(each).display))"
     )
     opened.command("Emulation.setEmulatedMedia", media="")
