@@ -98,7 +98,8 @@ class Models:
         numbers, settings, _ = self.free[-1]
         more = [*numbers, *contact_numbers(self.campaign, fastest)], settings
         rung = self.system.rung(self._added, scatter=False)
-        self._try("contact", "the contact is not a switch", more, rung)
+        text = "the contact is not ideal: friction falls gradually, and it creeps under load"
+        self._try("contact", text, more, rung)
 
     def _try_scatter(self, scatter: Scatter) -> None:
         self.scatter = scatter.seen

@@ -19,7 +19,11 @@ BESIDE_THE_MODEL = {
     "offset.speed": (1e2, "%", "surface faster than stated"),
     "offset.friction": (1e2, "%", "friction higher than in the other runs"),
     "offset.stiffness": (1e2, "%", "springs stiffer than stated"),
-    "offset.loading": (1e3, "ms", "time of loading by which a contact lets go sooner"),
+    "offset.loading": (
+        1e3,
+        "ms",
+        "time by which the contact breaks away sooner than an ideal one",
+    ),
     "scatter.break_away": (1e2, "%", "standard deviation of what a stick holds to what others do"),
     "springs.stiffness": (1.0, "", "stiffness over what is stated"),
     "measurement.scale": (1e2, "%", "x and y written too large by the camera"),

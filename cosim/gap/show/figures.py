@@ -146,7 +146,7 @@ def _whole_run(figure: Figure) -> Live:
 @picture("run", (
     "The run with the largest gap, at its worst cycles: measured (points), the user's model "
     "(before), and the model with all findings (after). At dotted lines the models restart from "
-    "the data."
+    "the data; what comes before the first of a run is not compared."
 ), live=_whole_run)  # fmt: skip
 def draw_run(gap: Gap) -> Figure:
     """Measured, before and after over time."""
@@ -159,7 +159,8 @@ def draw_run(gap: Gap) -> Figure:
 
 @picture("overlay", (
     "Every run: measured (points), the user's model (before) and the model with all findings "
-    "(after). At dotted lines the models restart from the data."
+    "(after). At dotted lines the models restart from the data; "
+    "what comes before the first is not compared."
 ), live=live_of)  # fmt: skip
 def draw_overlay(gap: Gap, channel: str) -> Figure:
     """A row for each run."""

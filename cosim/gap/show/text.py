@@ -8,7 +8,7 @@ from typing import Any
 from cosim.gap.judge import NOTHING_MISSING
 from cosim.gap.quantities import TABLES, Quantity, digits, quantity
 from cosim.gap.quantities import percent as percent
-from cosim.gap.rates import answer_text
+from cosim.gap.rates import NONE, answer_text
 from cosim.gap.result import Gap, Ranked
 
 #: Beginning of a measurement fault's name.
@@ -81,11 +81,14 @@ def rates_lines(gap: Gap) -> list[str]:
     """What else would have led to this answer, and how often."""
     said = answer_text(gap.effects) if gap.effects else gap.verdict
     return [
-        f"If it were {truth}, these runs would say {said} {answers[said]} times in "
-        f"{gap.rates.each}."
+        f"If {_if(truth)}, these runs would say {said} {answers[said]} times in {gap.rates.each}."
         for truth, answers in (gap.rates.table.items() if gap.rates else ())
         if truth not in gap.effects and gap.rates and answers.get(said, 0) > 0
     ]
+
+
+def _if(truth: str) -> str:
+    return "nothing were missing" if truth == NONE else f"it were {truth}"
 
 
 def next_experiment(proposed: Mapping[str, Any]) -> str:
