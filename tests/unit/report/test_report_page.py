@@ -3,11 +3,13 @@
 import json
 import re
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 from test_report_dataset import coupled_dataset, mechanics_dataset
 from test_report_figures import cut_short, with_gaps
 
+from cosim.report import page as page_module
 from cosim.report import write_results
 from cosim.report.figures import plates_of
 from cosim.report.page import number
@@ -191,3 +193,16 @@ def test_the_page_says_how_warm_it_gets_in_the_end():
     rows = [row for table in number_tables(summary(dataset)) for row in table.rows]
     assert ("its rise over the air", told(ends["interface_rise"], "K")) in rows
     assert any(words == "from then on within 5 % of that rise" for words, _ in rows)
+
+
+def test_every_page_has_the_dark_look_of_the_shared_style_and_none_of_its_own():
+    """But the explorer: its drawings and keys have colours for white paper."""
+    package = Path(page_module.__file__).parents[1]
+    templates = [
+        path for path in package.rglob("*.j2") if "page.html.j2" in path.read_text("utf-8")
+    ]
+    assert len(templates) > 10
+    own = [path.name for path in templates if "block dark" in path.read_text("utf-8")]
+    assert own == ["explorer.html.j2"]
+    assert not [path for path in templates if "prefers-color-scheme" in path.read_text("utf-8")]
+    assert "prefers-color-scheme: dark" in page_module.asset("page.html.j2")
