@@ -200,6 +200,7 @@ def test_parts_of_an_answer_cannot_contradict(names, gaps, share, gains, others)
     answer = SimpleNamespace(
         verdict=verdict.verdict,
         effects=verdict.effects,
+        classes=verdict.classes,
         ladder=ladder,
         share=share,
         exponents=(),
@@ -257,7 +258,12 @@ def test_what_moves_the_block_across_has_a_name_and_no_curve():
     part = Part(across, None, (), (Number(key, 0.1, None, -20.0, 20.0),), {})
     fitted = SimpleNamespace(values={key: 0.995}, sd={key: 0.00638}, at_bound={})
     gap = SimpleNamespace(
-        verdict="named", effects=("turning_surface",), exponents=(), doubts=(), extended=fitted
+        verdict="named",
+        effects=("turning_surface",),
+        exponents=(),
+        classes=(),
+        doubts=(),
+        extended=fitted,
     )
     assert sentence_of(gap, [part]).endswith(
         "turning_surface, curvature = 0.995 1/m (0.985 to 1.005)."
