@@ -100,13 +100,13 @@ def test_the_system_is_one(tmp_path):
         assert [unit.file.name for unit in system.units] == [NATIVE, THERMAL]
 
 
-def test_what_is_typed_next_makes_a_rig_and_runs_it(at_home):
+def test_what_is_typed_next_makes_a_rig_and_runs_it(tmp_path):
     """In the environment that runs the tests, in place of the one that the line before made."""
     for command in SHELL[2].splitlines()[1:]:
         done = subprocess.run([sys.executable, "-m", "cosim", *command.split()[1:]],
-                              capture_output=True, text=True)  # fmt: skip
+                              capture_output=True, text=True, cwd=tmp_path)  # fmt: skip
         assert done.returncode == 0, done.stderr
-    assert Path("results/my_rig/report.html").exists()
+    assert (tmp_path / "results" / "my_rig" / "report.html").exists()
 
 
 def test_ci_runs_the_line_that_tests():

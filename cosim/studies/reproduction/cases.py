@@ -148,7 +148,7 @@ def scheme_figures(case: Case, faults: Faults, seeds: tuple[int, ...] = SEEDS) -
 def exact_motion(case: Case, duration: float = SETTLING + WINDOW, **model: Any) -> Motion:
     """A whole run of the exact model; model: of `exact_parameters`. ValueError where it ends early.
 
-    >>> exact_motion(DATASET_1, 1.0).time[-1]
+    >>> float(exact_motion(DATASET_1, 1.0).time[-1])
     1.0
     """
     return _exact_motion(exact_parameters(case, **model), duration)
