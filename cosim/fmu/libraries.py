@@ -81,9 +81,9 @@ def prebuild(
     name: str,
     guid: str,
     sources: Sources,
-    platforms: Sequence[Platform] = PLATFORMS,
+    platforms: Sequence[Platform],
 ) -> Path:
-    """Compile for every platform that can be, for a wheel; the folder that it is to bring along."""
+    """Compile for platforms that can be, for a wheel; the folder that it is to bring along."""
     target = folder / guid
     compile_into(target, sources(), possible(platforms), name, file=_file)
     return target

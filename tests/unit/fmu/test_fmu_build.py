@@ -90,7 +90,7 @@ def test_one_library_serves_both_native_units(built, tmp_path):
 
 def test_a_wheel_brings_a_library_for_this_platform(tmp_path):
     own = this_platform()
-    made = libraries.prebuild(tmp_path, native.NAME, native.guid(), native.sources)
+    made = libraries.prebuild(tmp_path, native.NAME, native.guid(), native.sources, [own])
     assert made.name == native.guid()
     assert (made / f"{own.name}{own.suffix}").stat().st_size > 50_000
 
