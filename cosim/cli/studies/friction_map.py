@@ -127,7 +127,7 @@ def _print(regimes: dict[str, Any]) -> None:
         slope = regimes[key]
         if slope is not None:
             print(
-                f"    {name}: slope {slope['slope']:+.4f} "
+                f"    {name}: slope {round(slope['slope'], 4) + 0.0:+.4f} "
                 f"from {slope['low']:.3g} to {slope['high']:.3g} m/s"
             )
     lowest = regimes["minimum"]
