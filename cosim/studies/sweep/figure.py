@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosim.names import nearest
+from cosim.report.page import unit_text
 from cosim.report.style import BLUE, FAINT_BLUE, INK, LIGHT_BLUE, at_least, picture
 
 from .errors import SweepError
@@ -29,8 +30,12 @@ STILL = 1e-3
 MOST_LINES = 7
 HALF, BAND = LIGHT_BLUE, FAINT_BLUE
 COLOURS = matplotlib.colormaps["viridis"]
-PANEL = (2.9, 1.75)  # inches
-SMALLEST_SPAN = 0.05
+#: Inches: height of a panel, width of the figure, which is the page's.
+HEIGHT, WIDTH = 1.75, 10.0
+#: Panels side by side where one key is varied.
+ABREAST = 3
+#: Of the values: what varies by less is a nearly level line, and no zigzag over the whole panel.
+SMALLEST_SPAN = 0.25
 
 
 def shown_features(dataset: xr.Dataset, asked: Sequence[str] = ()) -> tuple[list[str], list[str]]:
@@ -91,7 +96,7 @@ def still_sentence(dataset: xr.Dataset, names: Sequence[str]) -> str:
     " Where lines lie on each other, the thinner is on the wider.",
 )
 def draw_sweep(dataset: xr.Dataset, features: Sequence[str] = ()) -> Figure:
-    """One row for each feature, one column for each varied dimension (two columns for one).
+    """One row for each feature, one column for each varied dimension (three columns for one).
 
     features: by name; those that vary when left out. With few lines in a panel there is one for
     each combination of the other dimensions, else their median, the middle half of them (darker)
@@ -108,7 +113,7 @@ def draw_sweep(dataset: xr.Dataset, features: Sequence[str] = ()) -> Figure:
         row[0].set_ylabel(ALL[feature].label)
         for axes, dim in zip(row, dims, strict=True) if feature == "frequency" else ():
             _mark_none(axes, dataset, dim)
-    columns = len(dims) if len(dims) > 1 else min(2, len(names))
+    columns = len(dims) if len(dims) > 1 else min(ABREAST, len(names))
     for column, dim in enumerate(dims):
         lowest = len(names) - (1 if len(dims) > 1 else columns)
         for i, axes in enumerate(panels[:, column]):
@@ -116,7 +121,7 @@ def draw_sweep(dataset: xr.Dataset, features: Sequence[str] = ()) -> Figure:
         _explain(panels[0, column], dataset, dim, dims)
     complete = int(np.count_nonzero(dataset["status"] == 0))
     said = f"{dataset.attrs['title']}: {complete} of {dataset['status'].size} combinations"
-    title = textwrap.fill(said, 12 + 32 * columns, break_long_words=False)
+    title = textwrap.fill(said, 100, break_long_words=False)
     figure.suptitle(title, x=0.01, ha="left")
     return figure
 
@@ -140,10 +145,9 @@ def _mark_none(axes: Axes, dataset: xr.Dataset, dim: str) -> None:
 def _panels(dims: list[str], features: int) -> tuple[Figure, NDArray[Any]]:
     """A figure and its panels (features, dims)."""
     several = len(dims) > 1
-    columns = len(dims) if several else min(2, features)
+    columns = len(dims) if several else min(ABREAST, features)
     rows = features if several else math.ceil(features / columns)
-    width, height = PANEL
-    figure = Figure((1.0 + width * columns, 1.2 + height * rows), layout="constrained")
+    figure = Figure((WIDTH, 1.2 + HEIGHT * rows), layout="constrained")
     share: Literal["row", "none"] = "row" if several else "none"
     panels = figure.subplots(rows, columns, sharex="col", sharey=share, squeeze=False)
     if several:
@@ -156,6 +160,8 @@ def _panels(dims: list[str], features: int) -> tuple[Figure, NDArray[Any]]:
 
 
 def _draw(axes: Axes, values: xr.DataArray, dim: str) -> None:
+    if not np.isfinite(values).any():
+        axes.text(0.5, 0.5, "none in these runs", ha="center", transform=axes.transAxes)
     places = _places(values[dim])
     table = values.transpose(..., dim).values.reshape(-1, places.size)
     numeric = _is_numeric(values[dim])
@@ -240,8 +246,14 @@ def _explain(axes: Axes, dataset: xr.Dataset, dim: str, dims: list[str]) -> None
 
 def titled(coordinate: xr.DataArray) -> str:
     """A dimension with its unit."""
-    unit = coordinate.attrs["units"].replace("degC", "°C")
-    return str(coordinate.name) if unit == "1" else f"{coordinate.name} [{unit}]"
+    unit = unit_of(coordinate).strip()
+    return f"{coordinate.name} [{unit}]" if unit else str(coordinate.name)
+
+
+def unit_of(coordinate: xr.DataArray) -> str:
+    """As it stands behind a number; nothing for a plain number or a name."""
+    unit = unit_text(coordinate.attrs["units"])
+    return "" if unit == "1" else f" {unit}"
 
 
 def _shown(value: object) -> str:

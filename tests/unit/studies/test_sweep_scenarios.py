@@ -16,7 +16,7 @@ from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.coupled import as_trajectory, changed
 from cosim.studies.sweep.figure import check_shown, shown_features, still_sentence
 from cosim.studies.sweep.grid import product_grid
-from cosim.studies.sweep.page import records
+from cosim.studies.sweep.page import records, sentence, tiles
 
 LAYERS = [
     {"thickness": 1e-3, "density": 2400.0, "heat_capacity": 800.0, "conductivity": 1.5},
@@ -159,7 +159,10 @@ def test_the_command_leaves_a_page_and_a_table(tmp_path, capsys):
     assert [row["surface.speed"] for row in rows] == [0.15, 5.0]
     assert rows[1]["frequency"] == 0.0 and rows[1]["slip_time"] is None
     text = (out / "report.html").read_text()
-    assert "In 1 of 2 runs the block does not stick and slip" in text
+    at = "sticks and slips at surface.speed = 0.15 m/s and slides at surface.speed = 5 m/s."
+    assert f"<h1>The block {at}</h1>" in text
+    places = [text.index(each) for each in ("<h1>", "<figure", 'class="tiles"', "<h2")]
+    assert places == sorted(places)
     assert 'class="warning"' not in text
     assert text.count("<img") == 1 and 'src="data:image/png' in text
     assert len((out / "sweep.csv").read_text().splitlines()) == 3
@@ -176,3 +179,26 @@ def test_nothing_varied_is_refused(tmp_path):
     words = ["reference", "slab", "--test-plan", "-o", str(tmp_path / "out")]
     with pytest.raises(sweep_command.refused(), match="--test-plan: is of one scenario"):
         sweep_command.execute(parser.parse_args(words))
+
+
+def run_row(mass, frequency, share=0.9, status="complete"):
+    return {"rig.mass": mass, "frequency": frequency, "slip_share": share, "status": status,
+            "x_std": 1e-3 * mass}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("rows", "told"),
+    [
+        ([run_row(1, 2.0), run_row(2, 1.5)], "sticks and slips in all 2 runs."),
+        ([run_row(1, 2.0), run_row(2, 0.0, 1.0), run_row(3, 0.0, 0.0)],
+         "sticks and slips at rig.mass = 1 kg, slides at rig.mass = 2 kg and never slips at "
+         "rig.mass = 3 kg."),
+        ([run_row(1, 0.0, 1.0), run_row(2, 1.5), run_row(3, 0.0, 1.0), run_row(4, 2.0),
+          run_row(5, 0.0, 1.0), run_row(6, np.nan, np.nan, "failed")],
+         "slides in 3 of 5 runs and sticks and slips in 2; 1 failed."),
+        ([run_row(1, np.nan, np.nan, "failed")], "None of 1 runs is complete."),
+    ],
+)  # fmt: skip
+def test_the_page_says_first_what_the_block_does_where(rows, told):
+    assert sentence(rows, {"rig.mass": " kg"}).removeprefix("The block ") == told
+    assert len(tiles(rows, {"rig.mass": " kg"})) <= 4
