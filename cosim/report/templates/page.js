@@ -1,4 +1,4 @@
-// On every page: boxes that scroll can be reached with the keyboard, and paper shows what is folded.
+// On every page: boxes that scroll can be reached with the keyboard.
 "use strict";
 (() => {
   const boxes = document.querySelectorAll(".wide, pre, figure.still");
@@ -16,13 +16,4 @@
   }
   reachable();
   addEventListener("resize", reachable);
-
-  let opened = [];
-  addEventListener("beforeprint", () => {
-    opened = [...document.querySelectorAll("details:not([open])")];
-    for (const each of opened) each.open = true;
-  });
-  addEventListener("afterprint", () => {
-    for (const each of opened) each.open = false;
-  });
 })();

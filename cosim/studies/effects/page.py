@@ -1,9 +1,12 @@
-"""The catalogue as a page: each law as a curve, and the motion with and without it."""
+"""The catalogue as a page: all laws at a glance, then each, with the motion with and without it."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import cache
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -15,7 +18,7 @@ from stickslip.friction.law_curves import LawCurve, axis_of, law_curve
 
 from cosim.report.live import Curve, Live, Panel, Series, on_one_axis, over_time
 from cosim.report.page import Picture, render, unit_text
-from cosim.report.style import BLUE, GREY, picture
+from cosim.report.style import BLUE, GREY, panels, picture
 from cosim.studies.effects import allowed
 
 INTERVAL = 0.005  # s
@@ -29,21 +32,63 @@ PLAIN: dict[str, dict[str, Any]] = {
 CHANNELS = {"x": ("x [mm]", 1e3), "y": ("y [mm]", 1e3), "phi": ("φ [°]", 180.0 / np.pi)}
 #: Part of the largest difference between two motions that a channel must have to be shown.
 SHOWS = 0.2
+#: Panels side by side of the picture of all.
+ABREAST = 5
 CASES: dict[str, Case] = {effect.id: effect.case for effect in EFFECTS}
 
 
 def page(entries: list[dict[str, Any]], pictures: dict[str, Picture]) -> str:
-    """HTML of the entries of `described`, each with its picture inside."""
-    rooms = dict.fromkeys(entry["enters"] for entry in entries)
+    """HTML of the entries of `described`, each with its picture inside and folded."""
+    names = dict.fromkeys(entry["enters"] for entry in entries)
+    rooms = {name: [each for each in entries if each["enters"] == name] for name in names}
+    drawn = [each["id"] for inside in rooms.values() for each in inside if each["id"] in pictures]
     return render(
         "effects.html.j2",
         "cosim.studies.effects",
         entries=entries,
-        rooms={room: [each for each in entries if each["enters"] == room] for room in rooms},
+        rooms=rooms,
+        sentence=sentence(rooms),
+        overview=draw_overview(drawn) if len(drawn) >= ABREAST else None,
         pictures=pictures,
         laws={name: law_figure(name) for name in pictures},
         allowed=allowed,
     )
+
+
+def sentence(rooms: Mapping[str, Sequence[Any]]) -> str:
+    """How many effects there are of what."""
+    count = sum(map(len, rooms.values()))
+    told = ", ".join(f"{len(inside)} of the {name}" for name, inside in rooms.items())
+    effects = f"{count} effect{'s' * (count != 1)} can be added to the plain model"
+    return f"{effects}: {told.replace('of the friction', 'of friction')}."
+
+
+@picture(
+    "overview",
+    "What each effect changes: without it (grey) and with it (blue). Where an effect is no law over"
+    " one number, the motion.",
+    alt="A small panel for each effect: its law, or the motion, without it and with it.",
+)
+def draw_overview(effect_ids: Sequence[str]) -> Figure:
+    """A small panel an effect."""
+    rows = math.ceil(len(effect_ids) / ABREAST)
+    figure, axes = panels(rows, ABREAST, height=1.6, width=10.0)
+    for ax, name in zip_longest(axes.flat, effect_ids):
+        if name is None:
+            ax.set_visible(False)
+            continue
+        shown = motion(name, True)
+        curves = [_curve(name, on, shown) for on in (False, True)]
+        if curves[1] is not None:
+            _draw_law(ax, curves)
+        else:
+            channel = channels_shown(motion(name, False), shown, CASES[name].window[0])[0]
+            _draw_motion(ax, name, channel)
+        ax.set_title(name, fontsize=8.0)
+        for axis in (ax.xaxis, ax.yaxis):
+            axis.label.set_size(7.0)
+        ax.tick_params(labelsize=6.5)
+    return figure
 
 
 def effect_figure(effect_id: str) -> Picture:
@@ -104,9 +149,8 @@ def law_figure(effect_id: str) -> Picture | None:
 
 
 def _draw(effect_id: str) -> Figure:
-    begin, end = CASES[effect_id].window
-    plain, shown = motion(effect_id, False), motion(effect_id, True)
-    channels = channels_shown(plain, shown, begin)
+    shown = motion(effect_id, True)
+    channels = channels_shown(motion(effect_id, False), shown, CASES[effect_id].window[0])
     curves = [_curve(effect_id, on, shown) for on in (False, True)]
     figure = Figure(figsize=(10.0, max(2.6, 0.6 + 1.8 * len(channels))), layout="constrained")
     right: FigureBase = figure
@@ -116,16 +160,22 @@ def _draw(effect_id: str) -> Figure:
         _draw_law(left.subplots(), curves)
     axes = right.subplots(len(channels), 1, sharex=True, squeeze=False)[:, 0]
     for ax, name in zip(axes, channels, strict=True):
-        label, factor = CHANNELS[name]
-        for said, run, colour in (("without", plain, GREY), ("with", shown, BLUE)):
-            late = run.time >= begin
-            ax.plot(run.time[late], factor * run[name][late], color=colour, label=said)
-        ax.set(ylabel=label, xlim=(begin, end))
+        _draw_motion(ax, effect_id, name)
+        ax.label_outer()
     axes[0].set_title("motion")
-    axes[-1].set_xlabel("time [s]")
     handles, labels = axes[0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper right", ncols=2)
     return figure
+
+
+def _draw_motion(ax: Axes, effect_id: str, channel: str) -> None:
+    begin, end = CASES[effect_id].window
+    label, factor = CHANNELS[channel]
+    for said, on, colour in (("without", False, GREY), ("with", True, BLUE)):
+        run = motion(effect_id, on)
+        late = run.time >= begin
+        ax.plot(run.time[late], factor * run[channel][late], color=colour, label=said)
+    ax.set(xlabel="time [s]", ylabel=label, xlim=(begin, end))
 
 
 def _draw_law(ax: Axes, curves: Sequence[LawCurve | None]) -> None:
@@ -173,6 +223,7 @@ def channels_shown(plain: Trajectory, shown: Trajectory, begin: float) -> list[s
     return [name for name in CHANNELS if differ[name] >= SHOWS * max(differ.values())]
 
 
+@cache
 def motion(effect_id: str, on: bool) -> Trajectory:
     """The run of a case; with the effect, the interface is as warm as the case says."""
     case = CASES[effect_id]

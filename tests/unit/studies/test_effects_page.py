@@ -7,6 +7,7 @@ import pytest
 from stickslip import EFFECTS
 
 from cosim.cli import main
+from cosim.report.style import shown
 from cosim.studies.effects import page as effects_page
 from cosim.studies.effects.page import CASES
 
@@ -35,11 +36,20 @@ def test_command(tmp_path, capsys):
     html = (folder / "effects.html").read_text(encoding="utf-8")
     assert html.count('<figure class="live"') == 2 and "http" not in html
     assert html.count("data:image/png;base64,") == 2, "the laws"
+    assert "<h1>2 effects can be added to the plain model: 2 of friction.</h1>" in html
+    assert html.count('<details class="index"><summary>') == 2, "an index that folds"
     assert (folder / "run_in.png").read_bytes().startswith(b"\x89PNG")
     assert main(["effects", "--json"]) == 0
     entries = json.loads(capsys.readouterr().out)
     assert [entry["id"] for entry in entries] == IDS
     assert all(parameter["unit"] for entry in entries for parameter in entry["parameters"])
+
+
+def test_all_effects_are_seen_at_a_glance():
+    """A panel each, with two curves: nobody has to unfold them to compare."""
+    seen = [ax for ax in shown(effects_page.draw_overview, IDS).axes if ax.get_visible()]
+    assert [ax.get_title(loc="left") for ax in seen] == IDS
+    assert all(len(ax.lines) >= 2 for ax in seen)
 
 
 @pytest.mark.parametrize("drawn", [0, 1])
