@@ -142,24 +142,6 @@ def test_co_simulation_is_that_of_fmi_2_to_the_last_bit(fmu, fmu3, case):
     assert old.tobytes() == new.tobytes()
 
 
-def test_model_exchange_converges_to_the_models_own_events(fmu3):
-    own = simulate(Parameters(surface={"speed": 0.15}), duration=5.0).events
-    for tolerance in (1e-4, 1e-6, 1e-8):
-        result = fmpy.simulate_fmu(
-            str(fmu3),
-            fmi_type="ModelExchange",
-            relative_tolerance=tolerance,
-            stop_time=5.0,
-            output_interval=0.01,
-            record_events=True,
-            start_values=values({}),
-            output=["mode"],
-        )
-        at = np.flatnonzero(np.diff(result["mode"])) + 1
-        assert list(result["mode"][at]) == list(own[:, 1])
-        assert np.abs(result["time"][at] - own[:, 0]).max() < 100.0 * tolerance + 5e-7
-
-
 # --- early return ---
 
 
@@ -249,38 +231,6 @@ def driven(block, steps, drive):
                 events.append(block.time)
                 block.handle_event()
     return events
-
-
-@pytest.mark.parametrize("case", ["line", "plane", "bristles", "run-up", "strengthening"])
-def test_inputs_that_go_on_are_taken_up_where_an_event_has_cut_them(unit, case):
-    """What inputs become from there on differs a little; no slip is begun twice for that."""
-
-    def drive(time):
-        speed = values(CASES[case])["surface_speed"]
-        push = 0.05 * np.sin(3.0 * time)
-        return {"surface_speed": speed * (1.0 + 0.1 * np.sin(time)), "external_force_x": push}
-
-    ends = []
-    for early in (False, True):
-        with unit.instance(events=True, early=early) as block:
-            block.begin(**(values(CASES[case]) | {"input.hold": 1}))
-            block.done("EnterStepMode")
-            events = driven(block, 400, drive)
-            assert len(set(events)) == len(events) and bool(events) is early
-            ends.append([*map(block.get, ("slip_count", "surface_travel", "x", "heat"))])
-    assert ends[0][0] == ends[1][0] > 0
-    np.testing.assert_allclose(ends[0], ends[1], rtol=0, atol=1e-6)
-
-
-def test_an_input_that_is_linear_is_followed_through_events_to_rounding(unit):
-    ends = []
-    for early in (False, True):
-        with unit.instance(events=True, early=early) as block:
-            block.begin(**{"input.hold": 1, "surface_speed": 0.1})
-            block.done("EnterStepMode")
-            driven(block, 400, lambda time: {"surface_speed": 0.1 + 0.01 * time})
-            ends.append([*map(block.get, ("slip_count", "surface_travel", "x"))])
-    np.testing.assert_allclose(ends[0], ends[1], rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(12))

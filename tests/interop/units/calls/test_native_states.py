@@ -1,13 +1,9 @@
-"""States of the native unit: taken at any time, put back, as bytes, in another process."""
+"""States of the native unit: taken at any time, put back, and as bytes."""
 
 import random
-import subprocess
-import sys
 from ctypes import byref, c_void_p
-from pathlib import Path
 
-import native_unit
-from native_unit import ERROR, OK, Instance
+from native_unit import Instance
 
 SETS, TIMES, AHEAD = 20, 50, 3  # 1000 states in all
 #: Blocks of which each run has some at random, with the least and the largest of each parameter.
@@ -105,67 +101,6 @@ def test_what_stands_where_a_state_is_put_need_not_be_one(unit):
         block.restore(made)
         block.forget(made)
         block.forget(state)
-
-
-def test_a_state_brings_its_phase_along(unit):
-    """Back before the initialisation, and back into a run that was ended or has failed."""
-    with unit.instance() as block:
-        instantiated = block.save()
-        block.set("rig.mass", 1.0)
-        block.begin()
-        running = block.save()
-        block.march(range(50), 0.01)
-        ahead = block.everything()
-        block.done("Terminate")
-        assert block.call("DoStep", 0.5, 0.01, 1) == ERROR
-        for _ in range(2):
-            block.restore(running)
-            block.march(range(50), 0.01)
-            assert block.everything() == ahead
-            assert block.call("DoStep", 0.0, 0.01, 1) == ERROR
-        block.restore(instantiated)
-        assert block.call(*block.set_arguments("rig.mass", 1.0)) == OK
-        block.begin()
-        block.march(range(50), 0.01)
-        assert block.everything() == ahead
-        block.forget(instantiated)
-        block.forget(running)
-
-
-CONTINUE = """
-import sys
-from pathlib import Path
-from native_unit import Unit
-fmu, folder, size, *states = sys.argv[1:]
-unit = Unit(Path(fmu), Path(folder))
-for state in states:
-    block = unit.instance()
-    block.restore(block.from_bytes(Path(state).read_bytes()))
-    block.march(range(40), float(size), float(Path(state).stem))
-    print(*block.everything())
-"""
-
-
-def test_states_go_on_alike_in_another_process(fmu, unit, tmp_path):
-    size, files, expected = 0.03125, [], []
-    for seed in range(5):
-        numbers = random.Random(100 + seed)
-        with unit.instance().begin(**drawn(numbers)) as block:
-            steps = numbers.randrange(1, 200)
-            block.march(range(steps), size)
-            files.append(tmp_path / f"{steps * size}.state")
-            files[-1].write_bytes(block.as_bytes(block.save()))
-            block.march(range(steps, steps + 40), size)
-            expected.append(block.everything())
-    done = subprocess.run(
-        [sys.executable, "-c", CONTINUE, *map(str, [fmu, tmp_path, size, *files])],
-        capture_output=True,
-        text=True,
-        check=False,
-        cwd=Path(native_unit.__file__).parent,
-    )
-    assert done.returncode == 0, done.stderr
-    assert [line.split() for line in done.stdout.splitlines()] == expected
 
 
 def test_any_damage_to_the_bytes_is_found(unit):

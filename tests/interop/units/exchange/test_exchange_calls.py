@@ -1,7 +1,6 @@
 """Model exchange: states, rates, inputs and parameters, and what is refused."""
 
 import ctypes
-import math
 
 import fmpy
 import numpy as np
@@ -204,47 +203,6 @@ def refused(call, *arguments):
     assert caught.value.status == fmi2Error
 
 
-def test_calls_out_of_turn(host):
-    unit, room = host.unit, (ctypes.c_double * host.states)()
-    continuous = [
-        (unit.completedIntegratorStep,),
-        (unit.setContinuousStates, room, host.states),
-    ]
-    out_of_turn = {
-        "instantiated": [(unit.newDiscreteStates,), (unit.setTime, 1.0), *continuous],
-        "event": [*continuous, (host.put, "rig.mass", 1.0), (host.put, "x", 1.0)],
-        "continuous": [
-            (unit.newDiscreteStates,),
-            (unit.enterContinuousTimeMode,),
-            (unit.setContinuousStates, room, host.states - 1),
-            (unit.setTime, math.nan),
-            (unit.getDerivatives, room, host.states + 1),
-            (host.put, "der(x)", 1.0),
-        ],
-    }
-    reach = {"instantiated": lambda: None, "event": host.initialise, "continuous": host.begin}
-    for phase, calls in out_of_turn.items():
-        for call, *arguments in calls:
-            unit.reset()
-            reach[phase]()
-            refused(call, *arguments)
-            assert host.log.take_errors()
-            refused(unit.enterEventMode)  # it has failed
-            host.log.take_errors()
-
-
-def test_rates_of_inputs_are_for_co_simulation(host):
-    """In model exchange an input is what the host sets at each time."""
-    reference = ctypes.byref(ctypes.c_uint(host.variables["surface_speed"].valueReference))
-    order, rate = ctypes.byref(ctypes.c_int(1)), ctypes.byref(ctypes.c_double(0.1))
-    function = host.unit.dll.fmi2SetRealInputDerivatives
-    function.argtypes = [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, *[ctypes.c_void_p] * 2]
-    host.begin()
-    assert function(host.unit.component, reference, 1, order, rate) == fmi2Error
-    assert "takes no derivative in model exchange" in str(host.log.take_errors())
-    assert host.description.coSimulation.canInterpolateInputs
-
-
 def test_one_interface_is_not_the_other(host):
     slave = FMU2Slave(
         guid=host.description.guid,
@@ -272,12 +230,3 @@ def _rates_of(slave, room, count):
     status = function(slave.component, room, count)
     if status:
         raise FMICallException("fmi2GetDerivatives", status)
-
-
-def test_a_state_that_is_no_number_is_refused_at_the_step(host):
-    host.begin()
-    x = host.x()
-    x[0] = math.nan
-    host.be_at(0.1, x)
-    refused(host.unit.completedIntegratorStep)
-    assert "not a finite number" in host.log.take_errors()

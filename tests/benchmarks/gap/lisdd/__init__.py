@@ -1,1 +1,0 @@
-"""A sample-split F-test of what a linear regression form of the model lacks, and its problem."""

@@ -1,0 +1,204 @@
+"""Which phase of an instance takes which call: each alone, and in any order, with states put back.
+
+Of both versions of FMI, for co-simulation and model exchange, as `phases` has it.
+"""
+
+import random
+from ctypes import byref, c_bool, c_double, c_int, c_int32, c_size_t, c_uint
+
+import numpy as np
+import pytest
+from native_unit import CO_SIMULATION, ERROR, MODEL_EXCHANGE, OK, EventInfo
+from phases import (
+    CO_SIMULATION_2,
+    CO_SIMULATION_3,
+    CONTINUOUS,
+    ENDED,
+    EVENT,
+    EXCHANGE_2,
+    EXCHANGE_3,
+    FAILED,
+    INITIALISING,
+    NEW,
+    STEPPING,
+)
+
+from cosim.fmu.exchange import INDICATORS, states
+
+INTERFACES = (CO_SIMULATION_2, EXCHANGE_2, CO_SIMULATION_3, EXCHANGE_3)
+STATES = [(each, phase) for each in INTERFACES for phase in each.phases]
+#: Where a call that is taken leads; others stay where they are.
+LEADS = {
+    "EnterInitializationMode": INITIALISING,
+    "ExitInitializationMode": EVENT,  # of FMI 2 in co-simulation: stepping
+    "EnterStepMode": STEPPING,
+    "EnterEventMode": EVENT,
+    "EnterContinuousTimeMode": CONTINUOUS,
+    "Terminate": ENDED,
+    "Reset": NEW,
+}
+SIZE, COUNT = 0.01, len(states())  # s; numbers of a state
+
+
+def said(value):
+    """Of a test's parameter."""
+    if isinstance(value, str):
+        return value
+    return f"{'exchange' if value.exchanges else 'co-simulation'} {value.version}"
+
+
+class Walk:
+    """An instance with what the standard says of it: its phase, its time, what has been set up."""
+
+    def __init__(self, units, interface):
+        self.interface, self.unit = interface, units[interface.version]
+        if interface.version == 2:
+            kind = MODEL_EXCHANGE if interface.exchanges else CO_SIMULATION
+            self.block = self.unit.instance(kind=kind)
+        else:
+            self.block = self.unit.instance(exchanges=interface.exchanges, events=True, early=True)
+        self.known = (NEW, 0.0, False)
+
+    def call(self, function):
+        """Make a call that makes sense, and look at the answer; whether it was taken."""
+        phase, time, is_set_up = self.known
+        is_twice = function == "SetupExperiment" and is_set_up
+        expected = phase in self.interface.taken[function] and not is_twice
+        given, reached = self._arguments(function, time)
+        self.block.messages.clear()
+        answer = self.block.call(function, *given)
+        assert answer == (OK if expected else ERROR), (function, self.known, self.block.messages)
+        assert len(self.block.messages) == (answer == ERROR)
+        if not expected:
+            phase = FAILED
+        elif function == "ExitInitializationMode" and self.interface is CO_SIMULATION_2:
+            phase = STEPPING
+        else:
+            phase = LEADS.get(function, phase)
+        if function == "Reset":
+            time, is_set_up = 0.0, False
+        elif expected and function == "DoStep":
+            time = reached.value if self.interface.version == 3 else time + SIZE
+        self.known = (phase, time, is_set_up or (expected and function == "SetupExperiment"))
+        return expected
+
+    def _arguments(self, function, time):
+        old, reached = self.interface.version == 2, c_double()
+        flags = [byref(c_bool()) for _ in range(5)]
+        room, whole = (c_double * 99)(), (c_int32 * 1)()
+        places = self.unit.references
+        numbers, inputs = (room, COUNT), (byref(c_uint(places["surface_speed"])), 1, room)
+        count = () if old else (1,)
+        of_states = "SetContinuousStates", "GetContinuousStates", "GetNominalsOfContinuousStates"
+        given = {
+            "SetupExperiment": (0, 0.0, 0.0, 0, 0.0),
+            "EnterInitializationMode": () if old else (False, 0.0, 0.0, False, 0.0),
+            "SetDebugLogging": (0, 0, None),
+            "NewDiscreteStates": (byref(EventInfo()),),
+            "UpdateDiscreteStates": (*flags, byref(c_double())),
+            "DoStep": (time, SIZE, 1) if old else (time, SIZE, True, *flags[:3], byref(reached)),
+            "SetTime": (0.001,),
+            "CompletedIntegratorStep": (1, byref(c_int()), byref(c_int())) if old
+            else (True, *flags[:2]),
+            "GetEventIndicators": (room, INDICATORS),
+            "GetNumberOfContinuousStates": (byref(c_size_t()),),
+            "GetNumberOfEventIndicators": (byref(c_size_t()),),
+            **dict.fromkeys(("GetReal", "SetReal"), inputs),
+            **dict.fromkeys(("GetFloat64", "SetFloat64"), (*inputs, 1)),
+            **dict.fromkeys(
+                ("GetInteger", "GetInt32"), (byref(c_uint(places["mode"])), 1, whole, *count)
+            ),
+            **dict.fromkeys(
+                ("SetInteger", "SetInt32"), (byref(c_uint(places["rig.free_y"])), 1, whole, *count)
+            ),
+            "GetOutputDerivatives": (None, 0, None, None, 0),
+            **dict.fromkeys((*of_states, "GetDerivatives"), numbers),
+            "GetContinuousStateDerivatives": numbers,
+        }  # fmt: skip
+        return given.get(function, ()), reached
+
+    def come_to(self, wanted):
+        """The shortest way there."""
+        on_the_way = ["EnterInitializationMode", "ExitInitializationMode"]
+        ways = {NEW: [], INITIALISING: on_the_way[:1], FAILED: on_the_way[1:]}
+        further = {
+            ENDED: ["Terminate"],
+            CONTINUOUS: ["EnterContinuousTimeMode"],
+            STEPPING: ["EnterStepMode"] * (self.interface is CO_SIMULATION_3),
+        }
+        for function in ways.get(wanted, on_the_way + further.get(wanted, [])):
+            self.call(function)
+        assert self.known[0] == wanted
+
+    def kept(self):
+        """The state as bytes, and what is known of it."""
+        state = self.block.save()
+        content = self.block.as_bytes(state)
+        self.free(state)
+        return content, self.known
+
+    def go_back(self, content, known):
+        state = self.block.from_bytes(content)
+        self.block.done(self._of_state("Set"), state)
+        assert self.block.as_bytes(state) == content
+        self.free(state)
+        self.known = known
+
+    def free(self, state):
+        self.block.done(self._of_state("Free"), byref(state))
+
+    def _of_state(self, verb):
+        return f"{verb}FMU{'s' if self.interface.version == 2 else 'S'}tate"
+
+
+@pytest.fixture(scope="module")
+def units(unit, unit3):
+    return {2: unit, 3: unit3}
+
+
+@pytest.mark.parametrize(("interface", "phase"), STATES, ids=said)
+def test_each_phase_takes_the_calls_of_the_standard(units, interface, phase):
+    for function in interface.taken:
+        walk = Walk(units, interface)
+        with walk.block:
+            walk.come_to(phase)
+            if not walk.call(function):
+                reasons = (f"fmi{interface.version}{function}", "this instance", "rig.free_y is fi")
+                text = walk.block.messages[0][2]
+                assert (text if isinstance(text, str) else text.decode()).startswith(reasons)
+
+
+@pytest.mark.parametrize("interface", (CO_SIMULATION_3, EXCHANGE_3), ids=said)
+def test_every_variable_can_be_read_and_is_a_number(units, interface):
+    for phase in interface.taken["GetFloat64"]:
+        walk = Walk(units, interface)
+        with walk.block as block:
+            walk.come_to(phase)
+            for name in walk.unit.references:
+                assert np.all(np.isfinite(block.get(name))), name
+            numbers, last = (c_double * 3)(), walk.unit.references["time"]
+            block.done("GetFloat64", (c_uint * 3)(last + 1, last + 2, last + 3), 3, numbers, 3)
+            assert all(numbers)  # indicators
+
+
+@pytest.mark.parametrize("interface", INTERFACES, ids=said)
+def test_any_sequence_of_calls_is_answered_as_the_standard_says(units, interface):
+    """Calls in turn, for the most part, or no run would come far; and back to what was saved."""
+    taken = {True: 0, False: 0}
+    for seed in range(100):
+        numbers, walk, saved = random.Random(seed), Walk(units, interface), []
+        with walk.block:
+            for _ in range(60):
+                chance = numbers.random()
+                if chance < 0.1:
+                    saved.append(walk.kept())
+                elif chance < 0.2 and saved:
+                    walk.go_back(*numbers.choice(saved))
+                else:
+                    asked = [
+                        function
+                        for function, phases in interface.taken.items()
+                        if chance > 0.9 or walk.known[0] in phases
+                    ]
+                    taken[walk.call(numbers.choice(asked))] += 1
+    assert min(taken.values()) > 300
