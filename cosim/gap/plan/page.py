@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
+from stickslip import EFFECTS
+from stickslip.quantity import details
 
 from cosim.files import write_bytes, write_text
 from cosim.gap.plan import data
 from cosim.gap.plan.plan import Plan
-from cosim.report.page import render
+from cosim.report.page import number, render, unit_text
 from cosim.report.style import BLUE, INK, ORANGE, RED, logarithmic_x, panels, picture
+
+#: Pairs on the first screens of the page; the rest is folded.
+MOST_PAIRS = 6
+#: By this factor a size by itself is larger where it has a bar of its own.
+MORE = 1.3
 
 
 def write_page(plan: Plan, folder: Path, file: Path) -> None:
@@ -21,15 +29,57 @@ def write_page(plan: Plan, folder: Path, file: Path) -> None:
     write_bytes(drawn.png, folder / f"{drawn.name}.png")
     text = render(
         "plan.html.j2", "cosim.gap.plan", plan=plan, campaign=plan.planned.campaign, data=data,
-        picture=drawn,
+        picture=drawn, tiles=tiles(plan), next_run=_next_run(plan), at=_at, value=_value,
+        most=MOST_PAIRS,
     )  # fmt: skip
     write_text(text, file)
+
+
+def tiles(plan: Plan) -> list[tuple[str, str]]:
+    """Up to four figures."""
+    seen = sum(size.value is not None for size in plan.sizes)
+    alone = sum(size.alone is not None for size in plan.sizes)
+    told = [
+        (f"of {len(plan.sizes)} laws would be named", str(seen)),
+        ("by themselves, if they are large enough", str(alone)),
+        ("of 100 campaigns name something where nothing is", number(100 * plan.false, 2)),
+    ]
+    if plan.pairs:
+        truth, other, share = plan.pairs[0]
+        told.append((f"of 100 campaigns take {truth} for {other}, at worst", f"{100 * share:.0f}"))
+    return told
+
+
+def _next_run(plan: Plan) -> str:
+    if plan.next_run is None:
+        return "No run within the rig's limits tells the worst pair better apart, or there is none"
+    return plan.next_run.text[0].upper() + plan.next_run.text[1:]
+
+
+def _value(value: float | None, size: data.Size, never: str = "not seen") -> str:
+    return data.value_text(value, size, never).replace("-", "−")
+
+
+def _at(size: data.Size) -> str:
+    """The law's other numbers at that size, such as the speed over which friction falls."""
+    if size.law.wave:
+        return f", {size.law.unknown.variant}"
+    effect = size.law.candidate.effect
+    (fields,) = (each.table.model_fields for each in EFFECTS if each.id == effect)
+    told = []
+    for free in size.law.candidate.free_parameters[1:]:
+        block, _, name = free.key.rpartition(".")
+        if block == effect and name in fields:
+            unit = unit_text(details(fields[name])["unit"])
+            told.append(f"{name} = {free.start:.3g} {unit}".removesuffix(" 1"))
+    return f", at {', '.join(told)}" if told else ""
 
 
 @picture("smallest_sizes", (
     "The smallest size of each effect that would be named, in percent of friction by which it lets "
     "friction differ within these runs (a ripple: of the surface's speed). Blue: by itself or in a "
-    "class with others; orange: by itself. At the end of each bar, that size in its own unit."
+    "class with others; orange: by itself, where that takes 1.3 times as much. At the end of each "
+    "bar, its size in the parameter's unit."
 ))  # fmt: skip
 def draw_sizes(plan: Plan) -> Figure:
     """A row for each effect and direction."""
@@ -46,16 +96,16 @@ def draw_sizes(plan: Plan) -> Figure:
             continue
         alone = math.inf if size.alone is None else size.law.percent(size.alone)
         axis.barh(place, size.percent - left, left=left, height=0.36, color=BLUE)
-        if 1.3 * size.percent < alone < math.inf:
+        if MORE * size.percent < alone < math.inf:
             axis.barh(place + 0.3, alone - left, left=left, height=0.2, color=ORANGE)
-            text = data.value_text(size.alone, size)
+            text = _value(size.alone, size)
             axis.text(1.05 * alone, place + 0.32, text, color=INK, **label)
         never = "" if math.isfinite(alone) else "  (never by itself)"
-        text = data.value_text(size.value, size) + never
+        text = _value(size.value, size) + never
         axis.text(1.05 * size.percent, place - 0.02, text, **label)
     logarithmic_x(axis)
     axis.set_xlim(left, right)
-    axis.set_yticks(range(len(sizes)), [_name(size) for size in sizes])
+    axis.set_yticks(range(len(sizes)), [_name(size, sizes) for size in sizes])
     axis.set_ylim(len(sizes) - 0.4, -0.6)
     axis.grid(visible=False, axis="y")
     axis.set_xlabel("smallest size, percent of friction")
@@ -65,6 +115,11 @@ def draw_sizes(plan: Plan) -> Figure:
     return figure
 
 
-def _name(size: data.Size) -> str:
-    """Its parameter, and of a wave its length."""
-    return f"{size.law.key}, {size.law.unknown.variant}" if size.law.wave else size.law.key
+def _name(size: data.Size, sizes: Sequence[data.Size]) -> str:
+    """Its parameter, of a wave its length, and of two directions which."""
+    law = size.law
+    if law.wave:
+        return f"{law.key}, {law.unknown.variant}"
+    if sum(other.law.key == law.key for other in sizes) == 1:
+        return law.key
+    return f"{law.key} {'>' if law.most > law.neutral else '<'} {law.neutral:g}"

@@ -202,6 +202,9 @@ def test_the_command_leaves_its_files(tmp_path, capsys):
     assert not set(answer["smallest"]) & set(answer["not_tried"])
     page = (tmp_path / "out" / "report.html").read_text()
     assert "load_dependence" in page and "Next run" in page
+    places = [page.index(each) for each in ("<h1>1 run would", "<figure", 'class="tiles"', "<h2")]
+    assert places == sorted(places) and page.count("<div><b>") <= 4
+    assert "relaxation_time = 0.5 s" in page, "a size beside the law's other numbers"
     assert (tmp_path / "out" / "smallest_sizes.png").stat().st_size > 0
     assert capsys.readouterr().out.startswith("planned: 1 run would name effects from")
 
