@@ -95,6 +95,7 @@ def test_how_much_is_said_ends_with_the_command(capsys):
 def not_compiled(monkeypatch, tmp_path):
     monkeypatch.setattr(machine_code, "_folders", lambda: [tmp_path / "cache"])
     monkeypatch.setattr(machine_code, "PREBUILT", "none")
+    monkeypatch.setattr(machine_code, "CALLED_BY_NAME", ("-O0", "-fvisibility=default"))  # quick
     compiled.compiled_kernel.cache_clear()
     yield
     compiled.compiled_kernel.cache_clear()

@@ -1,5 +1,6 @@
 """What the doubt about the belt's length is made of: polynomials, indices, single changes."""
 
+from contextlib import contextmanager
 from dataclasses import replace
 
 import numpy as np
@@ -33,9 +34,18 @@ WARM_ROLLERS = {"belt.rollers": 2, "belt.roller_conductance": 1000.0, "belt.roll
 SAMPLES = 64
 
 
+@contextmanager
+def coarsely():
+    """Four times the study's steps: a third of its time, and rises that differ by a hundredth."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(case_module, "COARSENESS", 8.0)
+        yield
+
+
 @pytest.fixture(scope="module")
 def found():
-    return uncertainty(CASE, SAMPLES)
+    with coarsely():
+        return uncertainty(CASE, SAMPLES)
 
 
 def test_a_polynomial_is_found_again():
@@ -129,7 +139,8 @@ def test_the_ice_melts_where_its_rise_says_so():
 def test_rigs_whose_ice_melts_are_counted(found):
     """Near 0 degC some of the rigs melt; a unit of warm rollers (1 K) is more than any has."""
     assert found.melts == 0.0
-    near = uncertainty(replace(CASE, ambient_degC=-0.35), 32)
+    with coarsely():
+        near = uncertainty(replace(CASE, ambient_degC=-0.35), 32)
     assert near is not None and 0.0 < near.melts < 0.5
 
 
@@ -148,7 +159,8 @@ def test_intervals_of_the_indices_and_what_the_polynomials_miss(found):
     for one in found.influences:
         assert max(one.first_order_half_width, one.total_half_width) < 0.05, one.key
     assert found.unexplained < 0.05
-    assert found.low < found.median < found.high
+    # half of the sampled rigs warm more than the rig as it is
+    assert found.low < run_drift(CASE) < found.median < found.high
     assert found.interface_low < found.interface_median < found.interface_high
     # harder to fit than the entry: 0.13 here, 0.03 with the default 128 samples
     assert found.interface_unexplained < 0.2
@@ -161,11 +173,12 @@ def test_intervals_of_the_indices_and_what_the_polynomials_miss(found):
 def test_single_changes_are_runs_of_the_model(found):
     by_key = {change.key: change for change in found.single_changes}
     friction, air = by_key["friction"], by_key["h"]
-    as_it_is_drift = run_drift(CASE)
+    with coarsely():
+        as_it_is_drift, windy = run_drift(CASE), run_drift(replace(CASE, h=25.0))
     assert (friction.drift_low, friction.drift_high) == pytest.approx(
         (0.7 * as_it_is_drift, 1.2 * as_it_is_drift), rel=1e-3
     )
-    assert air.drift_high == pytest.approx(run_drift(replace(CASE, h=25.0)), rel=0.01)
+    assert air.drift_high == pytest.approx(windy, rel=0.01)
     assert by_key["roller_rise"].with_others == {"roller_conductance": 100.0}
     assert len(found.table()) == len(UNKNOWNS)
 
@@ -197,11 +210,6 @@ def test_shortest_belts_lie_between_the_lengths_or_are_not_told(found):
     assert told["median"].says == told["high"].says == "<1"
     untold = shortest_in_doubt(lengths, [None] * 3, 0.07)["run"]["high"]
     assert untold.length is None and "--samples 0" in untold.reason
-
-
-def test_a_rig_of_the_doubt_fails_on_the_nominal_belt():
-    """1.7 m at 0.15 m/s keep the rig as it is below 0.07 K, and not half of the sampled ones."""
-    assert run_drift(Case(1.7, 0.15)) < 0.07 < uncertainty(Case(1.7, 0.15), 32).median
 
 
 def test_a_belt_lags_behind_air_that_warms():

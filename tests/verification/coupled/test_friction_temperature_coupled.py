@@ -46,7 +46,7 @@ def test_boundary_friction_falls_with_the_root_of_the_speed():
 
 
 def test_hydrodynamic_friction_grows_with_the_root_of_the_speed():
-    points = slide(LIGHT, 2.0, 20.0, -1.0)
+    points = slide(LIGHT, 2.0, 8.0, -1.0)
     assert slope(points, friction) == pytest.approx(0.5, abs=0.01)
 
 

@@ -166,14 +166,14 @@ def test_what_cannot_be_is_refused(damping, run_up):
         BeltStart(oscillator, damping, run_up)
 
 
-def test_ten_rigs_have_the_regimes_that_a_search_by_force_finds():
+def test_six_rigs_have_the_regimes_that_a_search_by_force_finds():
     """12 starts of 200 s each; `regimes_by_force` is the same with 200 rigs, 30 starts, 600 s."""
     several = 0
-    for i in range(10):
+    for i in range(6):
         draw = np.random.default_rng([0, i])
         parameters = drawn_rig(draw)
         ours = searched(regimes(parameters))
         theirs, runs = by_force(parameters, draw, 200.0, 12)
         several += len(ours) > 1
         assert not missed(theirs, ours) and not missed(ours, runs)
-    assert several >= 5
+    assert several >= 3
