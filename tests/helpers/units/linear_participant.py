@@ -7,12 +7,13 @@ scheme's alone.
 from math import factorial
 
 import numpy as np
+from part import Restorable
 from scipy.linalg import expm
 
 from cosim.coupling import Waveform, inputs, outputs, port_table
 
 
-class Linear:
+class Linear(Restorable):
     """A, B, C, D: (n, n), (n, m), (k, n), (k, m); ins, outs: port name -> unit; x: state (n,)."""
 
     def __init__(self, name, a, b, c, d=None, *, ins, outs, x):
@@ -25,15 +26,6 @@ class Linear:
         self.u = [Waveform((0.0,), 0.0)] * len(ins)
         self.u_now = np.zeros(len(ins))
         self._powers = {}
-
-    def enter_initialisation(self, start, stop):
-        pass
-
-    def exit_initialisation(self):
-        pass
-
-    def close(self):
-        pass
 
     def write(self, values):
         self.write_waveforms({name: Waveform((value,), 0.0) for name, value in values.items()})
@@ -74,6 +66,3 @@ class Linear:
 
     def set_state(self, state):
         self.x, self.u, self.u_now = state[0].copy(), list(state[1]), state[2].copy()
-
-    def free_state(self, state):
-        pass

@@ -3,10 +3,12 @@
 import math
 import struct
 
+from part import Restorable
+
 from cosim.coupling import Connection, CoupledSystem, inputs, outputs, port_table
 
 
-class Pendulum:
+class Pendulum(Restorable):
     """angle'' = -sin(angle) - 0.1 angle' + torque, by Heun steps; its state is two numbers."""
 
     def __init__(self, name, angle):
@@ -17,9 +19,6 @@ class Pendulum:
 
     def enter_initialisation(self, start, stop):
         self.state = (self._first, 0.0)
-
-    def exit_initialisation(self):
-        pass
 
     def write(self, values):
         self.torque = values.get("torque", self.torque)
@@ -39,15 +38,6 @@ class Pendulum:
     def _bend(self, angle, rate):
         return self.torque - math.sin(angle) - 0.1 * rate
 
-    def get_state(self):
-        return self.state, self.torque
-
-    def set_state(self, state):
-        self.state, self.torque = state
-
-    def free_state(self, state):
-        pass
-
     def save_state(self):
         return struct.pack("<3d", *self.state, self.torque)
 
@@ -55,11 +45,8 @@ class Pendulum:
         angle, rate, self.torque = struct.unpack("<3d", saved)
         self.state = (angle, rate)
 
-    def close(self):
-        pass
 
-
-class Spring:
+class Spring(Restorable):
     """Turns both towards each other."""
 
     def __init__(self, stiffness=2.0):
@@ -69,12 +56,6 @@ class Spring:
         )
         self.given = {"one": 0.0, "other": 0.0}
 
-    def enter_initialisation(self, start, stop):
-        pass
-
-    def exit_initialisation(self):
-        pass
-
     def write(self, values):
         self.given = self.given | dict(values)
 
@@ -82,26 +63,11 @@ class Spring:
         torque = self.stiffness * (self.given["other"] - self.given["one"])
         return {"on_one": torque, "on_other": -torque}
 
-    def step(self, time, size):
-        pass
-
-    def get_state(self):
-        return self.given
-
-    def set_state(self, state):
-        self.given = state
-
-    def free_state(self, state):
-        pass
-
     def save_state(self):
         return struct.pack("<2d", *self.given.values())
 
     def load_state(self, saved):
         self.given = dict(zip(("one", "other"), struct.unpack("<2d", saved), strict=True))
-
-    def close(self):
-        pass
 
 
 ORDER = ("left", "right", "spring")

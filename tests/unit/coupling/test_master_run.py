@@ -7,6 +7,7 @@ import signal
 import numpy as np
 import pytest
 from ledgers import exchanged, largest_residual
+from part import Part
 
 from cosim.coupling import (
     Affine,
@@ -23,7 +24,7 @@ from cosim.coupling import (
 from cosim.coupling.step_control.fixed import Grid
 
 
-class Model:
+class Model(Part):
     """The least a participant can be: holds what it is given and remembers its steps."""
 
     def __init__(self, name, ports):
@@ -35,18 +36,12 @@ class Model:
     def enter_initialisation(self, start, stop):
         self.time = start
 
-    def exit_initialisation(self):
-        pass
-
     def write(self, values):
         self.given.update(values)
 
     def step(self, time, size):
         self.steps.append((time, size))
         self.time = time + size
-
-    def close(self):
-        pass
 
 
 class Clock(Model):

@@ -7,6 +7,7 @@ from itertools import count
 import numpy as np
 import pytest
 from linear_participant import Linear
+from part import Part, Restorable
 
 from cosim.coupling import (
     AdaptiveStep,
@@ -33,7 +34,7 @@ from cosim.coupling import (
 from cosim.coupling.waveform import through
 
 
-class Bouncer:
+class Bouncer(Restorable):
     """Ends a step at each of its events; gives how many there were."""
 
     ports = port_table(inputs(seen="1") + outputs(count="1"))
@@ -44,9 +45,6 @@ class Bouncer:
 
     def enter_initialisation(self, start, stop):
         self.time = start
-
-    def exit_initialisation(self):
-        pass
 
     def write(self, values):
         self.given = values["seen"]
@@ -59,31 +57,14 @@ class Bouncer:
         self.time = min(inside, default=time + size)
         return self.time
 
-    def get_state(self):
-        return self.time
 
-    def set_state(self, state):
-        self.time = state
-
-    def free_state(self, state):
-        pass
-
-    def close(self):
-        pass
-
-
-class Plain:
+class Plain(Part):
     """Can do no more than it must: follows a mean, integrates it."""
 
     ports = port_table(inputs(u="m/s") + outputs(x="m"))
 
     def __init__(self, name="plain"):
         self.name, self.x, self.u, self.steps = name, 0.0, 0.0, []
-
-    def enter_initialisation(self, start, stop):
-        pass
-
-    exit_initialisation = close = lambda self: None
 
     def write(self, values):
         self.u = values["u"]
@@ -160,7 +141,7 @@ def test_what_takes_steps_back_needs_participants_that_can(how):
 def test_a_participant_that_does_not_come_back_as_it_says_is_refused():
     class Forgetful(Bouncer):
         def set_state(self, state):
-            self.time = state + 1e-9
+            super().set_state(state | {"time": state["time"] + 1e-9})
 
         def read(self):
             return {"count": self.time}

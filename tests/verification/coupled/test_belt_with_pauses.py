@@ -10,6 +10,7 @@ melts and refreezes, and hardly anything happens for most of the time.
 
 import numpy as np
 import pytest
+from part import Restorable
 
 from cosim import read_scenario
 from cosim.coupling import (
@@ -51,7 +52,7 @@ CASE = read_scenario("meltwater").changed(
 )
 
 
-class Drive:
+class Drive(Restorable):
     """Speed of the belt by straight pieces."""
 
     name, ports = "drive", port_table(outputs(speed="m/s"))
@@ -59,25 +60,11 @@ class Drive:
     def enter_initialisation(self, start, stop):
         self.time = start
 
-    exit_initialisation = close = lambda self: None
-
-    def write(self, values):
-        pass
-
     def read(self):
         return {"speed": float(np.interp(self.time, KINKS, SPEEDS))}
 
     def step(self, time, size):
         self.time = time + size
-
-    def get_state(self):
-        return self.time
-
-    def set_state(self, state):
-        self.time = state
-
-    def free_state(self, state):
-        pass
 
 
 def belt(macro_step=None, control=None):

@@ -10,6 +10,7 @@ from math import log, pi, sqrt
 
 import numpy as np
 import pytest
+from part import Restorable
 
 from cosim.coupling import (
     Aitken,
@@ -32,7 +33,7 @@ TIGHT = Tolerance(1e-10)
 STEP = 10.0  # s
 
 
-class Slab:
+class Slab(Restorable):
     """A slab of 1 m: matrices of its nodes, the last of which lies at the interface.
 
     lumped: of the mass matrix.
@@ -51,26 +52,8 @@ class Slab:
         self.given, self.flux = 0.0, 0.0
         self._inverse = {}
 
-    def enter_initialisation(self, start, stop):
-        pass
-
-    def exit_initialisation(self):
-        pass
-
-    def close(self):
-        pass
-
     def write(self, values):
         (self.given,) = values.values()
-
-    def get_state(self):
-        return self.t.copy(), self.given, self.flux
-
-    def set_state(self, state):
-        self.t, self.given, self.flux = state[0].copy(), *state[1:]
-
-    def free_state(self, state):
-        pass
 
     def euler(self, size, last):
         """Inverse of mass / size + stiffness for the nodes from the second to `last`."""
@@ -221,7 +204,7 @@ def test_one_pass_is_stable_where_the_driven_side_is_the_lighter(offset, stable)
     assert (jump[250:].max() < jump[50:100].max()) == stable
 
 
-class Friction:
+class Friction(Restorable):
     """Power mu0 (1 - beta T) N v of a contact, which follows its temperature at once."""
 
     name, ports = "friction", port_table(inputs(T="K") + outputs(P="W"))
@@ -229,41 +212,20 @@ class Friction:
     def __init__(self, mu, beta, load, speed):
         self.mu, self.beta, self.strength, self.given = mu, beta, load * speed, 0.0
 
-    def enter_initialisation(self, start, stop):
-        pass
-
-    exit_initialisation = close = lambda self: None
-    get_state, free_state = lambda self: self.given, lambda self, state: None
-
-    def set_state(self, state):
-        self.given = state
-
     def write(self, values):
         self.given = values["T"]
 
     def read(self):
         return {"P": self.mu * (1 - self.beta * self.given) * self.strength}
 
-    def step(self, time, size):
-        pass
 
-
-class Body:
+class Body(Restorable):
     """C T' = P - G T, solved exactly for a held power."""
 
     name, ports = "body", port_table(inputs(P="W") + outputs(T="K"))
 
     def __init__(self, capacity, loss):
         self.capacity, self.loss, self.t, self.given = capacity, loss, 0.0, 0.0
-
-    def enter_initialisation(self, start, stop):
-        pass
-
-    exit_initialisation = close = lambda self: None
-    get_state, free_state = lambda self: self.t, lambda self, state: None
-
-    def set_state(self, state):
-        self.t = state
 
     def write(self, values):
         self.given = values["P"]
