@@ -49,15 +49,16 @@ def _title(cases: list[Case]) -> str:
 
 @picture(
     "drift_over_length",
-    "Above: rise of the belt where it enters the contact, over its "
+    "Left: rise of the belt where it enters the contact, over its "
     "length: at the end of the runs and for ever; of the source study's rig its single pass, too. "
     "A curve ends at a triangle: from that length on no place that was heated comes round again "
     "before the runs are over, and the belt enters as cold as the air. The curves begin at the "
     "shortest belt on which contact and rollers have room. Bars and bands: 5 to 95 % over "
-    "what is not known of the rig. Below: what the interface warms by at constant speed.",
+    "what is not known of the rig, which may act to one side of what is given: then a curve "
+    "lies outside its band. Right: what the interface warms by at constant speed.",
 )
 def draw_drift(study: Study) -> Figure:
-    """Two panels for the first choice of everything but length and speed."""
+    """Two panels side by side for the first choice of everything but length and speed."""
     speeds = sorted({row.case.speed for row in study.rows})
     lengths = sorted({row.case.length for row in study.rows})
     firsts = [next(row.case for row in study.rows if row.case.speed == one) for one in speeds]
@@ -65,8 +66,8 @@ def draw_drift(study: Study) -> Figure:
     high = 4.0 * max(lengths)
     for answer in study.answers:
         low, high = min([low, *answer.lengths[:1]]), max([high, *answer.lengths[-1:]])
-    figure, axes = panels(2, 1, height=3.9, width=7.5, sharex=True)
-    entry, interface = axes[:, 0]
+    figure, axes = panels(1, 2, height=5.0, width=10.0)
+    entry, interface = axes[0]
     for i, case in enumerate(firsts):
         colour = SERIES[i % len(SERIES)]
         _curves((entry, interface), case, np.geomspace(low, high, _CURVE), colour, study)
@@ -77,14 +78,14 @@ def draw_drift(study: Study) -> Figure:
         ax.axhline(limit, color=INK, linewidth=1.0)
         beside = ax.get_yaxis_transform()
         ax.text(1.01, limit, f"limit\n{limit:g} K", va="center", transform=beside)
-        ax.set(xscale="log", yscale="log")
+        ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", xlim=(low, high))
+        _plain_ticks(ax.xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50), low, high)
         for length in lengths if study.answers else ():
             ax.axvline(length, color=GREY, linestyle="-.", linewidth=1.0)
     entry.set(ylabel="belt's rise at entry [K]", title=_title(firsts))
     entry.set_ylim(bottom=_FLOOR)
-    interface.set(xlabel="length of the belt [m]", ylabel="interface's rise\nat constant speed [K]")
-    _plain_ticks(interface.xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50), low, high)
-    interface.set_xlim(low, high)
+    interface.set(ylabel="interface's rise at constant speed [K]")
+    interface.set_ylim(bottom=max(_FLOOR, interface.get_ylim()[0]))
     _plain_ticks(entry.yaxis, (1e-3, 1e-2, 0.1, 1, 10), _FLOOR, 100.0)
     _plain_ticks(interface.yaxis, (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2), *interface.get_ylim())
     figure.legend(handles=_key(speeds, study), ncols=4, loc="outside upper center")

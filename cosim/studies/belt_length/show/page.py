@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -11,9 +12,13 @@ from cosim.report.page import Picture, render
 from ..lengths import rounded_up
 from ..result import Row, Study
 from ..unknowns import unknowns_of
+from .headline import headline, tiles
 from .verdict import verdict
 from .wording import percent, two_digits
 
+_MINUS = re.compile(r"(?<=[ (])-(?=\d)")
+#: Sentences that stand open; the rest is folded.
+MOST_SENTENCES = 6
 FILES = {
     "belt_length.json": "everything on this page and more, numbers in full",
     "belt_length.csv": "a line for each case: length, speed, rises, shortest belts",
@@ -31,19 +36,19 @@ def page(
     command: str = "",
 ) -> str:
     """HTML of a study with rows; name, scenario (TOML): of an own rig."""
-    sentences, answers, doubted = verdict(study), study.answers, study.most_doubted
-    first = 2 if answers else 1
+    answers, doubted = study.answers, study.most_doubted
     start, *rest = study.worst.changes
     html = render(
         "belt_length.html.j2",
         "cosim.studies.belt_length.show",
         name=name or "The source study's rig",
         limit=study.options.limit,
-        headline=sentences[:first],
-        sentences=sentences[first:],
+        headline=headline(study),
+        tiles=tiles(study),
+        sentences=[_MINUS.sub("−", sentence) for sentence in verdict(study)],
+        most=MOST_SENTENCES,
         answers=answers,
         rows=study.rows,
-        speeds=sorted({row.case.speed for row in study.rows}),
         layers=study.rows[0].case.thermal().belt.stack,
         changes=[start, *sorted(rest, key=lambda one: abs(one.run))],
         worst=study.worst.case,
@@ -55,7 +60,7 @@ def page(
         scenario=scenario,
         command=command,
         files=FILES,
-        two_digits=two_digits,
+        two_digits=lambda value: two_digits(value).replace("-", "−"),
         percent=percent,
         metres=lambda length: "none" if length is None else rounded_up(length)[0],
     )
