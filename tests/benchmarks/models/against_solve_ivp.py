@@ -18,23 +18,7 @@ from mechanics import median_seconds
 from scipy.integrate import solve_ivp
 from stickslip import Initial, Parameters, Rig, Solver, simulate
 from stickslip.compiled import compiled_kernel
-from stickslip.kernel import contact, motion
-from stickslip.kernel.layout import (
-    P_LATERAL,
-    SLIP,
-    STATES,
-    STICK,
-    U_SIZE,
-    U_SPEED,
-    U_TEMPERATURE,
-    VX,
-    VY,
-    W_SIZE,
-    W_SLOPES,
-    W_STATE,
-    W_SURFACE,
-    X,
-)
+from stickslip.kernel import contact, layout, motion
 
 SPEED, DURATION = 0.15, 20.0
 SWERVE = {"y": 0.005, "phi": 0.1}
@@ -73,24 +57,24 @@ class ScipyRun:
     def __init__(self, name: str, kernel, array):
         parameters = belt(name)
         self.kernel = kernel
-        self.p, self.u = array(parameters.pack()), array(np.zeros(U_SIZE))
-        self.u[U_SPEED] = SPEED
-        self.u[U_TEMPERATURE] = parameters.temperature_dependence.reference_degC
-        self.w = array(np.zeros(W_SIZE))
+        self.p, self.u = array(parameters.pack()), array(np.zeros(layout.U_SIZE))
+        self.u[layout.U_SPEED] = SPEED
+        self.u[layout.U_TEMPERATURE] = parameters.temperature_dependence.reference_degC
+        self.w = array(np.zeros(layout.W_SIZE))
         self.rest = kernel.rest_speed(self.p, self.u)
         self.start = parameters.initial
 
     def slopes(self, t, y):
         w = self.w
-        w[W_STATE] = t
-        w[W_STATE + 1 : W_STATE + 1 + STATES] = y
-        self.kernel.set_slopes(self.p, self.u, w, float(self.mode), W_SLOPES)
-        return np.array(w[W_SLOPES : W_SLOPES + STATES])
+        w[layout.W_STATE] = t
+        w[layout.W_STATE + 1 : layout.W_STATE + 1 + layout.STATES] = y
+        self.kernel.set_slopes(self.p, self.u, w, float(self.mode), layout.W_SLOPES)
+        return np.array(w[layout.W_SLOPES : layout.W_SLOPES + layout.STATES])
 
     def look(self, t, y):
-        self.w[W_STATE] = t
-        self.w[W_STATE + 1 : W_STATE + 1 + STATES] = y
-        self.kernel.set_contact(self.p, self.u, self.w, W_STATE)
+        self.w[layout.W_STATE] = t
+        self.w[layout.W_STATE + 1 : layout.W_STATE + 1 + layout.STATES] = y
+        self.kernel.set_contact(self.p, self.u, self.w, layout.W_STATE)
 
     def gives_way(self, t, y):
         self.look(t, y)
@@ -102,31 +86,38 @@ class ScipyRun:
         if t < self.began + 1e-3:
             return 1.0
         self.look(t, y)
-        if self.p[P_LATERAL] == 0.0:
-            return self.w[W_SURFACE] - y[VX - 1]
+        if self.p[layout.P_LATERAL] == 0.0:
+            return self.w[layout.W_SURFACE] - y[layout.VX - 1]
         return self.kernel.scaled_sliding_speed(self.p, self.w) - self.rest
 
     def follow_surface(self, t, y):
         self.look(t, y)
-        y[VX - 1] = SPEED
-        if self.p[P_LATERAL] > 0.0:
-            y[VY - 1 : VY + 1] = 0.0
+        y[layout.VX - 1] = SPEED
+        if self.p[layout.P_LATERAL] > 0.0:
+            y[layout.VY - 1 : layout.VY + 1] = 0.0
         self.look(t, y)
 
     def break_aways(self, tolerance: float) -> list[float]:
         """Their times, s."""
-        y, t, starts = np.zeros(STATES), 0.0, []
+        y, t, starts = np.zeros(layout.STATES), 0.0, []
         start = self.start
-        y[X - 1 : X + 5] = start.x, start.y, start.phi, start.vx, start.vy, start.omega
+        y[layout.X - 1 : layout.X + 5] = (
+            start.x,
+            start.y,
+            start.phi,
+            start.vx,
+            start.vy,
+            start.omega,
+        )
         self.follow_surface(t, y)
-        self.mode = STICK if self.gives_way(t, y) < 0.0 else SLIP
+        self.mode = layout.STICK if self.gives_way(t, y) < 0.0 else layout.SLIP
         samples = np.arange(0.0, DURATION + 0.005, 0.01)
         self.comes_to_rest.__func__.terminal = self.gives_way.__func__.terminal = True
         self.gives_way.__func__.direction = 1.0
         self.comes_to_rest.__func__.direction = -1.0
         while t < DURATION:
             self.began = t
-            if self.mode == SLIP:
+            if self.mode == layout.SLIP:
                 self.kernel.set_onset_direction(self.p, self.u, self.w)
             run = solve_ivp(
                 self.slopes,
@@ -134,7 +125,7 @@ class ScipyRun:
                 y,
                 method="DOP853",
                 t_eval=samples[samples >= t],
-                events=self.gives_way if self.mode == STICK else self.comes_to_rest,
+                events=self.gives_way if self.mode == layout.STICK else self.comes_to_rest,
                 rtol=tolerance,
                 atol=1e-3 * tolerance,
             )
@@ -143,9 +134,9 @@ class ScipyRun:
             t, y = run.t_events[0][0], run.y_events[0][0].copy()
             self.follow_surface(t, y)
             held = self.gives_way(t, y) < 0.0
-            if self.mode == STICK:
+            if self.mode == layout.STICK:
                 starts.append(t)
-            self.mode = STICK if self.mode == SLIP and held else SLIP
+            self.mode = layout.STICK if self.mode == layout.SLIP and held else layout.SLIP
         return starts
 
 

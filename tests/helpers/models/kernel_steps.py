@@ -6,26 +6,7 @@ from types import SimpleNamespace
 
 import numpy as np
 from stickslip import Parameters
-from stickslip.kernel import advance
-from stickslip.kernel.layout import (
-    DONE,
-    E_FIRST,
-    HERE,
-    INSTANT,
-    MODE,
-    NEXT,
-    P_RATE,
-    P_TOLERANCE,
-    SLIPS,
-    STATES,
-    TIME,
-    U_FILM,
-    U_SIZE,
-    U_SPEED,
-    U_TEMPERATURE,
-    W_SIZE,
-    Z_SIZE,
-)
+from stickslip.kernel import advance, layout
 from stickslip.kernel.runge_kutta import state_scale
 
 
@@ -33,12 +14,12 @@ def memory_of(
     parameters: Parameters, temperature: float = -8.0, film_thickness: float = 0.0
 ) -> SimpleNamespace:
     """The kernel's arrays as lists, settled at the start of a run."""
-    u = [0.0] * U_SIZE
-    u[U_SPEED], u[U_TEMPERATURE] = parameters.surface.speed, temperature
-    u[U_FILM] = film_thickness
-    memory = SimpleNamespace(p=parameters.pack(), u=u, z=[0.0] * Z_SIZE)
+    u = [0.0] * layout.U_SIZE
+    u[layout.U_SPEED], u[layout.U_TEMPERATURE] = parameters.surface.speed, temperature
+    u[layout.U_FILM] = film_thickness
+    memory = SimpleNamespace(p=parameters.pack(), u=u, z=[0.0] * layout.Z_SIZE)
     advance.initialise(memory.p, memory.z, 0.0)
-    advance.take_inputs(memory.p, u, memory.z, [0.0] * W_SIZE, [0.0] * E_FIRST)
+    advance.take_inputs(memory.p, u, memory.z, [0.0] * layout.W_SIZE, [0.0] * layout.E_FIRST)
     return memory
 
 
@@ -56,24 +37,29 @@ def largest_step_difference(
     largest = 0.0
     for _ in range(steps):
         other = np.array(z)
-        status = advance.internal_step(p, u, z, [0.0] * W_SIZE, [0.0] * E_FIRST, 0.0)
+        status = advance.internal_step(p, u, z, [0.0] * layout.W_SIZE, [0.0] * layout.E_FIRST, 0.0)
         same = kernel.internal_step(
-            other_p, other_u, other, np.zeros(W_SIZE), np.zeros(E_FIRST), 0.0
+            other_p, other_u, other, np.zeros(layout.W_SIZE), np.zeros(layout.E_FIRST), 0.0
         )
-        if status != same or [z[NEXT + i] for i in (MODE, SLIPS)] != [
-            other[NEXT + i] for i in (MODE, SLIPS)
+        if status != same or [z[layout.NEXT + i] for i in (layout.MODE, layout.SLIPS)] != [
+            other[layout.NEXT + i] for i in (layout.MODE, layout.SLIPS)
         ]:
             return np.inf
-        largest = max(largest, _difference(p, u, z[NEXT : NEXT + INSTANT], other[NEXT:]))
-        if status != DONE:
+        largest = max(
+            largest,
+            _difference(p, u, z[layout.NEXT : layout.NEXT + layout.INSTANT], other[layout.NEXT :]),
+        )
+        if status != layout.DONE:
             break
-        advance.copy_instant(z, NEXT, HERE)
+        advance.copy_instant(z, layout.NEXT, layout.HERE)
     return largest
 
 
 def _difference(p, u, block, other) -> float:
     unit = [*p]
-    unit[P_TOLERANCE] = 1.0  # state_scale is then the state's own scale
-    scales = [1.0 / p[P_RATE] + abs(block[TIME])]
-    scales += [max(state_scale(unit, u, i, block[i]), abs(block[i])) for i in range(1, 1 + STATES)]
+    unit[layout.P_TOLERANCE] = 1.0  # state_scale is then the state's own scale
+    scales = [1.0 / p[layout.P_RATE] + abs(block[layout.TIME])]
+    scales += [
+        max(state_scale(unit, u, i, block[i]), abs(block[i])) for i in range(1, 1 + layout.STATES)
+    ]
     return max(abs(block[i] - other[i]) / scale for i, scale in enumerate(scales))

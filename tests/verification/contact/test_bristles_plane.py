@@ -17,6 +17,7 @@ from scipy.integrate import solve_ivp
 from stickslip import Parameters
 from stickslip.arrays import RunArrays
 from stickslip.compiled import compiled_kernel
+from stickslip.kernel import layout
 from stickslip.kernel.bristles.law import (
     bristle_energy,
     set_bristle_friction,
@@ -24,27 +25,6 @@ from stickslip.kernel.bristles.law import (
     storing_power,
 )
 from stickslip.kernel.friction.force import friction_in_slip
-from stickslip.kernel.layout import (
-    BRISTLES,
-    INSTANT,
-    MODE,
-    P_BRISTLE_STIFFNESS,
-    P_FAST_SLIP,
-    P_RADIUS,
-    SHEAR_X,
-    SHEARED,
-    SHOWN,
-    SLIP,
-    U_SIZE,
-    U_SPEED,
-    U_TEMPERATURE,
-    W_FRICTION,
-    W_SHEARING,
-    W_SIZE,
-    W_SLIDING,
-    W_SLOPES,
-    W_STATE,
-)
 
 GRAVITY = 9.81
 #: Effects that bristles cannot stand beside, or judge the stick of a rigid contact.
@@ -59,9 +39,9 @@ def rig(kappa=1.0, **friction):
 
 def sliding(p, motion):
     """Scratch space of a contact that slides with (U_x, U_y, Omega)."""
-    w = [0.0] * W_SIZE
-    w[W_SLIDING : W_SLIDING + 3] = motion
-    w[W_STATE + MODE] = SLIP
+    w = [0.0] * layout.W_SIZE
+    w[layout.W_SLIDING : layout.W_SLIDING + 3] = motion
+    w[layout.W_STATE + layout.MODE] = layout.SLIP
     return w
 
 
@@ -76,57 +56,63 @@ def sliding(p, motion):
 def test_in_steady_sliding_friction_is_the_disc_s(kappa, motion):
     if kappa == 0.0 and motion[0] == 0.0:
         return  # nothing slides
-    p, u = rig(kappa).pack(), [0.0] * U_SIZE
-    u[U_TEMPERATURE] = -8.0
-    w, z = sliding(p, motion), [0.0] * INSTANT
+    p, u = rig(kappa).pack(), [0.0] * layout.U_SIZE
+    u[layout.U_TEMPERATURE] = -8.0
+    w, z = sliding(p, motion), [0.0] * layout.INSTANT
     set_sliding_shear(p, u, z, w, 0)
-    w[W_STATE + SHEAR_X : W_STATE + SHEAR_X + 3] = z[SHEAR_X : SHEAR_X + 3]
+    w[layout.W_STATE + layout.SHEAR_X : layout.W_STATE + layout.SHEAR_X + 3] = z[
+        layout.SHEAR_X : layout.SHEAR_X + 3
+    ]
     set_bristle_friction(p, u, w)
-    found = w[W_FRICTION : W_FRICTION + 3]
+    found = w[layout.W_FRICTION : layout.W_FRICTION + 3]
     speed = max(abs(motion[0]), abs(motion[1]), 0.04 * abs(motion[2]))
-    assert np.abs(w[W_SHEARING : W_SHEARING + 3]).max() < 1e-11 * speed
-    scaled = motion[0], kappa * motion[1], kappa * p[P_RADIUS] * motion[2]
+    assert np.abs(w[layout.W_SHEARING : layout.W_SHEARING + 3]).max() < 1e-11 * speed
+    scaled = motion[0], kappa * motion[1], kappa * p[layout.P_RADIUS] * motion[2]
     friction_in_slip(p, u, w, *scaled)
-    np.testing.assert_allclose(found, w[W_FRICTION : W_FRICTION + 3], rtol=1e-9, atol=1e-11)
+    np.testing.assert_allclose(
+        found, w[layout.W_FRICTION : layout.W_FRICTION + 3], rtol=1e-9, atol=1e-11
+    )
 
 
 def test_a_small_shear_is_that_of_a_uniform_layer():
     """sigma_0 along x, kappa^2 sigma_0 across, and kappa^2 sigma_0 a^2 / 2 against a turn."""
     kappa, shear = 0.6, np.array([2e-7, -1e-7, 3e-6])  # m, m, rad
-    p, u = rig(kappa, bristle_damping=0.0).pack(), [0.0] * U_SIZE
-    a, stiffness = p[P_RADIUS], p[P_BRISTLE_STIFFNESS]
+    p, u = rig(kappa, bristle_damping=0.0).pack(), [0.0] * layout.U_SIZE
+    a, stiffness = p[layout.P_RADIUS], p[layout.P_BRISTLE_STIFFNESS]
     w = sliding(p, (0.0, 0.0, 0.0))
     scale = np.array([1.0, kappa, kappa * a])
-    w[W_STATE + SHEAR_X : W_STATE + SHEAR_X + 3] = scale * shear
+    w[layout.W_STATE + layout.SHEAR_X : layout.W_STATE + layout.SHEAR_X + 3] = scale * shear
     set_bristle_friction(p, u, w)
     expected = -stiffness * shear * np.array([1.0, kappa**2, 0.5 * (kappa * a) ** 2])
-    np.testing.assert_allclose(w[W_FRICTION : W_FRICTION + 3], expected, rtol=1e-12)
-    z = w[W_STATE:]
+    np.testing.assert_allclose(w[layout.W_FRICTION : layout.W_FRICTION + 3], expected, rtol=1e-12)
+    z = w[layout.W_STATE :]
     energy = -0.5 * np.dot(expected, shear)
     assert bristle_energy(p, z, 0) == pytest.approx(energy, rel=1e-12)
-    w[W_SHEARING : W_SHEARING + 3] = scale * np.array([1e-3, 2e-3, 0.05])
+    w[layout.W_SHEARING : layout.W_SHEARING + 3] = scale * np.array([1e-3, 2e-3, 0.05])
     power = -np.dot(expected, [1e-3, 2e-3, 0.05])
     assert storing_power(p, w) == pytest.approx(power, rel=1e-12)
 
 
 def test_it_takes_up_more_than_it_gives_back():
     """Friction is dissipative for bristles of any shear inside their limit, sliding anyhow."""
-    p, u, draw = rig(0.7).pack(), [0.0] * U_SIZE, np.random.default_rng(3)
-    least = 0.2 * 0.67 * GRAVITY / p[P_BRISTLE_STIFFNESS]
+    p, u, draw = rig(0.7).pack(), [0.0] * layout.U_SIZE, np.random.default_rng(3)
+    least = 0.2 * 0.67 * GRAVITY / p[layout.P_BRISTLE_STIFFNESS]
     for _ in range(300):
         w = sliding(p, 10.0 ** draw.uniform(-5, -1) * draw.normal(size=3) * [1.0, 1.0, 25.0])
         shear = draw.normal(size=3)
         shear *= least * draw.uniform(0.0, 0.6) / np.linalg.norm(shear)
-        w[W_STATE + SHEAR_X : W_STATE + SHEAR_X + 3] = shear
+        w[layout.W_STATE + layout.SHEAR_X : layout.W_STATE + layout.SHEAR_X + 3] = shear
         set_bristle_friction(p, u, w)
-        power = np.dot(w[W_FRICTION : W_FRICTION + 3], w[W_SLIDING : W_SLIDING + 3])
+        power = np.dot(
+            w[layout.W_FRICTION : layout.W_FRICTION + 3], w[layout.W_SLIDING : layout.W_SLIDING + 3]
+        )
         assert -power - storing_power(p, w) > 0.0
 
 
 def without_elimination(p):
     """The same contact, its bristles followed however fast it slides."""
     p = np.array(p)
-    p[P_FAST_SLIP] = 1e3
+    p[layout.P_FAST_SLIP] = 1e3
     return p
 
 
@@ -134,11 +120,11 @@ def places(p, u, times):
     """(n, 3) x, y, phi and the shear that the run begins with."""
     run = RunArrays.begin(p, u)
     run.advance(0.0)
-    start = run.z[SHOWN + 1 : SHOWN + 1 + SHEARED].copy()
+    start = run.z[layout.SHOWN + 1 : layout.SHOWN + 1 + layout.SHEARED].copy()
     shown = []
     for time in times:
         assert run.advance(time)
-        shown.append(run.z[SHOWN + 1 : SHOWN + 4].copy())
+        shown.append(run.z[layout.SHOWN + 1 : layout.SHOWN + 4].copy())
     return np.array(shown), start
 
 
@@ -151,15 +137,15 @@ def test_the_plane_s_motion_is_that_of_a_stiff_solver():
         "surface": {"speed": 0.05},
         "initial": {"x": 0.004, "y": 0.003, "phi": 0.1, "vx": 0.05},
     }
-    p, u = with_bristles(Parameters(**tables), 5e-5).pack(), np.zeros(U_SIZE)
-    u[U_SPEED], u[U_TEMPERATURE] = 0.05, -8.0
-    kernel, w = compiled_kernel(), np.zeros(W_SIZE)
-    w[W_STATE + BRISTLES] = 1.0
+    p, u = with_bristles(Parameters(**tables), 5e-5).pack(), np.zeros(layout.U_SIZE)
+    u[layout.U_SPEED], u[layout.U_TEMPERATURE] = 0.05, -8.0
+    kernel, w = compiled_kernel(), np.zeros(layout.W_SIZE)
+    w[layout.W_STATE + layout.BRISTLES] = 1.0
 
     def slopes(t, y):
-        w[W_STATE + 1 : W_STATE + 1 + SHEARED] = y
-        kernel.set_slopes(stiff, u, w, float(SLIP), W_SLOPES)
-        return w[W_SLOPES : W_SLOPES + SHEARED].copy()
+        w[layout.W_STATE + 1 : layout.W_STATE + 1 + layout.SHEARED] = y
+        kernel.set_slopes(stiff, u, w, float(layout.SLIP), layout.W_SLOPES)
+        return w[layout.W_SLOPES : layout.W_SLOPES + layout.SHEARED].copy()
 
     times, scale = np.arange(0.0, 0.4, 0.01), np.array([1.0, 1.0, 0.04])
     stiff = without_elimination(p)

@@ -21,21 +21,6 @@ from scipy.integrate import solve_ivp
 from stickslip import Parameters, simulate
 from stickslip.compiled import compiled_kernel
 from stickslip.kernel import layout
-from stickslip.kernel.layout import (
-    P_FREE_PHI,
-    P_FREE_Y,
-    P_INERTIA,
-    P_LATERAL,
-    P_MASS,
-    P_PRESLIDING,
-    P_RADIUS,
-    U_SIZE,
-    U_SPEED,
-    W_LOAD,
-    W_SIZE,
-    W_SLIDING,
-    W_STATE,
-)
 
 GRAVITY = 9.81
 MASS, STIFFNESS, MU_S, MU_K, SPEED, CREEP = 0.67, 4.0 * 20.17, 0.3, 0.2, 0.02, 2e-3
@@ -210,17 +195,21 @@ def in_the_plane(case: str, creep: float) -> Parameters:
 def with_inertia(parameters: Parameters, end: float) -> np.ndarray:
     """Place at ``end`` by the stiff equations, from the velocity that a creep begins with."""
     kernel = compiled_kernel()
-    p, u, w = np.array(parameters.pack()), np.zeros(U_SIZE), np.zeros(W_SIZE)
-    u[U_SPEED] = parameters.surface.speed
-    kappa = p[P_LATERAL]
-    eta = np.array([1.0, kappa**2, 0.5 * (kappa * p[P_RADIUS]) ** 2]) / p[P_PRESLIDING]
-    inertia = np.array([p[P_MASS], p[P_MASS], p[P_INERTIA]])
-    free = np.array([1.0, p[P_FREE_Y], p[P_FREE_PHI]])
+    p, u, w = np.array(parameters.pack()), np.zeros(layout.U_SIZE), np.zeros(layout.W_SIZE)
+    u[layout.U_SPEED] = parameters.surface.speed
+    kappa = p[layout.P_LATERAL]
+    eta = (
+        np.array([1.0, kappa**2, 0.5 * (kappa * p[layout.P_RADIUS]) ** 2]) / p[layout.P_PRESLIDING]
+    )
+    inertia = np.array([p[layout.P_MASS], p[layout.P_MASS], p[layout.P_INERTIA]])
+    free = np.array([1.0, p[layout.P_FREE_Y], p[layout.P_FREE_PHI]])
 
     def slopes(t, y):
-        w[W_STATE + 1 : W_STATE + 7] = y
-        kernel.set_contact(p, u, w, W_STATE)
-        force = w[W_LOAD : W_LOAD + 3] - eta * w[W_SLIDING : W_SLIDING + 3]
+        w[layout.W_STATE + 1 : layout.W_STATE + 7] = y
+        kernel.set_contact(p, u, w, layout.W_STATE)
+        force = (
+            w[layout.W_LOAD : layout.W_LOAD + 3] - eta * w[layout.W_SLIDING : layout.W_SLIDING + 3]
+        )
         return [*y[3:], *(free * force / inertia)]
 
     first = simulate(parameters, 1e-6, 1e-6)
@@ -280,11 +269,11 @@ def test_loads_that_change_at_every_step_do_not_tear_the_stick():
     """
     kernel = compiled_kernel()
     blocks = LINE | {"surface": {"speed": SPEED, "run_up_time": 0.0}}
-    p, u = np.array(Parameters(**blocks).pack()), np.zeros(U_SIZE)
-    u[U_SPEED], growth = SPEED, 0.15 * HOLD
+    p, u = np.array(Parameters(**blocks).pack()), np.zeros(layout.U_SIZE)
+    u[layout.U_SPEED], growth = SPEED, 0.15 * HOLD
     ends = []
     for count in (100, 200):
-        z, w = np.zeros(layout.Z_SIZE), np.zeros(W_SIZE)
+        z, w = np.zeros(layout.Z_SIZE), np.zeros(layout.W_SIZE)
         e, o = np.zeros(layout.E_FIRST), np.zeros(layout.O_SIZE)
         kernel.initialise(p, z, 0.0)
         for step in range(count):

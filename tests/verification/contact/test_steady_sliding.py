@@ -10,38 +10,11 @@ from hypothesis import strategies as st
 from kernel_steps import memory_of
 from scipy.integrate import solve_ivp
 from stickslip import Parameters, simulate
-from stickslip.kernel import advance
+from stickslip.kernel import advance, layout
 from stickslip.kernel.contact import set_contact, set_onset_direction
 from stickslip.kernel.friction.disc import disc_friction
 from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.interpolant import copy_instant
-from stickslip.kernel.layout import (
-    DIRECTION,
-    DONE,
-    E_FIRST,
-    HERE,
-    INSTANT,
-    MODE,
-    NEXT,
-    P_INERTIA,
-    P_MASS,
-    P_NORMAL_FORCE,
-    P_RADIUS,
-    QUASI_STEADY,
-    SLIP,
-    TIME,
-    U_SIZE,
-    U_TEMPERATURE,
-    VX,
-    W_DIRECTION,
-    W_FRICTION,
-    W_LOAD,
-    W_PAIR,
-    W_SIZE,
-    W_SLIDING,
-    W_STATE,
-    X,
-)
 from stickslip.kernel.rest import look_at
 
 GRAVITY = 9.81
@@ -64,19 +37,19 @@ def test_a_slip_begins_along_its_own_acceleration(spin, angle, load, kinetic, ra
     p = Parameters(
         friction={"mu_s": mu, "mu_k": kinetic * mu}, lateral_friction={"ratio": ratio}
     ).pack()
-    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
-    u[U_TEMPERATURE] = -8.0
-    scale = np.array([1.0, ratio, ratio * p[P_RADIUS]])
+    u, w = [0.0] * layout.U_SIZE, [0.0] * layout.W_SIZE
+    u[layout.U_TEMPERATURE] = -8.0
+    scale = np.array([1.0, ratio, ratio * p[layout.P_RADIUS]])
     way = np.array([np.cos(angle), np.sin(angle), 10.0**spin]) / np.hypot(1.0, 10.0**spin)
-    pull = load * mu * p[P_NORMAL_FORCE] * gradient(way, w)
-    w[W_FRICTION : W_FRICTION + 3] = list(-pull * scale)
+    pull = load * mu * p[layout.P_NORMAL_FORCE] * gradient(way, w)
+    w[layout.W_FRICTION : layout.W_FRICTION + 3] = list(-pull * scale)
     set_onset_direction(p, u, w)
-    n = np.array(w[W_DIRECTION : W_DIRECTION + 3])
-    inertia = np.array([p[P_MASS], p[P_MASS], p[P_INERTIA]]) / scale**2
-    left = pull - kinetic * mu * p[P_NORMAL_FORCE] * gradient(n, w)
+    n = np.array(w[layout.W_DIRECTION : layout.W_DIRECTION + 3])
+    inertia = np.array([p[layout.P_MASS], p[layout.P_MASS], p[layout.P_INERTIA]]) / scale**2
+    left = pull - kinetic * mu * p[layout.P_NORMAL_FORCE] * gradient(n, w)
     a = (n @ left) / (n @ (inertia * n))
     assert a >= -1e-9 * GRAVITY
-    assert np.max(np.abs(left - a * inertia * n)) < 1e-9 * p[P_NORMAL_FORCE]
+    assert np.max(np.abs(left - a * inertia * n)) < 1e-9 * p[layout.P_NORMAL_FORCE]
 
 
 def gradient(n, w) -> np.ndarray:
@@ -84,7 +57,11 @@ def gradient(n, w) -> np.ndarray:
     sliding = np.hypot(n[0], n[1])
     disc_friction(float(sliding), float(abs(n[2])), w)
     return np.array(
-        [w[W_PAIR] * n[0] / sliding, w[W_PAIR] * n[1] / sliding, w[W_PAIR + 1] * np.sign(n[2])]
+        [
+            w[layout.W_PAIR] * n[0] / sliding,
+            w[layout.W_PAIR] * n[1] / sliding,
+            w[layout.W_PAIR + 1] * np.sign(n[2]),
+        ]
     )
 
 
@@ -108,35 +85,39 @@ def test_creep_is_the_stiff_motion_itself():
     parameters = creeping_rig()
     memory = memory_of(parameters)
     p, u, z = memory.p, memory.u, memory.z
-    w, e = [0.0] * W_SIZE, [0.0] * E_FIRST
+    w, e = [0.0] * layout.W_SIZE, [0.0] * layout.E_FIRST
     crept = 0
     begin = None
-    while z[HERE + TIME] < 3.0 and (begin is None or z[HERE + TIME] < begin[TIME] + 0.1):
-        before = z[HERE + MODE]
-        assert advance.internal_step(p, u, z, w, e, 0.0) == DONE
-        copy_instant(z, NEXT, HERE)
-        if begin is None and before != SLIP and z[HERE + MODE] == SLIP:
-            begin = z[HERE : HERE + INSTANT]
-        crept += begin is not None and z[HERE + QUASI_STEADY] == 1.0
+    while z[layout.HERE + layout.TIME] < 3.0 and (
+        begin is None or z[layout.HERE + layout.TIME] < begin[layout.TIME] + 0.1
+    ):
+        before = z[layout.HERE + layout.MODE]
+        assert advance.internal_step(p, u, z, w, e, 0.0) == layout.DONE
+        copy_instant(z, layout.NEXT, layout.HERE)
+        if begin is None and before != layout.SLIP and z[layout.HERE + layout.MODE] == layout.SLIP:
+            begin = z[layout.HERE : layout.HERE + layout.INSTANT]
+        crept += begin is not None and z[layout.HERE + layout.QUASI_STEADY] == 1.0
     assert crept > 0
 
     def rates(t, y):
-        w[W_STATE : W_STATE + INSTANT] = begin
-        w[W_STATE + TIME] = t
-        w[W_STATE + X : W_STATE + X + 6] = [float(value) for value in y]
-        set_contact(p, u, w, W_STATE)
-        spin = p[P_RADIUS] * w[W_SLIDING + 2]
-        friction_in_slip(p, u, w, w[W_SLIDING], w[W_SLIDING + 1], spin)
-        force = np.add(w[W_LOAD : W_LOAD + 3], w[W_FRICTION : W_FRICTION + 3])
-        return [*y[3:], *(force / [p[P_MASS], p[P_MASS], p[P_INERTIA]])]
+        w[layout.W_STATE : layout.W_STATE + layout.INSTANT] = begin
+        w[layout.W_STATE + layout.TIME] = t
+        w[layout.W_STATE + layout.X : layout.W_STATE + layout.X + 6] = [float(value) for value in y]
+        set_contact(p, u, w, layout.W_STATE)
+        spin = p[layout.P_RADIUS] * w[layout.W_SLIDING + 2]
+        friction_in_slip(p, u, w, w[layout.W_SLIDING], w[layout.W_SLIDING + 1], spin)
+        force = np.add(
+            w[layout.W_LOAD : layout.W_LOAD + 3], w[layout.W_FRICTION : layout.W_FRICTION + 3]
+        )
+        return [*y[3:], *(force / [p[layout.P_MASS], p[layout.P_MASS], p[layout.P_INERTIA]])]
 
-    look_at(p, u, z, w, HERE)
-    start = np.array(begin[X : X + 6])
-    scale = np.array([1.0, 1.0, 1.0 / p[P_RADIUS]])
-    start[VX - X :] += 1e-10 * scale * begin[DIRECTION : DIRECTION + 3]
-    span = begin[TIME], z[HERE + TIME]
+    look_at(p, u, z, w, layout.HERE)
+    start = np.array(begin[layout.X : layout.X + 6])
+    scale = np.array([1.0, 1.0, 1.0 / p[layout.P_RADIUS]])
+    start[layout.VX - layout.X :] += 1e-10 * scale * begin[layout.DIRECTION : layout.DIRECTION + 3]
+    span = begin[layout.TIME], z[layout.HERE + layout.TIME]
     run = solve_ivp(rates, span, start, method="Radau", rtol=1e-10, atol=1e-12)
-    away = run.y[:3, -1] - z[HERE + X : HERE + X + 3]
+    away = run.y[:3, -1] - z[layout.HERE + layout.X : layout.HERE + layout.X + 3]
     assert away / scale == pytest.approx(0.0, abs=1e-9)
 
 

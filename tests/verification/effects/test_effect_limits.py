@@ -9,21 +9,7 @@ import numpy as np
 import pytest
 from stickslip import EFFECTS, Parameters, simulate
 from stickslip.compiled import compiled_kernel
-from stickslip.kernel.layout import (
-    E_COUNT,
-    E_FIRST,
-    MODE,
-    PHI,
-    SHOWN,
-    SLIP,
-    U_FILM,
-    U_SIZE,
-    U_SPEED,
-    U_TEMPERATURE,
-    W_SIZE,
-    Z_SIZE,
-    X,
-)
+from stickslip.kernel import layout
 from stickslip.quantity import details
 
 RADIUS = 0.04
@@ -95,13 +81,17 @@ def with_effect(base: dict, name: str, share: float, size: float, other: dict) -
 def position_in_slip(parameters: Parameters) -> np.ndarray:
     """(x, y, a phi) in m after 0.2 s on a film of water, 2 K warmer than the reference."""
     kernel = compiled_kernel()
-    p, u, z = np.array(parameters.pack()), np.zeros(U_SIZE), np.zeros(Z_SIZE)
-    w, e = np.zeros(W_SIZE), np.zeros(E_FIRST)
-    u[U_SPEED], u[U_TEMPERATURE], u[U_FILM] = parameters.surface.speed, WARMER, WATER
+    p, u, z = np.array(parameters.pack()), np.zeros(layout.U_SIZE), np.zeros(layout.Z_SIZE)
+    w, e = np.zeros(layout.W_SIZE), np.zeros(layout.E_FIRST)
+    u[layout.U_SPEED], u[layout.U_TEMPERATURE], u[layout.U_FILM] = (
+        parameters.surface.speed,
+        WARMER,
+        WATER,
+    )
     kernel.initialise(p, z, 0.0)
     kernel.advance(p, u, z, w, e, 0.2)
-    assert e[E_COUNT] == 0.0 and z[SHOWN + MODE] == SLIP
-    place = z[SHOWN + X : SHOWN + PHI + 1].copy()
+    assert e[layout.E_COUNT] == 0.0 and z[layout.SHOWN + layout.MODE] == layout.SLIP
+    place = z[layout.SHOWN + layout.X : layout.SHOWN + layout.PHI + 1].copy()
     place[2] *= RADIUS
     return place
 

@@ -10,13 +10,8 @@ import numpy as np
 import pytest
 from disc_integral import law_over_disc
 from stickslip import Parameters
+from stickslip.kernel import layout
 from stickslip.kernel.friction.force import friction_in_slip
-from stickslip.kernel.layout import (
-    U_SIZE,
-    U_TEMPERATURE,
-    W_FRICTION,
-    W_SIZE,
-)
 from stickslip.kernel.packing.vector import FEW_POINTS
 
 MU, RADIUS, NORMAL = 0.2, 0.04, 0.67 * 9.81
@@ -48,10 +43,10 @@ def kernel_law(parameters: dict[str, float], sliding: float, spinning: float) ->
     p = Parameters(
         friction={"mu_k": MU}, lateral_friction={"ratio": 1.0}, **{block: parameters}
     ).pack()
-    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
-    u[U_TEMPERATURE] = -8.0
+    u, w = [0.0] * layout.U_SIZE, [0.0] * layout.W_SIZE
+    u[layout.U_TEMPERATURE] = -8.0
     friction_in_slip(p, u, w, sliding, 0.0, spinning)
-    return -w[W_FRICTION] / NORMAL, -w[W_FRICTION + 2] / (NORMAL * RADIUS)
+    return -w[layout.W_FRICTION] / NORMAL, -w[layout.W_FRICTION + 2] / (NORMAL * RADIUS)
 
 
 @pytest.mark.parametrize("name", LAWS)

@@ -8,26 +8,8 @@ from effect_cases import IDS, draw_parameters
 from kernel_steps import memory_of
 from stickslip import Parameters, Solver, simulate
 from stickslip.compiled import compiled_kernel
-from stickslip.kernel import advance, outputs
+from stickslip.kernel import advance, layout, outputs
 from stickslip.kernel.interpolant import copy_instant, interpolate, set_interpolant
-from stickslip.kernel.layout import (
-    BETWEEN,
-    DONE,
-    E_FIRST,
-    HERE,
-    MODE,
-    NEXT,
-    O_SIZE,
-    P_RATE,
-    SHOWN,
-    SLIP,
-    STATES,
-    TIME,
-    W_SIZE,
-    W_SPAN,
-    Z_SMOOTH,
-    X,
-)
 from stickslip.kernel.runge_kutta import begin_step, state_scale, take_step
 
 PLANAR = {
@@ -38,16 +20,19 @@ PLANAR = {
 
 
 def fresh() -> tuple[list[float], list[float]]:
-    return [0.0] * W_SIZE, [0.0] * E_FIRST
+    return [0.0] * layout.W_SIZE, [0.0] * layout.E_FIRST
 
 
 def in_slip(parameters: Parameters, time: float):
     """Memory of a run whose block HERE is in slip, soon after ``time``."""
     memory = memory_of(parameters)
     w, e = fresh()
-    while memory.z[HERE + TIME] < time or memory.z[HERE + MODE] != SLIP:
-        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == DONE
-        copy_instant(memory.z, NEXT, HERE)
+    while (
+        memory.z[layout.HERE + layout.TIME] < time
+        or memory.z[layout.HERE + layout.MODE] != layout.SLIP
+    ):
+        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == layout.DONE
+        copy_instant(memory.z, layout.NEXT, layout.HERE)
     return memory
 
 
@@ -55,26 +40,26 @@ def error_inside(memory, h: float) -> float:
     """Largest error of x in a step of size h from HERE, against sixteen steps to the moment."""
     p, u, z = memory.p, memory.u, list(memory.z)
     w, _ = fresh()
-    begin_step(p, u, z, w, HERE)
-    take_step(p, u, z, w, HERE, NEXT, h)
+    begin_step(p, u, z, w, layout.HERE)
+    take_step(p, u, z, w, layout.HERE, layout.NEXT, h)
     set_interpolant(p, u, z, w)
     largest = 0.0
     for part in (0.2, 0.4, 0.6, 0.8):
-        interpolate(p, u, z, w, SHOWN, z[HERE + TIME] + part * h)
-        shown = z[SHOWN + X]
-        copy_instant(z, HERE, SHOWN)
+        interpolate(p, u, z, w, layout.SHOWN, z[layout.HERE + layout.TIME] + part * h)
+        shown = z[layout.SHOWN + layout.X]
+        copy_instant(z, layout.HERE, layout.SHOWN)
         for _ in range(16):
-            begin_step(p, u, z, w, SHOWN)
-            take_step(p, u, z, w, SHOWN, BETWEEN, part * h / 16.0)
-            copy_instant(z, BETWEEN, SHOWN)
-        largest = max(largest, abs(shown - z[SHOWN + X]))
+            begin_step(p, u, z, w, layout.SHOWN)
+            take_step(p, u, z, w, layout.SHOWN, layout.BETWEEN, part * h / 16.0)
+            copy_instant(z, layout.BETWEEN, layout.SHOWN)
+        largest = max(largest, abs(shown - z[layout.SHOWN + layout.X]))
     return largest
 
 
 def test_order_of_the_interpolant():
     """Of degree 7: the error inside a step falls with the eighth power of its size."""
     memory = in_slip(Parameters(**PLANAR), 0.3)
-    steps = np.array([1.0, 0.7, 0.5, 0.35]) / memory.p[P_RATE]
+    steps = np.array([1.0, 0.7, 0.5, 0.35]) / memory.p[layout.P_RATE]
     errors = [error_inside(memory, h) for h in steps]
     slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
     assert slope == pytest.approx(8.0, abs=0.5)
@@ -96,41 +81,50 @@ def test_samples_are_as_exact_as_the_tolerance_asks(effect):
         p, u, z = (np.array(part) for part in (memory.p, memory.u, memory.z))
         w, e = (np.array(part) for part in fresh())
         for _ in range(200):
-            if kernel.internal_step(p, u, z, w, e, 0.0) != DONE:
+            if kernel.internal_step(p, u, z, w, e, 0.0) != layout.DONE:
                 break
-            if z[NEXT + TIME] > z[HERE + TIME]:
+            if z[layout.NEXT + layout.TIME] > z[layout.HERE + layout.TIME]:
                 kernel.set_interpolant(p, u, z, w)
                 check_inside(kernel, p, u, z, w)
-            kernel.copy_instant(z, NEXT, HERE)
+            kernel.copy_instant(z, layout.NEXT, layout.HERE)
 
 
 def check_inside(kernel, p, u, z, w):
     exact, scratch = z.copy(), w.copy()
-    time, steps = z[HERE + TIME] + 0.37 * w[W_SPAN], 8
+    time, steps = z[layout.HERE + layout.TIME] + 0.37 * w[layout.W_SPAN], 8
     kernel.look_inside(p, u, z, w, time)
-    kernel.copy_instant(exact, HERE, SHOWN)
+    kernel.copy_instant(exact, layout.HERE, layout.SHOWN)
     for _ in range(steps):
-        kernel.begin_step(p, u, exact, scratch, SHOWN)
-        kernel.take_step(p, u, exact, scratch, SHOWN, BETWEEN, (time - z[HERE + TIME]) / steps)
-        kernel.copy_instant(exact, BETWEEN, SHOWN)
+        kernel.begin_step(p, u, exact, scratch, layout.SHOWN)
+        kernel.take_step(
+            p,
+            u,
+            exact,
+            scratch,
+            layout.SHOWN,
+            layout.BETWEEN,
+            (time - z[layout.HERE + layout.TIME]) / steps,
+        )
+        kernel.copy_instant(exact, layout.BETWEEN, layout.SHOWN)
     units = [
-        abs(z[SHOWN + i] - exact[SHOWN + i]) / state_scale(p, u, i, exact[SHOWN + i])
-        for i in range(1, 1 + STATES)
+        abs(z[layout.SHOWN + i] - exact[layout.SHOWN + i])
+        / state_scale(p, u, i, exact[layout.SHOWN + i])
+        for i in range(1, 1 + layout.STATES)
     ]
-    assert max(units) < (25.0 if z[Z_SMOOTH] else 250.0)
+    assert max(units) < (25.0 if z[layout.Z_SMOOTH] else 250.0)
 
 
 def test_a_state_taken_inside_a_step_continues_bit_for_bit():
     memory = memory_of(Parameters(**PLANAR))
     p, u, z = memory.p, memory.u, memory.z
-    (w, e), shown = fresh(), [[0.0] * O_SIZE, [0.0] * O_SIZE]
+    (w, e), shown = fresh(), [[0.0] * layout.O_SIZE, [0.0] * layout.O_SIZE]
     times = [0.3 + 0.004 * i for i in range(60)]
     advance.advance(p, u, z, w, e, times[0])
     kept = list(z)
     for row, start in zip(shown, (z, kept), strict=True):
-        other, scratch = list(start), [7.0] * W_SIZE  # no memory in the scratch space
+        other, scratch = list(start), [7.0] * layout.W_SIZE  # no memory in the scratch space
         for time in times[1:]:
-            assert advance.advance(p, u, other, scratch, e, time) == DONE
+            assert advance.advance(p, u, other, scratch, e, time) == layout.DONE
         outputs.show(p, u, other, scratch, row, 0)
         kept = list(kept)
     assert shown[0] == shown[1]
@@ -150,6 +144,6 @@ def test_slip_time_is_the_time_between_events():
     run = simulate(Parameters(lateral_friction={"ratio": 1.0}), 5.0)
     between = np.diff([0.0, *run.events[:, 0], 5.0])
     modes = [run["mode"][0], *run.events[:, 1]]
-    expected = sum(span for span, mode in zip(between, modes, strict=True) if mode == SLIP)
+    expected = sum(span for span, mode in zip(between, modes, strict=True) if mode == layout.SLIP)
     assert len(run.events) > 4
     assert run["slip_time"][-1] == pytest.approx(expected, abs=1e-12)

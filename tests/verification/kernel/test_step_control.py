@@ -2,21 +2,8 @@
 
 from kernel_steps import memory_of
 from stickslip import Parameters
-from stickslip.kernel import advance
+from stickslip.kernel import advance, layout
 from stickslip.kernel.interpolant import copy_instant
-from stickslip.kernel.layout import (
-    DONE,
-    E_FIRST,
-    HERE,
-    MODE,
-    NEXT,
-    P_LONGEST_STICK,
-    P_TOLERANCE,
-    SLIP,
-    STICK,
-    TIME,
-    W_SIZE,
-)
 
 # steps of a slip over a pattern are as long as the tolerance allows, not as the period does
 SHORT_WAVES = Parameters.model_validate(
@@ -30,7 +17,7 @@ SHORT_WAVES = Parameters.model_validate(
 
 def test_a_refused_step_is_not_tried_again(monkeypatch):
     """One step in five is refused, at the crests; by a control that forgets it, more than each."""
-    memory, w, e = memory_of(SHORT_WAVES), [0.0] * W_SIZE, [0.0] * E_FIRST
+    memory, w, e = memory_of(SHORT_WAVES), [0.0] * layout.W_SIZE, [0.0] * layout.E_FIRST
     tried, taken, take_step = 0, 0, advance.take_step
 
     def counted(*call):
@@ -39,14 +26,14 @@ def test_a_refused_step_is_not_tried_again(monkeypatch):
         return take_step(*call)
 
     monkeypatch.setattr(advance, "take_step", counted)
-    while memory.z[HERE + TIME] < 4.0:
-        slips, before = memory.z[HERE + MODE] == SLIP, tried
-        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == DONE
-        if slips and memory.z[NEXT + MODE] == SLIP:
+    while memory.z[layout.HERE + layout.TIME] < 4.0:
+        slips, before = memory.z[layout.HERE + layout.MODE] == layout.SLIP, tried
+        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == layout.DONE
+        if slips and memory.z[layout.NEXT + layout.MODE] == layout.SLIP:
             taken += 1
         else:
             tried = before
-        copy_instant(memory.z, NEXT, HERE)
+        copy_instant(memory.z, layout.NEXT, layout.HERE)
     assert taken > 200
     assert tried < 1.5 * taken
 
@@ -63,14 +50,14 @@ FALLING = Parameters.model_validate(
 
 def test_a_slip_comes_to_rest_in_few_steps():
     """The time that is left follows from the friction on the way, and is not halved and halved."""
-    memory, w, e = memory_of(FALLING), [0.0] * W_SIZE, [0.0] * E_FIRST
+    memory, w, e = memory_of(FALLING), [0.0] * layout.W_SIZE, [0.0] * layout.E_FIRST
     steps = slips = 0
-    while memory.z[HERE + TIME] < 8.0:
-        slides = memory.z[HERE + MODE] == SLIP
-        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == DONE
+    while memory.z[layout.HERE + layout.TIME] < 8.0:
+        slides = memory.z[layout.HERE + layout.MODE] == layout.SLIP
+        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == layout.DONE
         steps += slides
-        slips += slides and memory.z[NEXT + MODE] == STICK
-        copy_instant(memory.z, NEXT, HERE)
+        slips += slides and memory.z[layout.NEXT + layout.MODE] == layout.STICK
+        copy_instant(memory.z, layout.NEXT, layout.HERE)
     assert slips > 5
     assert steps / slips < 17
 
@@ -87,17 +74,17 @@ SLOW = Parameters.model_validate(
 
 def first_break_away(longer: float, tolerance: float) -> tuple[float, int]:
     """Its time, s, and the steps up to it, with sticks' longest step so many times as long."""
-    memory, w, e = memory_of(SLOW), [0.0] * W_SIZE, [0.0] * E_FIRST
-    memory.p[P_LONGEST_STICK] *= longer
-    memory.p[P_TOLERANCE] = tolerance
+    memory, w, e = memory_of(SLOW), [0.0] * layout.W_SIZE, [0.0] * layout.E_FIRST
+    memory.p[layout.P_LONGEST_STICK] *= longer
+    memory.p[layout.P_TOLERANCE] = tolerance
     steps = 0
     while True:
-        held = memory.z[HERE + MODE] == STICK
-        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == DONE
+        held = memory.z[layout.HERE + layout.MODE] == layout.STICK
+        assert advance.internal_step(memory.p, memory.u, memory.z, w, e, 0.0) == layout.DONE
         steps += held
-        if held and memory.z[NEXT + MODE] == SLIP:
-            return memory.z[NEXT + TIME], steps
-        copy_instant(memory.z, NEXT, HERE)
+        if held and memory.z[layout.NEXT + layout.MODE] == layout.SLIP:
+            return memory.z[layout.NEXT + layout.TIME], steps
+        copy_instant(memory.z, layout.NEXT, layout.HERE)
 
 
 def test_long_steps_in_stick_miss_no_break_away():
