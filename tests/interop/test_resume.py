@@ -71,20 +71,9 @@ def test_another_case_is_refused(copy):
     assert "rig.mass: was 0.67, is 0.7" in refused("run", "--resume", copy)
 
 
-def test_a_damaged_checkpoint_is_refused(copy):
-    path = copy / "unfinished" / "checkpoint.zip"
-    path.write_bytes(path.read_bytes()[:-100])
-    assert "checkpoint.zip: is damaged" in refused("run", "--resume", copy)
-
-
 def test_a_record_that_is_gone_is_refused(copy):
     (copy / "unfinished" / "record.npy").unlink()
     assert "record.npy: " in refused("run", "--resume", copy)
-
-
-def test_no_checkpoint_is_refused(copy):
-    (copy / "unfinished" / "checkpoint.zip").unlink()
-    assert "no checkpoint yet" in refused("run", "--resume", copy)
 
 
 def test_nothing_to_go_on_with_is_refused(tmp_path):

@@ -88,15 +88,3 @@ def test_without_asking_there_is_no_animation_and_melting_away_ends_the_run(tmp_
     with xr.open_dataset(tmp_path / "out" / "result.nc") as dataset:
         assert dataset.attrs["status"] == "failed"
         assert dataset.sizes["time"] > 1
-
-
-def test_ice_that_melts_under_friction_that_stays_dry_ends_the_run(tmp_path, fmu):
-    done = run(tmp_path, fmu, SHORT + "[ambient]\ntemperature_degC = -1e-3\n")
-    assert (done.returncode, done.stderr.count("\n")) == (1, 1)
-    assert done.stderr.startswith("error: thermal: failed in the step from t = ")
-    assert "melts, which friction does not feel: switch on mixed_lubrication" in done.stderr
-    with xr.open_dataset(tmp_path / "out" / "result.nc") as dataset:
-        assert dataset.attrs["status"] == "failed"
-        assert dataset.sizes["time"] > 1
-        assert float(dataset["melted_mass"].max()) == 0.0
-        assert np.all(np.isfinite(dataset["belt_temperature"]))

@@ -89,13 +89,3 @@ def test_the_fmu_moves_as_the_model_alone(fmu, case, macro_step):
         np.testing.assert_allclose(coupled[f"block.{name}"], alone[name], rtol=1e-9, atol=1e-8)
     for name in ("mode", "slip_count"):
         np.testing.assert_array_equal(coupled[f"block.{name}"], alone[name])
-
-
-def test_any_macro_step_gives_the_same_thirty_seconds(fmu):
-    parameters = Parameters()
-    alone = simulate(parameters, duration=30.0, output_interval=0.5)
-    for macro_step, every in ((0.002, 250), (0.0625, 8), (0.5, 1)):
-        coupled = in_fmu(fmu, parameters, 30.0, macro_step, every)
-        np.testing.assert_allclose(coupled["block.x"], alone["x"], rtol=0, atol=1e-8)
-        residual = np.abs(coupled["block.energy_residual"]).max()
-        assert residual < 1e-9 * coupled["block.heat"][-1]

@@ -173,32 +173,3 @@ def test_every_contradiction_is_said_and_names_parameters_that_there_are():
 )
 def test_what_can_stand_side_by_side_does(given):
     assert words.contradiction(OFF | given) == ""
-
-
-GUIDED = {"rig": {"degrees_of_freedom": ["x"]}}
-CURVE_OF_TWO = {"force_curve_extension": [0.0, 0.1], "force_curve_force": [0.0, -1.0]}
-
-
-@pytest.mark.parametrize(
-    ("tables", "said"),
-    [
-        ({"springs": CURVE_OF_TWO}, "springs.force_curve_force must not fall"),
-        (
-            {"friction": {"table_speed": [-0.1, 0.1], "table_mu": [0.2, 0.1]}},
-            "friction.table_speed begins at -0.1 m/s: allowed is at least 0 m/s",
-        ),
-        ({**GUIDED, "initial": {"vy": 0.1}}, "initial.vy = 0.1 m/s .* guided in y"),
-        ({**GUIDED, "initial": {"omega": 1.0}}, "initial.omega = 1 rad/s .* guided in phi"),
-        (
-            {"rig": {"contact_radius": 0.06}, "turning_surface": {"curvature": 20.0}},
-            "curvature = 20 1/m puts the centre of turning under the block",
-        ),
-        (
-            {"speed_ripple": {"amplitude": 1.0, "frequency": 200.0}},
-            "speed_ripple.frequency = 200 Hz",
-        ),
-    ],
-)
-def test_a_scenario_is_refused_in_the_same_words(tables, said):
-    with pytest.raises(ValueError, match=said):
-        Parameters(**tables)

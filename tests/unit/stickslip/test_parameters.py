@@ -5,19 +5,14 @@ import warnings
 
 import pytest
 from pydantic import ValidationError
-from stickslip import EFFECTS, Parameters
+from stickslip import Parameters
 from stickslip.kernel.layout import CURVE_LIMIT, P_PRESLIDING
 
 # block, its values, what the message says
 REFUSED = {
-    "no mass": ("rig", {"mass": 0.0}, ["rig.mass", "greater than 0"]),
-    "negative mass": ("rig", {"mass": -1.0}, ["rig.mass", "greater than 0"]),
     "mass in words": ("rig", {"mass": "heavy"}, ["rig.mass", "valid number"]),
-    "mass not a number": ("rig", {"mass": math.nan}, ["rig.mass", "finite number"]),
-    "infinite mass": ("rig", {"mass": math.inf}, ["rig.mass", "finite number"]),
     "no inertia": ("rig", {"inertia": 0.0}, ["rig.inertia", "'disc' or 'ring'", "greater than 0"]),
     "inertia by a wrong word": ("rig", {"inertia": "sphere"}, ["rig.inertia", "'disc' or 'ring'"]),
-    "no contact": ("rig", {"contact_radius": 0.0}, ["rig.contact_radius", "greater than 0"]),
     "three attachments": (
         "rig",
         {"attachment_angles_deg": [0.0, 90.0, 180.0]},
@@ -43,7 +38,6 @@ REFUSED = {
         {"degrees_of_freedom": ["x", "z"]},
         ["degrees_of_freedom.1", "'x', 'y' or 'phi'"],
     ),
-    "negative stiffness": ("springs", {"stiffness": -1.0}, ["springs.stiffness", "equal to 0"]),
     "curve without forces": (
         "springs",
         {"force_curve_extension": [0.0, 0.1]},
@@ -59,11 +53,6 @@ REFUSED = {
         {"force_curve_extension": [0.0, 0.0], "force_curve_force": [0.0, 1.0]},
         ["force_curve_extension must grow"],
     ),
-    "curve that falls": (
-        "springs",
-        {"force_curve_extension": [0.0, 0.1], "force_curve_force": [0.0, -1.0]},
-        ["force_curve_force must not fall"],
-    ),
     "curve too long": (
         "springs",
         {
@@ -76,17 +65,6 @@ REFUSED = {
         "springs",
         {"force_curve_extension": [0.0, math.nan], "force_curve_force": [0.0, 1.0]},
         ["force_curve_extension.1", "finite number"],
-    ),
-    "negative friction": ("friction", {"mu_k": -0.1}, ["friction.mu_k", "equal to 0"]),
-    "creep backwards": ("friction", {"stick_creep": -1e-3}, ["friction.stick_creep", "equal to 0"]),
-    "speed not a number": ("surface", {"speed": math.nan}, ["surface.speed", "finite number"]),
-    "speed ramp into the past": ("surface", {"run_up_time": -1.0}, ["run_up_time", "equal to 0"]),
-    "start not a number": ("initial", {"x": math.nan}, ["initial.x", "finite number"]),
-    "loose solver": ("solver", {"tolerance": 0.1}, ["solver.tolerance", "0.001"]),
-    "solver beyond rounding": (
-        "solver",
-        {"tolerance": 1e-16},
-        ["solver.tolerance", "0.0000000000001"],
     ),
     "unknown key": ("rig", {"weight": 1.0}, ["rig.weight", "not permitted"]),
     "full ripple, too fast": (
@@ -161,11 +139,13 @@ def test_a_creep_is_that_under_what_the_contact_holds():
     assert slot(friction={"mu_s": 0.0, "mu_k": 0.0, "stick_creep": 2e-3}) == 0.0
 
 
-@pytest.mark.parametrize("effect", EFFECTS, ids=lambda effect: effect.id)
-def test_every_bound_of_every_effect_is_kept(effect):
+@pytest.mark.parametrize("block", Parameters.model_fields)
+def test_every_bound_of_every_number_is_kept(block):
     """Beyond a bound is refused with the key and the bound, and so is what is not a number."""
-    for name, field in effect.table.model_fields.items():
-        bad = [(math.nan, None)]
+    for name, field in Parameters.model_fields[block].annotation.model_fields.items():
+        if field.annotation not in (float, int):
+            continue
+        bad = [(math.nan, None), (math.inf, None)]
         for bound in field.metadata:
             for kind, step in (("gt", 0), ("ge", -1), ("lt", 0), ("le", 1)):
                 limit = getattr(bound, kind, None)
@@ -173,9 +153,9 @@ def test_every_bound_of_every_effect_is_kept(effect):
                     bad.append((limit + step, {kind: limit}))
         for value, allowed in bad:
             with pytest.raises(ValidationError) as refusal:
-                Parameters(**{effect.id: {name: value}})
+                Parameters(**{block: {name: value}})
             (error,) = refusal.value.errors()
-            assert error["loc"] == (effect.id, name)
+            assert error["loc"] == (block, name)
             assert allowed is None or error["ctx"] == allowed
 
 

@@ -5,7 +5,6 @@ import subprocess
 import sys
 
 import pytest
-from stickslip.generation.places import PLACES
 from stickslip.plugins import PluginError, use
 from stickslip.plugins.load import TABLES, effect_in
 
@@ -99,13 +98,9 @@ def test_a_term_s_numbers_are_declared(said):
         ("EFFECT = Effect(", "EFFECTS = Effect(", "has no EFFECT"),
         ("EFFECT = Effect(", "EFFECT = dict(", "dict"),
         ("class Brush(Table):", "class Brush(Table:", "line "),
-        ('switch=("fall",)', 'switch=("rise",)', "switch 'rise' is no parameter"),
         ('switch=("fall",)', 'switch=("onset",)', "onset is not off at 0"),
-        ('axis="sliding speed"', 'axis="temperament"', "'temperament' is none"),
         ('enters="friction"', 'enters="magic"', "enters 'magic', which is no part of the model"),
         ('0.05, "m/s"', '-0.05, "m/s"', "default of onset: Input should be greater than 0"),
-        ("terms=(dry_factor,)", "terms=(dry_factor)", "terms is no tuple"),
-        ("def dry_factor(", "def wet_factor(", "wet_factor"),
         ("speed: float, fall", "speed: float, mood: float, fall", "'mood'"),
         ('{"fall": 0.3, "onset": 0.05}', '{"fall": 3.0}', "case: fall"),
         ('id="brush"', 'id="rig"', "'rig' cannot be the name of a table"),
@@ -124,10 +119,6 @@ def test_a_term_s_numbers_are_declared(said):
 )
 def test_what_is_wrong_with_a_file_is_said(said, old, new, what):
     assert old in GOOD
-    if old == "def dry_factor(":
-        text = GOOD.replace("dry_factor", "wet_factor")
-        assert all(place.name in said(text) for place in PLACES)
-        return
     text = GOOD.replace(old, new, 1)
     assert what in said(text)
 
