@@ -130,6 +130,12 @@ def at_home(home, monkeypatch):
     return home
 
 
+@pytest.fixture
+def elsewhere(tmp_path, monkeypatch):
+    """Work in a folder of the test's own."""
+    monkeypatch.chdir(tmp_path)
+
+
 @pytest.fixture(scope="session")
 def browser():
     """A browser for pages, one for all tests of a worker; skipped where there is none."""

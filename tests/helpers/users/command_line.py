@@ -35,3 +35,16 @@ def stickslip_here(folder, *arguments):
         except SystemExit as stop:  # argparse ends the process
             status = stop.code
     return subprocess.CompletedProcess(words, status, out.getvalue(), err.getvalue())
+
+
+def refusal(capsys, *argv):
+    """Exit status 2 and one line on stderr, nothing on stdout; the line."""
+    capsys.readouterr()
+    try:
+        status = main([str(word) for word in argv])
+    except SystemExit as stop:  # argparse's way
+        status = stop.code
+    out, err = capsys.readouterr()
+    assert (status, out) == (2, "")
+    assert err.startswith("error: ") and err.count("\n") == 1
+    return err.removeprefix("error: ").strip()

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import jsonschema
 import pytest
+from command_line import refusal
 
 from cosim.cli import main
 from cosim.cli.arguments import COMMANDS
@@ -17,22 +18,12 @@ from cosim.scenario.keys import all_keys
 from cosim.scenario.scenario import source_text
 from cosim.scenario.validation import known_keys
 
-
-@pytest.fixture(autouse=True)
-def elsewhere(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("elsewhere")
 
 
 def printed(capsys, *argv):
     assert main(argv) == 0
     return capsys.readouterr().out
-
-
-def refusal(capsys, *argv):
-    assert main(argv) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and err.count("\n") == 1
-    return err.removeprefix("error: ").strip()
 
 
 @pytest.fixture

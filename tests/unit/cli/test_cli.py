@@ -7,27 +7,13 @@ import sys
 from importlib.metadata import version
 
 import pytest
+from command_line import refusal
 
 from cosim.cli import main, warnings_in_one_line
 from cosim.cli.arguments import COMMANDS, Parser, command_module, parser
 from cosim.files import OutputRefused, writable
 
-
-def refusal(capsys, *argv):
-    """Exit status 2 and one line on stderr, nothing on stdout; the line."""
-    try:
-        status = main(argv)
-    except SystemExit as stop:  # argparse's way
-        status = stop.code
-    out, err = capsys.readouterr()
-    assert (status, out) == (2, "")
-    assert err.startswith("error: ") and err.count("\n") == 1
-    return err.removeprefix("error: ").strip()
-
-
-@pytest.fixture(autouse=True)
-def elsewhere(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("elsewhere")
 
 
 @pytest.mark.parametrize("command", [[], *([name] for name in COMMANDS)])

@@ -8,6 +8,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import pytest
+from command_line import refusal
 
 import cosim.files
 from cosim.cli import main
@@ -34,18 +35,7 @@ elements = 3
 """
 
 
-@pytest.fixture(autouse=True)
-def elsewhere(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
-def refusal(capsys, *argv):
-    """The one line of a refusal."""
-    capsys.readouterr()
-    assert main(argv) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and err.count("\n") == 1
-    return err
+pytestmark = pytest.mark.usefixtures("elsewhere")
 
 
 def names_in(folder):
@@ -61,7 +51,7 @@ def test_an_example_does_not_overwrite_a_campaign(capsys, tmp_path, command):
     written = campaign.read_text()
     campaign.write_text("name = 'three weeks of work'\n")
     line = refusal(capsys, *example)
-    assert line.startswith("error: mine/campaign.toml: is there with other content, allowed is")
+    assert line.startswith("mine/campaign.toml: is there with other content, allowed is")
     assert "--force" in line
     assert campaign.read_text() == "name = 'three weeks of work'\n"
     assert main([*example, "--force"]) == 0
@@ -80,7 +70,7 @@ def test_a_copy_of_the_numbers_does_not_overwrite_what_is_none(capsys, tmp_path,
     main([command, "--write-example", "mine"])
     campaign = (tmp_path / "mine" / "campaign.toml").read_bytes()
     line = refusal(capsys, command, "mine", "--json", "mine/campaign.toml")
-    assert line.startswith("error: mine/campaign.toml: is there and no result of this command")
+    assert line.startswith("mine/campaign.toml: is there and no result of this command")
     assert (tmp_path / "mine" / "campaign.toml").read_bytes() == campaign
 
 
@@ -122,7 +112,7 @@ def test_a_file_of_somebody_else_is_not_overwritten(capsys, tmp_path, argv, name
     theirs.parent.mkdir(parents=True)
     theirs.write_text("my own")
     line = refusal(capsys, *argv, "-o", "out")
-    assert line.startswith(f"error: out/{name}: is no result of an earlier run")
+    assert line.startswith(f"out/{name}: is no result of an earlier run")
     assert "--force" in line and theirs.read_text() == "my own"
 
 

@@ -19,9 +19,7 @@ from cosim.cli.runs import run_io
 SHORT = "[run]\nduration = 0.5\n"
 
 
-@pytest.fixture(autouse=True)
-def elsewhere(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+pytestmark = pytest.mark.usefixtures("elsewhere")
 
 
 @pytest.fixture

@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from command_line import refusal
 
 from cosim.cli import main
 from cosim.scenario import ScenarioError, read_scenario
@@ -19,17 +20,7 @@ COMMANDS = {
 }
 
 
-@pytest.fixture(autouse=True)
-def elsewhere(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
-def refusal(capsys, *argv):
-    """Exit status 2 and one line on stderr, nothing on stdout; the line."""
-    assert main(argv) == 2
-    out, err = capsys.readouterr()
-    assert out == "" and err.startswith("error: ") and err.count("\n") == 1
-    return err.removeprefix("error: ").strip()
+pytestmark = pytest.mark.usefixtures("elsewhere")
 
 
 @pytest.mark.parametrize(
