@@ -24,6 +24,7 @@ from .material import page_of_material
 from .motion_text import border_sentence, regime_sentence, stability_sentence
 from .page import render
 from .quantities import digits, spelled, told, with_unit, worded
+from .run_answer import headline, tiles
 from .run_summary import summary
 
 Progress = Callable[[str], None]
@@ -139,7 +140,9 @@ def run_page(
         numbers=numbers,
         created=datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z"),
         case=CASES.get(numbers["case"], numbers["case"]),
-        overview=overview(numbers),
+        headline=headline(numbers),
+        tiles=tiles(numbers),
+        simulated=_simulated(numbers),
         ledgers=list(ledgers(numbers)),
         tables=list(number_tables(numbers)),
         temperatures=temperature_rows(numbers),
@@ -156,34 +159,11 @@ def run_page(
     return page_of_material(html, material_of(dataset))
 
 
-def overview(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """The handful of numbers that stand at the top."""
-    paths = (
-        "time_reached",
-        "after_run_up.frequency",
-        "after_run_up.slip_share",
-        "after_run_up.mean_x",
-        "after_run_up.max_rotation_deg",
-        "temperatures.interface.end_rise",
-        "ledger.mechanics.friction_heat",
-        "wall_time",
-    )
-    words = {
-        "time_reached": "simulated",
-        "wall_time": "computing time",
-        "after_run_up.slip_share": "of the time in slip",
-        "temperatures.interface.end_rise": "rise at the contact, end",
-    }
-    found = []
-    for path in paths:
-        value = _at(numbers, path)
-        if value is not None:
-            none = path == "after_run_up.frequency" and value == 0.0
-            told_of = "none" if none else _told(numbers, path)
-            if path == "wall_time":  # of the machine's mood: two digits
-                told_of = told(float(f"{value:.2g}"), "s")
-            found.append((words.get(path, worded(path.rsplit(".")[-1])), told_of))
-    return found
+def _simulated(numbers: Mapping[str, Any]) -> str:
+    """How long the run was, and how long it took: to two digits, for that is the machine's mood."""
+    took = numbers.get("wall_time")
+    computing = "" if took is None else f", computed in {told(float(f'{took:.2g}'), 's')}"
+    return f"{told(numbers['time_reached'], 's')} of motion{computing}"
 
 
 def ledgers(numbers: Mapping[str, Any]) -> Iterator[Table]:

@@ -2,7 +2,7 @@
 // use the arrow keys to read it.
 "use strict";
 live.each("belt_map", (stage, data) => {
-  const HEIGHT = 320, LEFT = 52, BOTTOM = 40, TOP = 8, RIGHT = 8, FONT = '12px system-ui, "DejaVu Sans", sans-serif';
+  const HEIGHT = 320, PAPER = 0.5, LEFT = 52, BOTTOM = 40, TOP = 8, RIGHT = 8, FONT = '12px system-ui, "DejaVu Sans", sans-serif';
   const time = live.numbers(data.time), contact = live.numbers(data.contact), levels = live.numbers(data.levels);
   const [times, places] = data.shape, colours = live.colours(data.colours);
   const begin = time[0], end = time[times - 1] > begin ? time[times - 1] : begin + 1;
@@ -12,7 +12,7 @@ live.each("belt_map", (stage, data) => {
   });
   const said = live.element("output", { class: "small" });
   const picture = painted();
-  let context = null, width = 0, pointer = null;
+  let context = null, width = 0, tall = HEIGHT, pointer = null;
   stage.append(canvas, live.scale(data, "rise over the air"), said);
 
   // One pixel for each number: times across, places upwards.
@@ -33,7 +33,7 @@ live.each("belt_map", (stage, data) => {
 
   const inner = () => width - LEFT - RIGHT;
   const px = (t) => LEFT + inner() * (t - begin) / (end - begin);
-  const py = (place) => TOP + HEIGHT * (1 - place / data.length);
+  const py = (place) => TOP + tall * (1 - place / data.length);
 
   function drawAxes() {
     context.fillStyle = "#222";
@@ -42,17 +42,17 @@ live.each("belt_map", (stage, data) => {
     context.font = FONT;
     context.textAlign = "center";
     for (const t of live.ticks(begin, end, inner() / 80)) {
-      context.fillText(live.told(t), px(t), TOP + HEIGHT + 17);
-      context.strokeRect(px(t), TOP + HEIGHT, 0, 4);
+      context.fillText(live.told(t), px(t), TOP + tall + 17);
+      context.strokeRect(px(t), TOP + tall, 0, 4);
     }
-    context.fillText("time [s]", LEFT + 0.5 * inner(), TOP + HEIGHT + 34);
+    context.fillText("time [s]", LEFT + 0.5 * inner(), TOP + tall + 34);
     context.textAlign = "right";
     for (const place of live.ticks(0, data.length, 5)) {
       context.fillText(live.told(place), LEFT - 7, py(place) + 4);
       context.strokeRect(LEFT - 4, py(place), 4, 0);
     }
     context.save();
-    context.translate(12, TOP + 0.5 * HEIGHT);
+    context.translate(12, TOP + 0.5 * tall);
     context.rotate(-Math.PI / 2);
     context.textAlign = "center";
     context.fillText(`place on the ${data.surface} [m]`, 0, 0);
@@ -73,16 +73,16 @@ live.each("belt_map", (stage, data) => {
   function cross(t, place) {
     context.strokeStyle = "#fff";
     context.setLineDash([3, 3]);
-    context.strokeRect(px(t), TOP, 0, HEIGHT);
+    context.strokeRect(px(t), TOP, 0, tall);
     if (place !== null) context.strokeRect(LEFT, py(place), inner(), 0);
     context.setLineDash([]);
   }
 
   function draw() {
     if (!context) return;
-    context.clearRect(0, 0, width, TOP + HEIGHT + BOTTOM);
+    context.clearRect(0, 0, width, TOP + tall + BOTTOM);
     context.imageSmoothingEnabled = false;
-    context.drawImage(picture, LEFT, TOP, inner(), HEIGHT);
+    context.drawImage(picture, LEFT, TOP, inner(), tall);
     drawWay();
     drawAxes();
     if (live.clock.time !== null && live.clock.time <= end) cross(live.clock.time, null);
@@ -103,7 +103,7 @@ live.each("belt_map", (stage, data) => {
   canvas.addEventListener("pointermove", (event) => {
     const box = canvas.getBoundingClientRect();
     move(begin + (end - begin) * (event.clientX - box.left - LEFT) / inner(),
-      data.length * (1 - (event.clientY - box.top - TOP) / HEIGHT));
+      data.length * (1 - (event.clientY - box.top - TOP) / tall));
   });
   canvas.addEventListener("keydown", (event) => {
     const by = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
@@ -115,7 +115,8 @@ live.each("belt_map", (stage, data) => {
   live.clock.follow(draw);
   live.onWidth(stage, (wide) => {
     width = wide;
-    context = live.sized(canvas, width, TOP + HEIGHT + BOTTOM);
+    tall = live.onPaper() ? PAPER * HEIGHT : HEIGHT;
+    context = live.sized(canvas, width, TOP + tall + BOTTOM);
     draw();
   });
 });

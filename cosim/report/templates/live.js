@@ -50,12 +50,23 @@ const live = (() => {
     return figure ? JSON.parse(figure.querySelector("script").textContent) : null;
   }
 
-  // Call with the width of a box, at once and whenever it changes.
+  // Call with the width of a box, at once and whenever it changes; on paper that of a sheet, which
+  // there is before it is printed.
+  const looks = [];
+  for (const [event, on] of [["beforeprint", true], ["afterprint", false]]) {
+    addEventListener(event, () => {
+      document.documentElement.classList.toggle("paper", on);
+      for (const look of looks) look();
+    });
+  }
+  const onPaper = () => document.documentElement.classList.contains("paper");
+
   function onWidth(box, call) {
     let width = 0;
     const look = () => {
       if (box.clientWidth && box.clientWidth !== width) call((width = box.clientWidth));
     };
+    looks.push(look);
     new ResizeObserver(look).observe(box);
     look();
   }
@@ -126,5 +137,5 @@ const live = (() => {
     },
   };
 
-  return { numbers, element, told, each, dataOf, onWidth, sized, colours, scale, placeOf, ticks, clock };
+  return { numbers, element, told, each, dataOf, onPaper, onWidth, sized, colours, scale, placeOf, ticks, clock };
 })();

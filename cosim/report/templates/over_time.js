@@ -2,7 +2,7 @@
 // figures of a page that are over the same time, from begin to end, zoom and point together.
 "use strict";
 (() => {
-  const HEIGHT = 190, INK = "#222", SOFT = "#5c5c5c", GRID = "#e3e3e3", SHADE = "#f8ead0";
+  const HEIGHT = 190, PAPER = 0.6, INK = "#222", SOFT = "#5c5c5c", GRID = "#e3e3e3", SHADE = "#f8ead0";
   const DASH = [5, 4], FONT = '12px system-ui, "DejaVu Sans", sans-serif';
   const plots = [];
   let sharing = false;
@@ -222,7 +222,8 @@
     const { time } = data;
     const lone = time[0] === time[time.length - 1] ? 0.5 : 0;
     plots.push({ plot, group: data.group, begin: time[0] - lone, end: time[time.length - 1] + lone });
-    live.onWidth(holder, (width) => plot.setSize({ width, height: plot.height }));
+    const { height } = plot;
+    live.onWidth(holder, (width) => plot.setSize({ width, height: live.onPaper() ? PAPER * height : height }));
     live.clock.follow(() => plot.redraw(false, false));
     shown.forEach(({ key }, n) => key.addEventListener("click", () => {
       const show = key.getAttribute("aria-pressed") !== "true";

@@ -1,5 +1,8 @@
 """The page of a run in Chromium: it shows the run, for every eye, hand, screen and paper."""
 
+import base64
+import re
+
 import numpy as np
 import pytest
 from browser import PHONE, WIDE
@@ -157,6 +160,22 @@ def test_paper_has_what_the_scripts_draw_without_what_is_pressed(opened):
     opened.command("Emulation.setEmulatedMedia", media="")
     assert set(shown[0]) == {"block"} and set(shown[1]) == {"none"}
     assert "none" not in shown[2], "they say what is drawn"
+
+
+def test_a_run_is_four_pages_of_paper_at_most(opened):
+    paper = {"paperWidth": 8.27, "paperHeight": 11.69}
+    pdf = base64.b64decode(opened.command("Page.printToPDF", **paper)["data"])
+    assert 1 <= len(re.findall(rb"/Type\s*/Page\b", pdf)) <= 4
+    assert opened.js("return document.documentElement.className") == "", "a screen again"
+
+
+def test_the_answer_a_picture_and_four_figures_are_the_first_screen(opened):
+    first = opened.js(
+        "return [...document.querySelectorAll('h1, figure, .tiles, h2')].slice(0, 4)"
+        ".map((each) => [each.tagName, each.getBoundingClientRect().top])"
+    )
+    assert [tag for tag, _ in first] == ["H1", "FIGURE", "DIV", "H2"]
+    assert first[2][1] < 900 and len(opened.all(".tiles div")) == 4
 
 
 @pytest.mark.parametrize("width", [WIDE, PHONE])

@@ -15,6 +15,7 @@ from cosim.report.figures import plates_of
 from cosim.report.page import number
 from cosim.report.quantities import digits, told
 from cosim.report.results import number_tables
+from cosim.report.run_answer import headline, tiles
 from cosim.report.run_summary import summary
 
 
@@ -206,3 +207,34 @@ def test_every_page_has_the_dark_look_of_the_shared_style_and_none_of_its_own():
     assert own == ["explorer.html.j2"]
     assert not [path for path in templates if "prefers-color-scheme" in path.read_text("utf-8")]
     assert "prefers-color-scheme: dark" in page_module.asset("page.html.j2")
+
+
+MOVES = {"duration": 20.0, "frequency": 1.7331, "slip_share": 0.876, "break_aways": 35,
+         "mean_x": 0.0168, "max_rotation_deg": 0.31}  # fmt: skip
+RISE = {"temperatures": {"interface": {"end_rise": 0.0631, "max_rise": 0.0636}}}
+
+
+@pytest.mark.parametrize(
+    ("moves", "further", "said"),
+    [
+        ({}, RISE, "sticks and slips 1.73 times a second, and its contact is 63 mK above the air "
+                   "after 30 s."),
+        ({}, {"status": "interrupted"},
+         "sticks and slips 1.73 times a second; the run ended early, at 30 s."),
+        ({"frequency": 0.0, "break_aways": 0, "slip_share": 1.0}, {},
+         "slides without ever sticking."),
+        ({"frequency": 0.0, "break_aways": 0, "slip_share": 0.0}, {}, "sticks and never slips."),
+        ({"frequency": None, "break_aways": 1}, {}, "breaks away once at constant speed."),
+        ({"duration": 0.0}, {"whole_run": {"break_aways": 2}},
+         "breaks away 2 times in the speed ramp, which the run does not outlast."),
+    ],
+)  # fmt: skip
+def test_a_run_is_told_in_a_sentence(moves, further, said):
+    numbers = {"time_reached": 30.0, "status": "complete", "after_run_up": MOVES | moves, **further}
+    assert headline(numbers) == f"The block {said}"
+    assert len(tiles(numbers)) == 4
+
+
+def test_a_run_without_a_row_has_no_figures_at_the_top():
+    numbers = {"time_reached": None, "status": "failed"}
+    assert headline(numbers) == "The run failed before its first row." and tiles(numbers) == []
