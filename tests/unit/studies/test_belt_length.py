@@ -44,6 +44,12 @@ def call(*argv):
     return belt_length_command.execute(parser.parse_args([str(word) for word in argv]))
 
 
+@pytest.fixture
+def coarse(monkeypatch):
+    """Four times the study's steps, where the numbers are not looked at."""
+    monkeypatch.setattr("cosim.studies.belt_length.case.COARSENESS", 8.0)
+
+
 def test_the_studys_own_number_is_its_formula():
     """Table 3.5 of the study from the factors of its force: 2.2 % below what it prints."""
     case = Case(1.0, 0.82)
@@ -139,7 +145,7 @@ def test_still_air_takes_its_number_from_the_rise_that_the_belt_has(length, spee
     )
 
 
-def test_files_and_words(tmp_path, capsys):
+def test_files_and_words(coarse, tmp_path, capsys):
     words = ("--length", 1, 2, "--speed", 0.15, 0.82, "--h", 15, "--ramp", 0)
     assert call(*words, "-o", tmp_path, *FAST) == 0
     said = capsys.readouterr().out
@@ -254,7 +260,7 @@ def test_what_is_given_twice_is_one_case_and_a_narrow_belt_is_told_of(
         assert capsys.readouterr().err.count("less than half of the contact") == said
 
 
-def test_the_rig_in_json_is_the_one_that_was_used():
+def test_the_rig_in_json_is_the_one_that_was_used(coarse):
     study = work_through(*cases(Case(1.0, 0.5), length=(1.0, 2.0)))
     said = study.as_dict()
     assert said["rig"]["belt"]["air_heat_transfer"] is None, "another in each case"
@@ -264,7 +270,7 @@ def test_the_rig_in_json_is_the_one_that_was_used():
     assert study.as_dict()["rig"]["belt"]["air_heat_transfer"] == Case(1.0, 0.5).film
 
 
-def test_ctrl_c_keeps_the_cases_that_are_done(tmp_path, monkeypatch, capsys):
+def test_ctrl_c_keeps_the_cases_that_are_done(coarse, tmp_path, monkeypatch, capsys):
     def stopped(study, wanted, jobs, progress):
         work_off(study, wanted[:2], 1, progress)
         study.complete = False
@@ -296,12 +302,12 @@ def work_through(*wanted):
     return study
 
 
-def test_verdict_tells_of_melting():
+def test_verdict_tells_of_melting(coarse):
     study = work_through(Case(1.0, 3.0, mass=20.0, ambient_degC=-1.0))
     assert study.rows[0].drift.steady_melts
     assert "In 1 of 1 cases the ice face comes to melt" in verdict(study)[-1]
 
 
-def test_verdict_says_when_it_cannot_say():
+def test_verdict_says_when_it_cannot_say(coarse):
     assert verdict(Study(Options(CAMERA))) == ["Nothing was computed, so nothing can be said."]
     assert "1 m was not among the lengths asked for" in verdict(work_through(Case(2.0, 0.5)))[0]

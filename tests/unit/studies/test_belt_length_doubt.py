@@ -185,7 +185,8 @@ def test_single_changes_are_runs_of_the_model(found):
 
 def test_no_indices_where_the_ice_melts():
     short = Case(1.0, 3.0, protocol=Protocol(ramp=0.0, run=3.0))
-    assert uncertainty(replace(short, mass=40.0, ambient_degC=-1.0), 32) is None
+    with coarsely():
+        assert uncertainty(replace(short, mass=40.0, ambient_degC=-1.0), 32) is None
 
 
 def test_a_short_belt_has_room_for_rollers_and_railing():
