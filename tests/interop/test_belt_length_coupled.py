@@ -63,7 +63,7 @@ def over_a_cycle(result, name, period):
     return np.mean(result[f"thermal.{name}_temperature"][last]) - AMBIENT
 
 
-@pytest.mark.parametrize("speed", [0.15, 0.82])
+@pytest.mark.parametrize("speed", [0.15, pytest.param(0.82, marks=pytest.mark.slow)])
 def test_quasi_steady_estimate_is_what_a_coupled_run_shows(fmu, speed):
     # at 1 m and 0.15 m/s the 20 s end just as the trace of a loop arrives
     case = Case(1.2, speed, h=15.0, protocol=Protocol(ramp=0.0))
