@@ -2,6 +2,8 @@
 cross-check asks: inputs, times and tolerance, and outputs, computed by the models in Python."""
 
 import re
+import subprocess
+import sys
 import zipfile
 from importlib.metadata import distribution
 from pathlib import Path
@@ -52,6 +54,13 @@ def run(units, name, kind="CoSimulation"):
     assert {causes[each] for each in expected.dtype.names[1:]} == {"output"}
     assert found["time"][-1] == options["StopTime"]
     return found, expected
+
+
+def test_fmpy_validates_each_and_prints_nothing(units):
+    for name, (unit, _) in units.items():
+        command = [sys.executable, "-m", "fmpy", "validate", str(unit)]
+        done = subprocess.run(command, capture_output=True, text=True, check=True)
+        assert done.stderr == "" and "No problems found" in done.stdout, name
 
 
 @pytest.mark.parametrize(

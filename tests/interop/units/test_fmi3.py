@@ -4,7 +4,6 @@ import ctypes
 import random
 import shutil
 import subprocess
-import sys
 import zipfile
 from ctypes import byref, c_bool, c_double, c_uint, c_void_p
 from xml.etree import ElementTree
@@ -13,7 +12,6 @@ import fmpy
 import numpy as np
 import pytest
 from fmi3_unit import ERROR, OK, Unit, functions
-from fmpy.validation import validate_fmu
 from stickslip import Parameters, simulate
 
 from cosim.fmu.native import built_guid
@@ -57,13 +55,6 @@ def values(tables):
 
 
 # --- description ---
-
-
-def test_validation_finds_nothing(fmu3):
-    assert validate_fmu(str(fmu3)) == []
-    command = [sys.executable, "-m", "fmpy", "validate", str(fmu3)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert done.stderr == "" and "No problems found" in done.stdout
 
 
 def test_it_is_of_the_same_content_as_the_unit_for_fmi_2(fmu, fmu3):

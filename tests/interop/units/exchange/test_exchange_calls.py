@@ -14,7 +14,6 @@ from exchange_host import (
 from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import FMU2Slave, fmi2Error
-from fmpy.validation import validate_fmu
 from stickslip import Parameters
 
 from cosim.fmu.exchange import states, variables
@@ -24,7 +23,6 @@ from cosim.fmu.variables import variables as variables_without
 
 
 def test_description(fmu):
-    assert validate_fmu(str(fmu)) == []
     description = fmpy.read_model_description(str(fmu), validate_model_structure=True)
     exchange = description.modelExchange
     assert exchange.modelIdentifier == description.coSimulation.modelIdentifier

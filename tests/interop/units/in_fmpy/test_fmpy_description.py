@@ -1,17 +1,6 @@
 """What the units say of themselves, read by fmpy."""
 
-import subprocess
-import sys
-
 import fmpy
-from fmpy.validation import validate_fmu
-
-
-def test_validation_finds_nothing(unit):
-    assert validate_fmu(str(unit)) == []
-    command = [sys.executable, "-m", "fmpy", "validate", str(unit)]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert done.stderr == "" and "No problems found" in done.stdout
 
 
 def test_every_variable_says_what_it_is(unit):
