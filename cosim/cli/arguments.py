@@ -73,6 +73,7 @@ COMMANDS = {
         "authoring", "the JSON Schema of a scenario, a campaign or a system, for editors"
     ),
     "completion": Command("authoring", "completion of commands and options for your shell"),
+    "docs": Command("authoring", "the documentation in the browser; in a checkout, builds it"),
     "reproduce": Command(
         "studies", "the source study's claims C1 to C18, each with its number, ours, and a verdict"
     ),

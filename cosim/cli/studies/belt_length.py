@@ -14,7 +14,7 @@ from pathlib import Path
 
 from cosim.cli import DONE, FAILED, BadInput
 from cosim.cli.arguments import add_force, add_json, add_output, add_set
-from cosim.cli.bar import Bar as tqdm
+from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
@@ -244,9 +244,7 @@ def execute(arguments: Namespace) -> int:
     own = wanted[0] if arguments.scenario else None
     grid = empty_map(arguments.map, own) if arguments.map else None
     try:
-        with tqdm(
-            total=len(wanted) + arguments.map**2, disable=None, unit="case", leave=False
-        ) as bar:
+        with Bar(total=len(wanted) + arguments.map**2, unit="case") as bar:
 
             def show(count: int) -> None:
                 bar.update(count)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_force, add_json, add_output, add_set
-from cosim.cli.bar import Bar as tqdm
+from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import (
@@ -204,8 +204,8 @@ def _is_coupled(grid: Grid) -> bool:
 
 @contextmanager
 def _bar(total: int) -> Iterator[Callable[[int, int], None]]:
-    """A bar over combinations on stderr, none when that is no terminal."""
-    with tqdm(total=total, disable=None, unit="run", leave=False) as bar:
+    """A bar over combinations on stderr."""
+    with Bar(total=total, unit="run") as bar:
 
         def show(done: int, of: int) -> None:
             bar.total = of

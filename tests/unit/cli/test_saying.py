@@ -36,7 +36,7 @@ def test_every_command_can_say_less_and_more(name, capsys):
     assert "-q, --quiet" in shown and "-v, --verbose" in shown
 
 
-NO_FIGURES = {"build", "completion", "effect", "explore", "new", "plot", "schema"}
+NO_FIGURES = {"build", "completion", "docs", "effect", "explore", "new", "plot", "schema"}
 
 
 @pytest.mark.parametrize("name", sorted({*COMMANDS} - NO_FIGURES))
@@ -87,6 +87,17 @@ def test_how_much_is_said_ends_with_the_command(capsys):
     note("something")
     assert capsys.readouterr().err == "note: something\n"
     assert not logging.getLogger("cosim").handlers
+
+
+def test_without_a_terminal_a_bar_is_a_line_a_minute_with_its_end(capsys):
+    with Bar(total=4, unit="step") as bar:
+        begun = bar.start_t
+        for seconds in (59.0, 61.0, 90.0, 130.0):
+            bar._time = lambda now=begun + seconds: now
+            bar.update()
+    said = capsys.readouterr().err.splitlines()
+    assert [line.split("|")[0] for line in said] == ["50%", "100%"]
+    assert "2/4 [01:01<01:01" in said[0]
 
 
 @pytest.fixture

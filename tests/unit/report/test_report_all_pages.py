@@ -51,7 +51,7 @@ PAGES = {
 }
 QUICK = ("effects",)
 #: Those that write no page, and the explorer, whose page has a room of its own (interop/explorer).
-WITHOUT = {"build", "completion", "effect", "explore", "keys", "new", "plot", "schema"}
+WITHOUT = {"build", "completion", "docs", "effect", "explore", "keys", "new", "plot", "schema"}
 
 
 def stickslip(folder, *arguments):
