@@ -16,7 +16,7 @@ from stickslip.effects.candidate import FreeParameter, Scales
 from cosim.gap.data import Campaign
 from cosim.gap.laws import Context, FreeCurve, LawFit, free_curve, laws_of, scales_of
 from cosim.gap.weak_form.camera_faults import SMOOTHING
-from cosim.gap.weak_form.constants import FAULT_SIZES, HARMONICS
+from cosim.gap.weak_form.constants import CONTACT_DELAY, FAULT_SIZES, HARMONICS
 from cosim.gap.weak_form.ladder import BY_SPEED, FALLS, Finding
 from cosim.gap.weak_form.rig_unknowns import (
     CONTACT,
@@ -36,6 +36,9 @@ from cosim.gap.windows.windows import moves_across
 #: Bounds of the contact's own numbers: friction falls over 0.3 to 20 mm/s, and over a small part of
 #: the speeds of sliding; a loaded contact creeps at less than a third of the surface's speed.
 TRANSITION, FALL_PART, CREEP_PART = (3e-4, 2e-2), 0.15, 0.3
+#: Longest time by which a contact lets go sooner, s, bristles of 100 um on a surface of 2 mm/s:
+#: what follows the loading rate farther is static friction's own law.
+LONGEST_DELAY = 0.05
 
 #: A fault is at most so many times as large as is expected of one.
 MOST_FAULT = 5.0
@@ -219,7 +222,8 @@ def _across(finding: Finding) -> Part:
         "shift": ("spring_misalignment.lateral_offset", 1.0),
         "rotation": ("measurement.rotation", 1.0),
     }
-    numbers, settings = [], {}
+    numbers = []
+    settings = {f"{finding.name}_{name}": value for name, value in finding.settings.items()}
     for name, (value, _) in finding.numbers.items():
         key, unit = keys.get(name.rpartition(".")[2], ("", 1.0))
         if key:
@@ -285,7 +289,8 @@ def _wave(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
         phase = -angle if pattern else angle + 90.0
         starts[f"{name}.phase_deg@{run.track.run.name}"] = (phase + 180.0) % 360.0 - 180.0
         if name == "speed_ripple":
-            pace = abs(run.track.run.surface_speed) if wave.kind.unit == "m" else 1.0
+            faster = 1.0 + wave.faster.get(run.track.run.name, 0.0)
+            pace = faster * abs(run.track.run.surface_speed) if wave.kind.unit == "m" else 1.0
             settings[f"{name}.frequency@{run.track.run.name}"] = wave.wavenumber * pace
     harmonics = ("second", "third", "fourth") if pattern else ("second",)
     for order, which in enumerate(harmonics, 2):
@@ -312,7 +317,7 @@ def contact_numbers(campaign: Campaign, fastest: float) -> list[Number]:
         # below 1 friction falls infinitely fast at rest: no contact does, and steps would crawl
         Number("friction.transition_exponent", 1.3, 0.5, 1.0, 3.0),
         Number("friction.stick_creep", 0.03 * slowest, None, 0.0, CREEP_PART * slowest),
-        Number("offset.loading", 0.02, 0.02, -0.1, 0.1),
+        Number("offset.loading", 0.0, CONTACT_DELAY, -LONGEST_DELAY, LONGEST_DELAY),
     ]
 
 

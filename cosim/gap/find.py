@@ -11,13 +11,15 @@ from cosim.gap.checks import ANSWERABLE, blocking, doubts_of
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part, as_points, part_of
 from cosim.gap.judge import (
+    EXPLAINED,
+    NOTHING_MISSING,
     explains,
     halves,
-    is_near,
     judge,
     judged,
     leaves,
     may_be_spurious,
+    rivals_of,
     runs_ask,
 )
 from cosim.gap.models import Models
@@ -35,7 +37,7 @@ from cosim.gap.report_of_findings import (
 from cosim.gap.result import Doubt, Gap, Rejected, Rung
 from cosim.gap.scatter import Scatter
 from cosim.gap.weak_form.camera_faults import FAULTS
-from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
+from cosim.gap.weak_form.constants import ALIKE
 from cosim.gap.weak_form.ladder import Finding, Ladder, price_of
 from cosim.gap.weak_form.track import thinned
 
@@ -76,11 +78,6 @@ class _Agreed:
     parts: list[Part]
     models: Models
     rejected: tuple[Rejected, ...] = ()
-
-    @property
-    def spurious(self) -> tuple[str, ...]:
-        """Names of the rejected."""
-        return tuple(one.effect for one in self.rejected)
 
 
 def _unsearched(campaign: Campaign, fitting: _Fitting) -> _Agreed:
@@ -163,8 +160,7 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
                 along = {part.finding.name for part in parts if part.finding.added}
                 doubted = fitting.rejected(parts, named, along - faint)
         if doubted is None:
-            named = fitting.told_apart(parts, named)
-            return _Agreed(named, found, models, tuple(rejected))
+            return _Agreed(*fitting.told_apart(found, models, named), tuple(rejected))
         rejected.append(doubted)
 
 
@@ -194,45 +190,74 @@ class _Fitting:
         """The least of the findings asked for that the simulated runs do without.
 
         The least first: what a greater one leaves may pretend a small one, and with it gone the
-        greater one is seldom in doubt.
+        greater one is seldom in doubt. What a finding takes of the gap is asked only where the runs
+        ask for all of them: beside one that is none, no other does well.
         """
-        for part in sorted(parts, key=lambda part: part.finding.gain):
-            if part.finding.name in asked:
-                needed, gained = self.needs(part, parts, named)
-                if not needed:
+        least_first = sorted(parts, key=lambda part: part.finding.gain)
+        for is_needed in (self._is_asked_for, self._makes_up):
+            for part in least_first:
+                if part.finding.name in asked and not is_needed(part, parts, named):
+                    without = self._without(part, parts, named)
+                    gained = without.gained(part) if part.in_kernel else None
                     return Rejected(part.finding.name, part.finding.gain, gained)
         return None
 
-    def needs(self, part: Part, parts: Sequence[Part], named: Named) -> tuple[bool, float | None]:
-        """Whether the simulated runs ask for a finding beside the others, and what they gain."""
-        without = self._fitted(named, [other for other in parts if other is not part])
-        if not part.in_kernel:
-            return leaves(without.ladder[-1].gap), None
-        gained = without.gained(part)
-        if not runs_ask(gained - price_of(part.finding.name)):
-            return False, gained
-        if len(parts) == 1 or leaves(without.ladder[-1].gap):
-            return True, gained
-        left = without.unscattered
-        return leaves(left) and halves(self._fitted(named, parts).unscattered, left), gained
+    def _without(self, part: Part, parts: Sequence[Part], named: Named) -> Models:
+        return self._fitted(named, [other for other in parts if other is not part])
 
-    def told_apart(self, parts: Sequence[Part], named: Named) -> Named:
-        """A lone finding without rivals that the rows confuse with it and simulated runs do not."""
-        if len(parts) != 1 or not parts[0].in_kernel:
-            return named
-        offers, (finding,) = named.ladder.first_offers, named.findings
-        rivals = [name for name in offers if is_near(finding, name)]
-        if not rivals:
-            return named
-        without, others = self._fitted(named, []), dict(finding.others)
-        least = without.gained(parts[0]) - LEAST_GAIN
-        for name in rivals:
-            added = offers[name][1]
-            rows = named.system.rung(added)
-            rival = part_of(self.campaign, named.system, rows, Finding(name, added, 0.0))
-            if rival.in_kernel and without.gained(rival) - price_of(name) < least:
-                del others[name]
-        return replace(named, findings=(replace(finding, others=others),))
+    def _is_asked_for(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
+        """Whether the simulated runs are more probable with a finding beside the others."""
+        without = self._without(part, parts, named)
+        if not part.in_kernel:
+            is_lesser = part.finding.gain < max(other.finding.gain for other in parts)
+            most = EXPLAINED if is_lesser else NOTHING_MISSING
+            return leaves(without.ladder[-1].gap, most)
+        return runs_ask(without.gained(part) - price_of(part.finding.name))
+
+    def _makes_up(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
+        """Whether it takes what is missing without it, or half of that; or of an ideal contact."""
+        without = self._without(part, parts, named)
+        if not part.in_kernel or (len(parts) == 1 and not leaves(without.ladder[-1].gap)):
+            return True
+        found = self._fitted(named, parts)
+        if leaves(before := without.ladder[-1].gap):
+            after = found.ladder[-1].gap
+            return not leaves(after) or halves(after, before)
+        left = without.unscattered
+        return leaves(left) and halves(found.unscattered, left)
+
+    def told_apart(
+        self, parts: list[Part], models: Models, named: Named
+    ) -> tuple[Named, list[Part], Models]:
+        """With a lone finding simulated beside its rivals, and with the best in its place."""
+        if len(parts) != 1 or not (parts[0].in_kernel and parts[0].finding.added):
+            return named, parts, models
+        (part,), finding = parts, parts[0].finding
+        rivals = {name: self._in_place(named, name) for name in rivals_of(finding)}
+        tried = {finding.name: part, **{n: p for n, p in rivals.items() if p.in_kernel}}
+        if len(tried) == 1:
+            return named, parts, models
+        without = self._fitted(named, [])
+        gained = {name: without.gained(each) - price_of(name) for name, each in tried.items()}
+        best = max(gained, key=lambda name: gained[name])
+        # of those that were simulated by what the runs gain, of others as the rows have them
+        places = {finding.name: 0.0, **finding.others}
+        others = {name: less - places[best] for name, less in places.items()}
+        others |= {name: value - gained[best] for name, value in gained.items()}
+        del others[best]
+        simulated = tuple(name for name in tried if name != best)
+        finding = replace(tried[best].finding, others=others, simulated=simulated)
+        named = named.with_one(finding)
+        if tried[best] is not part:
+            (part,), models = self.best_of([tried[best]], named)
+        return named, [replace(part, finding=finding)], models
+
+    def _in_place(self, named: Named, name: str) -> Part:
+        """What another explanation would put into the model."""
+        added = named.ladder.first_offers[name][1]
+        gain = named.ladder.first_offers[name][0] - named.ladder.system.rung().evidence
+        rows = named.system.rung(added)
+        return part_of(self.campaign, named.system, rows, Finding(name, added, gain))
 
     def _fitted(self, named: Named, parts: Sequence[Part]) -> Models:
         for models in self.known:

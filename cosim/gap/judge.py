@@ -8,15 +8,16 @@
  4. An argument is a finding where the rows are e^6 times as probable with it (e^3 the first), and
     it takes more than a small part of what was missing at first; the best joins, all others are
     asked again.
- 5. Findings within e^3 of one another in the same place, of the rows and within e^6 of simulated
-    runs, cannot be told apart: a class.
+ 5. Between explanations within e^3 of one another in the same place, e^12 where a finding is below
+    e^500, simulated runs decide; what they do not tell apart by e^6, or rows by e^3, is a class.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
  8. A finding below e^500, or beside a greater one, or that does not explain the runs, goes, and the
     rows are not asked for it again, where the simulated runs are not e^6 times as probable with it,
-    or reach noise without a lesser one, unless it halves what the contact alone leaves; `none` is
-    no finding left, and held-out runs at 1.1 at most; without any nothing tells.
+    or it takes neither all nor half of what they miss without it (of a lesser one, before friction
+    may scatter); `none` is no finding left, and every run at 1.1 at most; without any held out
+    nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
     where they are better but stay above that, and most of the misfit is gone.
 10. Everything else is `unknown`.
@@ -26,7 +27,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import inf
 
 from cosim.gap.rates import confirmed
 from cosim.gap.result import Rates, Rung, Score
@@ -41,6 +41,9 @@ EXPLAINED = 1.3
 #: ln of a Bayes factor beyond which a finding is no slip of the contact's description: rows of
 #: foreign contacts (bristles, Iwan) have pretended up to 206.
 SURE = 500.0
+#: ln of a Bayes factor up to which rows do not decide between two explanations, twice what they are
+#: asked for a finding: smoothed arguments have turned 7; and how many rivals are simulated.
+UNSURE, RIVALS = 12.0, 3
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5
 #: Part of the misfit that a finding must take to be named as a part of what is missing.
@@ -66,7 +69,7 @@ def judge(
     """
     before, after = judged(ladder[0].gap), judged(ladder[-1].gap)
     if not findings:
-        told = after <= NOTHING_MISSING and ladder[-1].gap.held_out is not None
+        told = not leaves(ladder[-1].gap) and ladder[-1].gap.held_out is not None
         return Verdict("none" if told else "unknown", (), ())
     classes = tuple(
         group for finding, name in zip(findings, names, strict=True)
@@ -115,22 +118,26 @@ def halves(left: Score, before: Score) -> bool:
     return all(one**2 - 1.0 <= TAKEN * max(other**2 - 1.0, 0.0) for one, other in pairs)
 
 
-def leaves(score: Score) -> bool:
+def leaves(score: Score, most: float = NOTHING_MISSING) -> bool:
     """Whether something is missing that the model does not hold: what has no law may be it."""
-    return max(score.fit, judged(score)) > NOTHING_MISSING
+    return max(score.fit, judged(score)) > most
 
 
-def is_near(finding: Finding, other: str) -> bool:
-    """Whether the rows do not tell another explanation from it."""
-    return finding.others.get(other, -inf) > -ALIKE
+def rivals_of(finding: Finding) -> list[str]:
+    """What else the rows ask for in a finding's place, nearly as much: the best few."""
+    within = UNSURE if finding.gain < SURE else ALIKE
+    near = {name: less for name, less in finding.others.items()
+            if less > -within and finding.gain + less > ALIKE}  # fmt: skip
+    return sorted(near, key=lambda name: -near[name])[:RIVALS]
 
 
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:
     """What explains the rows as well in a finding's place, itself first.
 
-    Also what these runs would too often call by this name, if it explains them nearly as well.
+    Also what these runs would too often call by this name, or were simulated with, if it explains
+    them nearly as well.
     """
-    confused = confirmed(rates, name)[1:] if rates is not None else ()
+    confused = (*finding.simulated, *(confirmed(rates, name)[1:] if rates is not None else ()))
     near = sorted(finding.others, key=lambda other: -finding.others[other])
     return (
         name,

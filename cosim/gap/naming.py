@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cosim.gap.data import Campaign
 from cosim.gap.weak_form import periodic
@@ -43,6 +43,14 @@ class Named:
     system: System
     rung: Rows
     unknowns: Mapping[str, Sequence[Unknown]]
+
+    def with_one(self, finding: Finding) -> Named:
+        """The same with another finding in place of the only one."""
+        ladder = replace(
+            self.ladder, findings=(finding,), rung=self.ladder.system.rung(finding.added)
+        )
+        rung = self.system.rung(finding.added)
+        return replace(self, ladder=ladder, findings=(finding,), rung=rung)
 
 
 @dataclass(frozen=True)
@@ -124,4 +132,4 @@ class Naming:
             gain = planar.evidence[planar.answer]
             others = {name: value - gain for name, value in planar.evidence.items()
                       if name == planar.runner_up}  # fmt: skip
-            yield Finding(planar.answer, (), gain, others, planar.numbers)
+            yield Finding(planar.answer, (), gain, others, planar.numbers, planar.settings)

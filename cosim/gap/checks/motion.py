@@ -27,6 +27,8 @@ SHEARED = 0.02
 CREEPS = 0.1
 #: Beyond this part a set-point is another one: what runs at it says nothing of the one stated.
 WRONG_SPEED = 0.15
+#: Sticks of one run that differ by more than this part tell of a surface that is not steady.
+UNEVEN = 2.0 * WRONG_SPEED
 #: Velocities are counted in so many bins; the median within this part about the fullest is what x
 #: has most often: noise of a velocity is as wide on slow surfaces.
 BINS, PEAK = 40, 0.3
@@ -92,13 +94,24 @@ def doubts_of_speed(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
                 f"{speed:.3g} m/s in sticks: wrong set-point?"
             )
             far_off = abs(speed / abs(run.surface_speed) - 1.0) > WRONG_SPEED
-            doubts.append(Doubt("speed", text, (run.name,), far_off))
+            doubts.append(Doubt("speed", text, (run.name,), far_off and not _is_uneven(run)))
     if common:
         names, times = tuple(run.name for run, *_ in found), f"{math.exp(common):.3g} times"
         hint = "the camera's scale, its clock, or the drive?"
         text = f"all runs: in sticks x moves at {times} the surface_speed stated: {hint}"
         doubts.append(Doubt("speed", text, names, abs(common) > WRONG_SPEED))
     return doubts
+
+
+def _is_uneven(run: MeasuredRun) -> bool:
+    """Whether sticks are slower and faster than stated: what varies in a run is no set-point.
+
+    A block whose sticks keep step with a ripple of the drive is carried at its crests, or troughs.
+    """
+    slopes, _ = _sticks_at(run, abs(run.surface_speed))
+    spread = UNEVEN * abs(run.surface_speed)
+    return bool(slopes.size and np.ptp(slopes) > spread
+                and slopes.min() < abs(run.surface_speed) < slopes.max())  # fmt: skip
 
 
 def _is_off(log: float, limit: float) -> bool:

@@ -12,7 +12,7 @@ from cosim.coupling import FmuParticipant
 from cosim.files import write_bytes, write_text
 from cosim.fmu.build import FmuBuildError, own_fmu
 from cosim.gap.quantities import digits, fitted_quantities, with_digits
-from cosim.gap.result import Gap
+from cosim.gap.result import Gap, RigNumber
 from cosim.gap.scatter import scatter_text
 from cosim.gap.windows.camera import seen, true_time
 from cosim.interrupts import held_interrupts
@@ -29,6 +29,8 @@ from .tracks import shown_runs, starts
 
 #: Numbers of runs and set-ups that stand beside what was stated of them.
 STATED = ("offset.x", "offset.stiffness")
+#: Runs that halve the variance of a stated number tell of it.
+TOLD = 0.7
 #: Pictures that are seen at once.
 FIRST = ("ladder", "curve", "run")
 
@@ -74,7 +76,8 @@ def _page(gap: Gap, pictures: Sequence[Picture], corrected: Sequence[Path]) -> s
         with_digits=with_digits, scatter_text=scatter_text, remarks=gap.campaign.remarks,
         reproduction=reproduction_line(gap),
         corrected=corrected, quantities=quantities, runs=shown_runs(gap),
-        rig=rig_rows(gap), setups={gap.campaign.setup_of(run) for run in shown_runs(gap)},
+        rig=rig_rows(gap), untold=sum(not _is_told(one) for one in gap.rig),
+        setups={gap.campaign.setup_of(run) for run in shown_runs(gap)},
         owned=[one for one in quantities if one.owner and one.key not in STATED],
         first=[one for one in pictures if one.name in FIRST],
         folded=[one for one in pictures if one.name not in FIRST],
@@ -85,12 +88,18 @@ def _page(gap: Gap, pictures: Sequence[Picture], corrected: Sequence[Path]) -> s
 def rig_rows(gap: Gap) -> list[dict[str, str]]:
     """What was stated of springs and zeros, and what the runs say, in units that are read."""
     rows = []
-    for one in sorted(gap.rig, key=lambda one: one.name):
+    for one in sorted(filter(_is_told, gap.rig), key=lambda one: one.name):
         factor, unit = {"1": (1e2, "%"), "m": (1e3, "mm")}.get(one.unit, (1.0, one.unit))
         pairs = ((one.stated, one.stated_sd), (one.value, one.sd))
         stated, found = (plus_minus(factor * value, factor * sd) for value, sd in pairs)
         rows.append({"name": one.name, "stated": stated, "found": found, "unit": unit})
     return rows
+
+
+def _is_told(number: RigNumber) -> bool:
+    """Whether the runs say more of it than is stated."""
+    off = abs(number.value - number.stated)
+    return number.sd < TOLD * number.stated_sd or off > number.stated_sd
 
 
 def plus_minus(value: float, sd: float) -> str:

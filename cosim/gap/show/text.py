@@ -28,12 +28,27 @@ def faults_of(gap: Gap) -> list[str]:
 
 
 def gap_line(gap: Gap) -> str:
-    """`fitted runs 3.78 → 1.01, held-out runs 4.1 → 1.05`."""
+    """`5 fitted runs 3.78 → 1.01, 2 held-out runs 4.1 → 1.05`."""
     rungs = gap.ladder[:: max(len(gap.ladder) - 1, 1)]
-    said = f"fitted runs {' → '.join(digits(rung.gap.fit) for rung in rungs)}"
-    if gap.after.held_out is None:
-        return f"{said}; no run was held out"
-    return f"{said}, held-out runs {' → '.join(digits(rung.gap.held_out) for rung in rungs)}"
+    held_out = sum(run.hold_out for run in gap.plain.runs)
+    said = [
+        f"{count} {which} run{'s' * (count != 1)} {' → '.join(map(digits, values))}"
+        for count, which, values in (
+            (len(gap.plain.runs) - held_out, "fitted", [rung.gap.fit for rung in rungs]),
+            (held_out, "held-out", [rung.gap.held_out for rung in rungs]),
+        )
+        if count
+    ]
+    return ", ".join(said) if held_out else f"{said[0]}; no run was held out"
+
+
+def noise_of(gap: Gap) -> str:
+    """`0.3 mm in x, 2 mrad in φ`."""
+    units = {"x": "mm", "y": "mm", "phi": "mrad", "force": "mN"}
+    return ", ".join(
+        f"{1e3 * value:.3g} {units[channel]} in {channel.replace('phi', 'φ')}"
+        for channel, value in gap.campaign.noise.items()
+    )
 
 
 def what_is_left(gap: Gap) -> str:

@@ -1,8 +1,8 @@
 """What friction and springs may depend on: one unknown curve for every argument.
 
 The runs decide on the argument, by the same evidence for all; which law the curve follows is asked
-afterwards. `CATALOGUE` are arguments that an effect stands for, `OTHER` those that none does: where
-one of these wins, what is missing is not in the catalogue.
+afterwards. `CATALOGUE` are arguments that an effect stands for; where one of the others wins, what
+is missing is not in the catalogue.
 """
 
 from __future__ import annotations
@@ -37,14 +37,10 @@ from cosim.gap.weak_form.rig_unknowns import Level
 from cosim.gap.weak_form.rows import Response, RunRows
 from cosim.gap.weak_form.unknowns import Curve, Unknown, column
 
-#: Effects that are laws of an argument, and findings that no effect stands for.
+#: Effects that are laws of an argument.
 CATALOGUE = (
     "velocity_weakening", "film_drag", "structural_damping", "spring_hardening", "run_in",
     "thermal_weakening", "load_dependence", "static_strengthening",
-)  # fmt: skip
-OTHER = (
-    "other.time", "other.hysteresis", "other.resonator", "other.release", "other.springs",
-    "other.room", "other.order", "other.shaking",
 )  # fmt: skip
 
 

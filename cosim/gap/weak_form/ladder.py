@@ -42,7 +42,9 @@ class Finding:
     name : effect, measurement fault, or a finding that no effect stands for; added : its unknowns,
     none of what moves the block across (`planar`); gain : ln of how much less probable the rows are
     without it; others : name -> ln evidence with another in its place, less that with it
-    numbers : of what moves the block across, (value, standard deviation), SI
+    numbers, settings : of what moves the block across, (value, standard deviation), SI, and in
+    which runs it is
+    simulated : those of ``others`` that are as simulated runs have them
     """
 
     name: str
@@ -50,11 +52,16 @@ class Finding:
     gain: float
     others: Mapping[str, float] = field(default_factory=dict)
     numbers: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    settings: Mapping[str, float] = field(default_factory=dict)
+    simulated: tuple[str, ...] = ()
 
     @property
     def variant(self) -> str:
         """Its setting in words."""
-        return self.added[0].unknown.variant if self.added else ""
+        if self.added:
+            return self.added[0].unknown.variant
+        there = sorted(key.partition("@")[2] for key, part in self.settings.items() if part)
+        return f"in {', '.join(there)}" if there else ""
 
     @property
     def main(self) -> Added:

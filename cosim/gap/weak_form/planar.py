@@ -76,6 +76,7 @@ class Fitted:
 
     evidence : ln; numbers : unknown -> (value, sd), SHARE as lateral_friction.ratio;
     planes : run -> motion in the plane; gap : rms of what is left of y and phi, noise units
+    turned : names of the runs in which the camera may be
     """
 
     form: tuple[str, ...]
@@ -83,6 +84,7 @@ class Fitted:
     numbers: Mapping[str, tuple[float, float]]
     planes: Mapping[str, Plane] = field(repr=False)
     gap: float
+    turned: frozenset[str]
 
     @property
     def misfit(self) -> float:
@@ -109,6 +111,15 @@ class Planar:
     def numbers(self) -> Mapping[str, tuple[float, float]]:
         return self.fits[self.answer].numbers if self.answer else {}
 
+    @property
+    def settings(self) -> dict[str, float]:
+        """In which runs the camera is turned, where not in all."""
+        if self.answer != ROTATION:
+            return {}
+        turned = self.fits[ROTATION].turned
+        names = self.fits[ROTATION].planes
+        return {f"in@{name}": float(name in turned) for name in names if turned < set(names)}
+
 
 #: Of a campaign whose blocks go along x alone.
 NOTHING = Planar({}, "", "", {})
@@ -122,8 +133,12 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     free = set(campaign.rig.degrees_of_freedom) >= {"y", "phi"}
     level = Level.of(list(runs)).kinetic
     fits, evidence = {}, {}
+    every = frozenset(run.track.run.name for run in runs)
+    moving = frozenset(run.track.run.name for run in runs if _moves(run.track.run))
     for name in FORMS if free else ("", ROTATION):
-        tried = [_fit(campaign, runs, level, form) for form in FORMS[name]]
+        among = (every, moving) if name == ROTATION and moving < every else (every,)
+        tried = [_fit(campaign, runs, level, form, turned)
+                 for form in FORMS[name] for turned in among]  # fmt: skip
         fits[name] = max(tried, key=lambda each: each.evidence)
         evidence[name] = float(logsumexp([each.evidence for each in tried]) - np.log(len(tried)))
     nothing = evidence.pop("")
@@ -204,15 +219,19 @@ class _Samples:
 
 
 def _fit(
-    campaign: Campaign, runs: Sequence[RunRows], level: float, form: tuple[str, ...]
-) -> Fitted:
-    """A form, its courses made anew about what came out until they stay."""
+    campaign: Campaign, runs: Sequence[RunRows], level: float, form: tuple[str, ...],
+    turned: frozenset[str],
+) -> Fitted:  # fmt: skip
+    """A form, its courses made anew about what came out until they stay.
+
+    turned : runs in which the camera may be
+    """
     planes = [replace(measured(run.track), share=float(SHARE in form)) for run in runs]
     values, rounds = np.zeros(len(form)), []
-    nothing = Fitted(form, -np.inf, {}, {}, np.inf)
+    nothing = Fitted(form, -np.inf, {}, {}, np.inf, turned)
     for _ in range(ROUNDS):
         try:
-            found, values = _round(campaign, runs, level, form, planes, values)
+            found, values = _round(campaign, runs, level, form, planes, values, turned)
         except np.linalg.LinAlgError:  # the courses run away
             break
         planes = list(found.planes.values())
@@ -225,7 +244,7 @@ def _fit(
 
 def _round(
     campaign: Campaign, runs: Sequence[RunRows], level: float, form: tuple[str, ...],
-    planes: Sequence[Plane], before: np.ndarray,
+    planes: Sequence[Plane], before: np.ndarray, turned: frozenset[str],
 ) -> tuple[Fitted, np.ndarray]:  # fmt: skip
     """The numbers from courses about the last round's."""
     moving = tuple(name for name in form if name != ROTATION)
@@ -233,7 +252,7 @@ def _round(
         course(run.track, campaign.rig, level * run.weight, moving, plane)
         for run, plane in zip(runs, planes, strict=True)
     ]
-    samples = [_samples(campaign, run.track, form, made)
+    samples = [_samples(campaign, run.track, form, made, run.track.run.name in turned)
                for run, made in zip(runs, courses, strict=True)]  # fmt: skip
     turn = START_TURN[any(run.track.phi is not None for run in runs) or SHARE not in form]
     fitted = [part for part, run in zip(samples, runs, strict=True) if not run.track.run.hold_out]
@@ -252,11 +271,11 @@ def _round(
         starts = {f"own {name}": float(v) for name, v in zip(OWN, own, strict=False)}
         found[run.track.run.name] = made.plane(run.track, known | starts)
     gap = float(np.sqrt(np.mean(np.concatenate(left) ** 2)))
-    return Fitted(form, evidence, _numbers(form, values, sd), found, gap), values
+    return Fitted(form, evidence, _numbers(form, values, sd), found, gap, turned), values
 
 
 def _samples(
-    campaign: Campaign, track: SmoothTrack, form: tuple[str, ...], made: Course
+    campaign: Campaign, track: SmoothTrack, form: tuple[str, ...], made: Course, is_turned: bool
 ) -> _Samples:
     """Measured y, and phi where the tracker has it, against a course."""
     rows, shared, own = [], [], []
@@ -266,7 +285,7 @@ def _samples(
         noise, values = track.run.noise[channel], track.run.motion[channel]
         seen = np.isfinite(values)
         times = np.clip(track.run.motion.time[seen], *track.time[[0, -1]])
-        turned = -track.place * (axis == 0)  # by a camera
+        turned = -track.place * (axis == 0 and is_turned)  # by a camera
         # columns of what the form has, of a run's own, and the course without either
         every = np.vstack([made.columns[:, axis], turned, made.offset[axis]])
         *columns, turned, offset = interp1d(track.time, every)(times) / noise

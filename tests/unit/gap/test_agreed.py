@@ -13,7 +13,7 @@ from cosim.gap.models import _same
 from cosim.gap.naming import Named
 from cosim.gap.result import Doubt, Rejected, Score
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.ladder import Finding
+from cosim.gap.weak_form.ladder import Finding, Ladder
 from cosim.gap.weak_form.unknowns import Unknown
 from cosim.gap.windows.fitted import Fitted, FittedRun
 from cosim.gap.windows.numbers import Number
@@ -40,7 +40,8 @@ class Rows:
 def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0)):
     """Findings and what was pretended; gained : name -> what simulated runs gain by it.
 
-    reached : gap at the end of every ladder; halved : what the contact leaves, without and with
+    reached : gap at the end of ladders, of all findings where two; halved : what the contact
+    leaves, without and with
     """
     monkeypatch.setattr(find.Naming, "of", lambda campaign: rows)
     monkeypatch.setattr(
@@ -48,10 +49,11 @@ def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0)):
     )
 
     class Models:
-        ladder = [SimpleNamespace(name="user's model", gap=Score(reached, reached))]
-
         def __init__(self, parts):
-            left = halved[len(parts) == len(rows.findings)]
+            whole = len(parts) == len(rows.findings)
+            ends = np.broadcast_to(reached, 2)[int(whole)]
+            self.ladder = [SimpleNamespace(name="user's model", gap=Score(ends, ends))]
+            left = halved[whole]
             self.unscattered = Score(left, left)
 
         def gained(self, part):
@@ -60,7 +62,8 @@ def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0)):
     fitting = find._Fitting(None, lambda: None, 1)
     monkeypatch.setattr(fitting, "_fitted", lambda named, parts: Models(parts))
     answer = find._agreed(None, fitting)
-    return [part.finding.name for part in answer.parts], answer.spurious
+    rejected = tuple(one.effect for one in answer.rejected)
+    return [part.finding.name for part in answer.parts], rejected
 
 
 def test_the_true_one_is_found_behind_a_pretended_one(monkeypatch):
@@ -91,14 +94,20 @@ def test_what_is_sure_is_asked_of_runs_that_it_does_not_explain(monkeypatch, rea
 
 @pytest.mark.parametrize(
     ("reached", "halved", "named"),
-    [(1.0, (1.0, 1.0), 1), (1.2, (1.0, 1.0), 2), (1.0, (2.0, 1.48), 2), (1.0, (2.0, 1.6), 1)],
+    [
+        (1.0, (1.0, 1.0), 1),
+        (1.0, (2.0, 1.48), 2),
+        (1.0, (2.0, 1.6), 1),
+        ((1.2, 1.09), (1.0, 1.0), 2),
+        ((1.2, 1.15), (1.0, 1.0), 1),
+        ((2.0, 1.55), (1.0, 1.0), 2),
+    ],
 )
-def test_a_lesser_finding_is_missed_or_halves_what_the_contact_leaves(
-    monkeypatch, reached, halved, named
-):
+def test_a_lesser_finding_makes_up_for_half_of_what_is_missing(monkeypatch, reached, halved, named):
     """Simulated runs may be more probable with it, and come to their noise without it."""
     rows = Rows(finding("run_in", 2.0 * SURE), finding("surface_pattern", 80.0), most=2)
-    found, _ = agreed(monkeypatch, rows, {"surface_pattern": 15.0}, reached, halved)
+    gained = {"surface_pattern": 15.0, "run_in": 1e3}
+    found, _ = agreed(monkeypatch, rows, gained, reached, halved)
     assert found == ["run_in", "surface_pattern"][:named]
 
 
@@ -110,27 +119,68 @@ def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monke
     assert agreed(monkeypatch, rows, gained) == (["film_drag"], ("surface_pattern", "run_in"))
 
 
-@pytest.mark.parametrize(("gained", "stays"), [(14.1, True), (13.9, False)])
-def test_rivals_of_a_class_do_as_well_in_simulated_runs(monkeypatch, gained, stays):
-    """20 of the finding; what the rows tell apart, or no model has, is not asked of them."""
+def told_apart(monkeypatch, gains, **others):
+    """The name and its rivals, of run_in with e^30 in the rows; gains : of simulated runs."""
     wave = Added(Unknown("surface_pattern", "", None, np.eye(1)))
-    one = Finding("run_in", (wave,), 30.0, {"film_drag": -2.9, "other.order": 0.0, "scale": -3.1})
-    offers = {name: (0.0, (wave,)) for name in one.others}
-    system = SimpleNamespace(rung=lambda added: None)
-    ladder = SimpleNamespace(first_offers=offers)
-    named = Named(ladder, (one,), system, None, {})
+    one = Finding("run_in", (wave,), 30.0, others)
+    rung = SimpleNamespace(evidence=0.0)
+    system = SimpleNamespace(rung=lambda added=(): rung)
+    offers = {name: (30.0 + less, (wave,)) for name, less in others.items()}
+    named = Named(Ladder(system, (one,), rung, offers), (one,), system, rung, {})
     monkeypatch.setattr(
         find, "part_of", lambda campaign, system, rung, one: Part(
-            one, None, (), (), {} if one.name == "other.order" else {"on": 1.0})
+            one, None, (), (), {"on": 1.0} if one.name in gains else {})
     )  # fmt: skip
     fitting = find._Fitting(None, lambda: None, 1)
-    gains = {"run_in": 20.0, "film_drag": gained}
-    models = SimpleNamespace(gained=lambda part: gains[part.finding.name])
+    models = SimpleNamespace(
+        gained=lambda part: gains[part.finding.name],
+        ladder=[SimpleNamespace(name="user's model", gap=Score(1.0, 1.0))],
+    )
     monkeypatch.setattr(fitting, "_fitted", lambda named, parts: models)
     part = Part(one, None, (), (), {"on": 1.0})
-    left = fitting.told_apart([part], named).findings[0].others
-    assert ("film_drag" in left) is stays
-    assert {"other.order", "scale"} <= set(left)
+    named, (part,), _ = fitting.told_apart([part], models, named)
+    assert named.findings == named.ladder.findings == (part.finding,)
+    assert set(part.finding.simulated) == set(gains) - {part.finding.name}
+    return part.finding.name, part.finding.others
+
+
+def test_simulated_runs_decide_between_what_rows_do_not_tell_apart(monkeypatch):
+    name, others = told_apart(monkeypatch, {"run_in": 20.0, "film_drag": 15.0}, film_drag=-2.0)
+    assert (name, others) == ("run_in", {"film_drag": -5.0})
+    name, others = told_apart(monkeypatch, {"run_in": 20.0, "film_drag": 26.0}, film_drag=-11.9,
+                              velocity_weakening=-12.1)  # fmt: skip
+    assert name == "film_drag"
+    assert others == pytest.approx({"run_in": -6.0, "velocity_weakening": -0.2})
+
+
+def test_a_fault_pays_its_price_against_an_effect(monkeypatch):
+    scale = "measurement.scale"
+    name, others = told_apart(monkeypatch, {"run_in": 20.0, scale: 22.0}, **{scale: -1.0})
+    assert (name, others) == ("run_in", {scale: -1.0})
+
+
+def test_what_no_model_has_stays_as_the_rows_have_it(monkeypatch):
+    gains = {"run_in": 20.0, "film_drag": 19.0}
+    beside = {"film_drag": -1.0, "other.order": -2.0}
+    name, others = told_apart(monkeypatch, gains, **beside)
+    assert (name, others) == ("run_in", {"film_drag": -1.0, "other.order": -2.0})
+
+
+@pytest.mark.parametrize(("reached", "names"), [(1.0, 1), (1.09, 1), (1.11, 0)])
+def test_a_lone_finding_takes_what_is_missing(monkeypatch, reached, names):
+    rows = Rows(finding("speed_ripple", 56.0))
+    found, _ = agreed(monkeypatch, rows, {"speed_ripple": 80.0}, (1.19, reached))
+    assert len(found) == names
+
+
+@pytest.mark.parametrize(("reached", "named"), [(1.29, 1), (1.31, 2)])
+def test_what_no_effect_stands_for_beside_a_greater_finding_is_asked_of_runs_it_explains(
+    monkeypatch, reached, named
+):
+    rows = Rows(finding("run_in", 2.0 * SURE), finding("other.time", 30.0), most=2)
+    monkeypatch.setattr(Part, "in_kernel", property(lambda part: part.effect == "run_in"))
+    found, _ = agreed(monkeypatch, rows, {"run_in": 50.0}, (reached, 1.0))
+    assert found == ["run_in", "other.time"][:named]
 
 
 def test_a_problem_of_least_squares_is_the_same_from_any_start():

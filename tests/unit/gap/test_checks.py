@@ -15,6 +15,7 @@ from scipy.optimize import brentq
 
 from cosim.gap import Campaign, CampaignError, MeasuredRun, Track, read_campaign
 from cosim.gap.checks import LEVEL, doubts_of
+from cosim.gap.checks import motion as checks_of_motion
 from cosim.gap.checks.level import far
 from cosim.gap.checks.motion import CREEPS, doubts_of_direction, stick_speed, stiffness_ratio
 from cosim.gap.checks.tracker import (
@@ -154,6 +155,18 @@ def test_the_surface_s_speed_is_read_off_sticks_whatever_is_stated(stated, sound
         found, error = stick_speed(replace(run, surface_speed=stated * run.surface_speed))
         assert abs(found - run.surface_speed) < 5.0 * error + 0.01 * run.surface_speed
     assert stick_speed(sound.runs[2]) is None  # it never sticks
+
+
+@pytest.mark.parametrize(("ripple", "severe"), [(0.0, True), (0.4, False)])
+def test_a_surface_that_is_now_slower_and_now_faster_has_no_other_set_point(ripple, severe):
+    """A block that sticks at the crests of a ripple is carried faster than stated."""
+    run = run_of(0.02, 1)
+    slopes = 0.02 * np.array([1.0 - ripple, *[1.25] * 39])
+    sticks = slopes, np.full(slopes.size, 1.0)
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(checks_of_motion, "_sticks_at", lambda run, speed: sticks)
+        (doubt,) = checks_of_motion.doubts_of_speed(campaign_of([run]), [run])
+    assert doubt.severe is severe
 
 
 def test_crests_of_a_vibration_are_no_sticks():

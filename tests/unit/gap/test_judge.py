@@ -1,6 +1,6 @@
 """The decision: every threshold where it is, and parts of an answer that cannot contradict."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cosim.gap.extended import Part
-from cosim.gap.judge import halves, judge, leaves, may_be_spurious, runs_ask
+from cosim.gap.judge import halves, judge, leaves, may_be_spurious, rivals_of, runs_ask
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import VERDICTS, Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
@@ -38,7 +38,9 @@ def judged(names, before, after, share=1.0, **others):
 
 @pytest.mark.parametrize(("gap", "verdict"), [(1.09, "none"), (1.11, "unknown")])
 def test_nothing_is_missing_up_to_a_tenth_more_than_noise(gap, verdict):
-    assert judged([], gap, gap) == (verdict, ())
+    for score in (Score(gap, 1.0), Score(1.0, gap)):
+        last = Rung("", "", score, Score(1.0, 1.0), 0.0)
+        assert judge([], [], [rung(9.0, 9.0), last], PHYSICS).verdict == verdict
 
 
 def test_no_run_alone_shows_that_nothing_is_missing():
@@ -108,6 +110,24 @@ def test_faint_findings_along_x_may_be_a_contact_s_and_further_ones_what_the_fir
     assert may_be_spurious(faint, True) and not may_be_spurious(sure, True)
     assert may_be_spurious(sure, False)
     assert not may_be_spurious(Finding("lateral_friction", (), 200.0, {}), False)
+
+
+def test_rivals_are_the_best_few_that_rows_do_not_rule_out():
+    near = {"film_drag": -11.9, "structural_damping": -12.1, "other.time": -4.0}
+    assert rivals_of(finding("run_in", **near)) == ["other.time", "film_drag"]
+    many = {f"e{n}": -float(n) for n in range(9)}
+    assert rivals_of(finding("run_in", **many)) == ["e0", "e1", "e2"]
+    faint = Finding("run_in", (), 8.0, {"film_drag": -4.9, "other.time": -5.1})
+    assert rivals_of(faint) == ["film_drag"]  # the other is not asked for by itself
+    sure = Finding("run_in", (), 501.0, {"film_drag": -2.9, "other.time": -3.1})
+    assert rivals_of(sure) == ["film_drag"]
+
+
+@pytest.mark.parametrize(("less", "verdict"), [(-5.9, "class"), (-6.1, "named")])
+def test_simulated_runs_tell_rivals_apart_by_four_hundred_to_one(less, verdict):
+    one = replace(finding("run_in", film_drag=less), simulated=("film_drag",))
+    ladder = [rung(9.0, 5.0), rung(9.0, 1.0, 1.0)]
+    assert judge([one], ["run_in"], ladder, PHYSICS).verdict == verdict
 
 
 def test_what_has_no_name_is_unknown():

@@ -74,7 +74,7 @@ def test_closing_lines(gap):
     text = "\n".join(closing_lines(gap))
     assert gap.sentence in text and "runner-up  film_drag, probability < 0.001" in text
     ends = f"{digits(gap.before.held_out)} → {digits(gap.after.held_out)}"
-    assert f"held-out runs {ends} (1 is noise)" in text
+    assert "2 fitted runs" in text and f"1 held-out run {ends} (1 is noise)" in text
 
 
 # --- in Python ---

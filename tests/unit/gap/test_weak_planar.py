@@ -34,10 +34,10 @@ FOREIGN = {
 }
 
 
-def measured(folder, rotation=0.0, **blocks):
-    """A campaign of three runs in the plane. rotation : of the camera, rad"""
+def measured(folder, rotation=(0.0, 0.0, 0.0), **blocks):
+    """A campaign of three runs in the plane. rotation : of the camera in each, rad"""
     runs = []
-    for number, speed in enumerate(SPEEDS):
+    for number, (speed, angle) in enumerate(zip(SPEEDS, rotation, strict=True)):
         parameters = Parameters(
             rig={**RIG, "mass": KNOWN["mass"], "degrees_of_freedom": ("x", "y", "phi")},
             springs={"stiffness": KNOWN["stiffness"]},
@@ -49,8 +49,8 @@ def measured(folder, rotation=0.0, **blocks):
         x, y = np.asarray(moved["x"]), np.asarray(moved["y"])
         columns = {
             "t": moved.time,
-            "x": noisy(x * np.cos(rotation), number, NOISE),
-            "y": noisy(y - x * np.sin(rotation), number + 50, NOISE),
+            "x": noisy(x * np.cos(angle), number, NOISE),
+            "y": noisy(y - x * np.sin(angle), number + 50, NOISE),
         }
         runs.append({"surface_speed": speed, "columns": columns, "hold_out": speed == HELD_OUT})
     return read_campaign(write_campaign(folder, runs, noise={"x": NOISE, "y": NOISE}))
@@ -81,12 +81,16 @@ def test_an_effect_is_named_and_its_size_recovered(effect, tmp_path):
     assert most_spurious(campaign, rows_in_plane(tracks, campaign, planar)) < 4.0
 
 
-def test_a_turned_camera_is_named(tmp_path):
-    campaign = measured(tmp_path, rotation=0.03)
+@pytest.mark.parametrize("turned", [(1, 1, 1), (0, 1, 0), (1, 0, 1)])
+def test_a_turned_camera_is_named_and_the_runs_in_which_it_is(turned, tmp_path):
+    campaign = measured(tmp_path, rotation=[0.03 * each for each in turned])
     planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
     assert planar.answer == "measurement.rotation"
     value, deviation = planar.numbers["measurement.rotation"]
     assert value == pytest.approx(0.03, abs=4.0 * deviation + 3e-4)
+    names = [f"in@{run.name}" for run in campaign.runs]
+    told = dict(zip(names, map(float, turned), strict=True))
+    assert planar.settings == ({} if all(turned) else told)
 
 
 def test_a_block_that_stays_on_the_axis_shows_nothing(tmp_path):
