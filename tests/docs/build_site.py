@@ -8,15 +8,17 @@ FOLDER for that).
 
 import contextlib
 import os
+import re
 import shutil
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import rendered
 from gallery import NAMES, SLOW, ran
 from nbclient.exceptions import CellExecutionError
-from notebooks import Executed, is_notebook
+from notebooks import PAGES, Executed, is_notebook
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -36,6 +38,8 @@ def build(folder: Path, gallery: Path, executed: Executed, jobs: int = 1) -> Pat
     shutil.copytree(HERE / "site", source, ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(gallery, source / "gallery")
     shutil.copytree(ROOT / ".readme", source / "readme")
+    for page in source.rglob("*.md"):
+        page.write_text(for_sphinx(page.read_text(encoding="utf-8")), encoding="utf-8")
     html = folder / "html"
     subprocess.run(
         [sys.executable, "-m", "sphinx", "-W", "--keep-going", "-q", source, html],
@@ -46,6 +50,13 @@ def build(folder: Path, gallery: Path, executed: Executed, jobs: int = 1) -> Pat
         text=True,
     )
     return html / "index.html"
+
+
+def for_sphinx(text: str) -> str:
+    """A page as Sphinx takes it. On a code host its tree of contents is a comment, which shows
+    nothing there, and its pictures lie where the README has them."""
+    text = re.sub(r"<!--\n(```\{toctree\}\n.*?^```)\n-->", r"\1", text, flags=re.S | re.M)
+    return re.sub(r"\]\((\.\./)+\.readme/", "](/readme/", text)
 
 
 def environment(folder: Path) -> dict[str, str]:
@@ -80,7 +91,11 @@ def main() -> None:
                 ran(name, gallery)
     executed = Executed(folder / "cache", environment(folder))
     try:
-        print(build(folder, gallery, executed, os.cpu_count() or 1))
+        page = build(folder, gallery, executed, os.cpu_count() or 1)
+        rendered.write(
+            (one, executed(one)) for one in sorted(PAGES.glob("*.md")) if is_notebook(one)
+        )
+        print(page)
     except CellExecutionError as error:
         sys.exit(str(error))
     except subprocess.CalledProcessError as error:

@@ -13,10 +13,12 @@ from math import exp, pi
 from pathlib import Path
 
 import pytest
+import rendered
 from build_site import build
 from gallery import EXAMPLES, NAMES, SLOW
 from gallery import ran as run_example
-from sessions import fences
+from notebooks import PAGES, is_notebook
+from sessions import fences, timeless
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 
 SOURCES = Path(__file__).parent / "site"
@@ -147,6 +149,36 @@ def test_every_notebook_is_there_to_download_with_what_it_computed(site):
         cells = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
         assert all(cell["execution_count"] for cell in cells)
         assert any(cell["outputs"] for cell in cells)
+
+
+def as_compared(text):
+    """A page without times, and without the digits of what is but rounding."""
+    return timeless(re.sub(r"[\d.]+e-1\d", "nothing", text).splitlines())
+
+
+def test_the_tutorials_that_a_code_host_shows_are_those_that_were_executed(executed):
+    """Else `python tests/docs/build_site.py` writes them anew."""
+    pages = [page for page in sorted(PAGES.glob("*.md")) if is_notebook(page)]
+    shown = {file.name for file in rendered.FOLDER.iterdir()}
+    for page in pages:
+        text, pictures = rendered.rendered(page, executed(page))
+        there = (rendered.FOLDER / page.name).read_text(encoding="utf-8")
+        assert as_compared(there) == as_compared(text)
+        assert "{code-cell}" not in text and "{nb-download}" not in text
+        shown -= {page.name, *pictures}
+    assert shown == set()
+
+
+def test_a_code_host_shows_links_and_pictures_that_are_there():
+    """Of the pages as they lie here, but for what only a build makes."""
+    broken = []
+    for page in [*SOURCES.rglob("*.md"), *rendered.FOLDER.glob("*.md")]:
+        text = page.read_text(encoding="utf-8")
+        assert not re.search(r"\{(doc|ref)\}", text), page
+        for target in re.findall(r"\]\(([^)#:]+?)(?:#[^)]*)?\)", text):
+            if not target.startswith("made/") and not (page.parent / target).exists():
+                broken.append(f"{page.name}: {target}")
+    assert broken == []
 
 
 def test_blocks_that_the_build_makes_show_what_is_run(site):

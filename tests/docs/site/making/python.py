@@ -37,7 +37,7 @@ def _section(module: str, said: str) -> str:
             parts.append(_documented(f"{module}.{name}", directive))
     if tables:
         rows = [(code(name), (public[name].__doc__ or "").split("\n\n")[0]) for name in tables]
-        parts.append("Tables of parameters; their keys: {doc}`/reference/scenario`.\n\n")
+        parts.append("Tables of parameters; their keys: [Keys of a scenario](scenario.md).\n\n")
         parts.append(table(("class", "is"), sorted(rows)))
     return "".join(parts)
 
