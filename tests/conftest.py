@@ -29,9 +29,9 @@ def pytest_configure(config):
     """
     if hasattr(config, "workerinput"):
         return
-    from stickslip.compiled import compiled_kernel
+    from stickslip.catalogue import CATALOGUE
 
-    compiled_kernel()
+    _ = CATALOGUE.compiled
     kept = (Path(__file__).parent / "blind").glob("*/__pycache__/*.nbi")
     if config.getoption("numprocesses", None) and not any(kept):
         if subprocess.run([sys.executable, str(COMPILED_AHEAD)]).returncode != 0:

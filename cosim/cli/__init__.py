@@ -16,7 +16,6 @@ from contextlib import contextmanager
 from errno import EBADF, EIO, ENAMETOOLONG, ENOSPC
 from typing import TextIO
 
-from cosim.cli.plug_ins import handed_on, is_of_an_effect
 from cosim.files import OutputError
 from cosim.interrupts import held_interrupts, interruptible
 
@@ -46,7 +45,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     _one_blas_thread()
     with interruptible(ending=argv is None):
-        return _guarded(sys.argv[1:] if argv is None else argv, ending=argv is None)
+        return _guarded(sys.argv[1:] if argv is None else argv)
 
 
 def _one_blas_thread() -> None:
@@ -59,15 +58,12 @@ def _one_blas_thread() -> None:
         os.environ.setdefault(name, "1")
 
 
-def _guarded(argv: Sequence[str], ending: bool) -> int:
+def _guarded(argv: Sequence[str]) -> int:
     """The exit status, whatever happens."""
     debug = "--debug" in argv
     if sys.stdout is None:
         return _give_up(BadInput(_CLOSED), BAD_INPUT, debug)
     try:
-        status = handed_on(argv, ending)
-        if status is not None:
-            return status
         with held_interrupts():
             from cosim.cli.arguments import command_module, parser
             from cosim.cli.console import saying
@@ -90,7 +86,7 @@ def _guarded(argv: Sequence[str], ending: bool) -> int:
     except (OutputError, Failed) as error:
         return _give_up(error, FAILED, debug)
     except Exception as error:
-        if is_of_an_effect(error) or _lacks_compiler(error):
+        if _is_bad_input(error):
             return _give_up(error, BAD_INPUT, debug)
         if isinstance(error, OSError) and error.errno == ENAMETOOLONG:  # of whoever gave the name
             text = f"{error.filename}: is too long for a file's name, allowed is a shorter one"
@@ -103,11 +99,14 @@ def _guarded(argv: Sequence[str], ending: bool) -> int:
         return _give_up(error, FAILED, debug, f"{said} (--debug shows where)")
 
 
-def _lacks_compiler(error: Exception) -> bool:
-    """Whether there is no compiler for what has to be compiled: nothing was computed."""
+def _is_bad_input(error: Exception) -> bool:
+    """Whether an effect's file is none, or there is no compiler for what has to be compiled:
+    nothing was computed."""
     from stickslip.generation.compiler import CompilerError
+    from stickslip.plugins.errors import PluginError
 
-    return isinstance(error, CompilerError) or isinstance(error.__cause__, CompilerError)
+    kinds = (CompilerError, PluginError)
+    return isinstance(error, kinds) or isinstance(error.__cause__, kinds)
 
 
 def _silence(stream: TextIO) -> None:

@@ -12,7 +12,8 @@ from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
-from stickslip import EFFECTS, Parameters
+from stickslip import Parameters
+from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.quantity import details
 
 from cosim.fmu.variables import bounds_of
@@ -70,7 +71,7 @@ DECADES = 30.0
 BEYOND = 2.0
 
 
-def groups() -> list[dict[str, Any]]:
+def groups(catalogue: Catalogue = CATALOGUE) -> list[dict[str, Any]]:
     """Groups of controls as plain data, in the order of the page.
 
     Each has id, title, sentence, enters ("" where it is no effect), open, and controls: key, name,
@@ -88,7 +89,7 @@ def groups() -> list[dict[str, Any]]:
         }
         for table, title in HEADINGS.items()
     ]
-    for effect in EFFECTS:
+    for effect in catalogue.effects:
         fields = effect.table.model_fields.items()
         controls = [control(f"{effect.id}.{name}", field) for name, field in fields]
         for each in controls:

@@ -11,8 +11,8 @@ from importlib.metadata import version
 from typing import Any
 
 from markupsafe import Markup
+from stickslip.catalogue import CATALOGUE, Catalogue, default_catalogue
 from stickslip.kernel import layout
-from stickslip.names import NAMES
 from stickslip.ports import OUTPUTS
 
 from cosim.explore.controls import groups
@@ -39,20 +39,25 @@ def explorer_page(scenario: Scenario | None = None) -> str:
     One file that needs nothing else. Raises CompilerError where there is no WebAssembly of the
     kernel: a checkout without zig.
     """
+    catalogue = default_catalogue() if scenario is None else scenario.catalogue
     return render(
         "explorer.html.j2",
         "cosim.explore",
         generator=Markup(GENERATOR),
         version=version("stickslip"),
         style=_text("explorer.css"),
-        kernel=base64.b64encode(zlib.compress(web.module(), 9)).decode("ascii"),
-        data=_inside_script(json.dumps(page_data(scenario), ensure_ascii=False, allow_nan=False)),
+        kernel=base64.b64encode(zlib.compress(web.module(catalogue), 9)).decode("ascii"),
+        data=_inside_script(
+            json.dumps(page_data(scenario, catalogue), ensure_ascii=False, allow_nan=False)
+        ),
         worker=_text(WORKER),
         programs=[(name, _text(name)) for name in SCRIPTS],
     )
 
 
-def page_data(scenario: Scenario | None = None) -> dict[str, Any]:
+def page_data(
+    scenario: Scenario | None = None, catalogue: Catalogue = CATALOGUE
+) -> dict[str, Any]:
     """What the scripts are told: scenarios, controls, and places in the kernel's arrays."""
     presets = [preset(read_scenario(name)) for name in PRESETS]
     chosen = preset(scenario) if scenario is not None else presets[0]
@@ -62,8 +67,8 @@ def page_data(scenario: Scenario | None = None) -> dict[str, Any]:
         "version": version("stickslip"),
         "presets": presets,
         "chosen": presets.index(chosen),
-        "groups": groups(),
-        "names": list(NAMES),
+        "groups": groups(catalogue),
+        "names": list(layout.value_names(catalogue.effects)),
         "outputs": {port.name: getattr(layout, port.slot) for port in OUTPUTS},
         "units": {port.name: port.unit or "1" for port in OUTPUTS},
         "sizes": {

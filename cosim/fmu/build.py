@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from collections.abc import Callable, Sequence
 from functools import cache, partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import platformdirs
-import stickslip
-from stickslip.effects import EFFECTS
-from stickslip.effects import FILES as CATALOGUE
-from stickslip.effects.effect import Effect
+from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.generation.compiler import NO_COMPILER, CompilerError
 from stickslip.generation.platforms import Platform, this_machine
 from stickslip.scratch import scratch_folder
 
-import cosim
 from cosim.files import clear_partial
 from cosim.fmu import libraries, native, python_unit
 from cosim.fmu.libraries import runs_here
 from cosim.fmu.thermal import native_unit
+from cosim.processes import apart
 
 #: Folder of a checkout in which its units stand, beside the recipes.
 BUILD_FOLDER = Path("build")
@@ -32,45 +27,40 @@ THERMAL, THERMAL_PYTHON = native_unit.FMU, f"{native_unit.NAME}-python.fmu"
 THERMAL_FMI3 = native_unit.FILES[libraries.FMI3]
 SYSTEM = "StickSlipThermal.ssp"
 UNITS = (NATIVE, FMI3, PYTHON, THERMAL, THERMAL_FMI3, THERMAL_PYTHON, SYSTEM)
-#: Units of pythonfmu -> the module that makes them when it is run.
-MADE_APART = {PYTHON: python_unit.__name__, THERMAL_PYTHON: "cosim.fmu.thermal.python_unit"}
+#: Units of pythonfmu.
+MADE_APART = (PYTHON, THERMAL_PYTHON)
 
 
 class FmuBuildError(ValueError):
     """A unit cannot be built or written; the message names the folder or the reason."""
 
 
-def own_folder() -> Path:
+def own_folder(catalogue: Catalogue = CATALOGUE) -> Path:
     """Where the units stand that nobody named: `build` of a checkout, else the user's cache.
 
     With effects from outside, a folder of their own: one's own effects and the catalogue alone do
     not take turns in one file.
     """
-    if outside := _outside():
-        names = "-".join([*(effect.id for effect in outside), native.guid()[:8]])
+    if catalogue.outside:
+        names = "-".join([*(effect.id for effect in catalogue.outside), native.guid(catalogue)[:8]])
         return platformdirs.user_cache_path("stickslip") / names
     if (BUILD_FOLDER / "units.py").is_file():
         return BUILD_FOLDER
     return platformdirs.user_cache_path("stickslip")
 
 
-def _outside() -> tuple[Effect, ...]:
-    """Effects of this process that are not of the catalogue."""
-    return EFFECTS[len(CATALOGUE) :]
-
-
-def own_fmu() -> Path:
+def own_fmu(catalogue: Catalogue = CATALOGUE) -> Path:
     """The native unit in `own_folder`, fresh; where that cannot be written, in the cache or a
     scratch folder."""
-    folder = own_folder()
-    cached = folder if _outside() else platformdirs.user_cache_path("stickslip")
+    folder = own_folder(catalogue)
+    cached = folder if catalogue.outside else platformdirs.user_cache_path("stickslip")
     for place in dict.fromkeys((folder, cached)):
         try:
-            return ensure_fmu(place)
+            return ensure_fmu(place, catalogue=catalogue)
         except FmuBuildError as error:
             refused = error  # the last is told
     try:
-        return ensure_fmu(_scratch().name)
+        return ensure_fmu(_scratch().name, catalogue=catalogue)
     except (FmuBuildError, OSError):
         raise refused from refused.__cause__
 
@@ -81,20 +71,23 @@ def _scratch() -> TemporaryDirectory[str]:
     return scratch_folder("units")
 
 
-def ensure_fmu(directory: str | Path, name: str = NATIVE) -> Path:
+def ensure_fmu(directory: str | Path, name: str = NATIVE, catalogue: Catalogue = CATALOGUE) -> Path:
     """A native unit of `UNITS` in a directory, built there when it is missing, damaged or stale.
 
     Its GUID decides, never a date. What is built has a library for this machine. Raises
     FmuBuildError.
     """
     fmu = Path(directory) / name
-    if native.built_guid(fmu) == native.guid() and runs_here(fmu):
+    if native.built_guid(fmu) == native.guid(catalogue) and runs_here(fmu):
         return fmu
-    return build_fmu(directory, name)
+    return build_fmu(directory, name, catalogue=catalogue)
 
 
 def build_fmu(
-    directory: str | Path, name: str = NATIVE, platforms: Sequence[Platform] = ()
+    directory: str | Path,
+    name: str = NATIVE,
+    platforms: Sequence[Platform] = (),
+    catalogue: Catalogue = CATALOGUE,
 ) -> Path:
     """Build a unit of `UNITS` in a directory, which is made when it does not exist; its path.
 
@@ -104,25 +97,29 @@ def build_fmu(
     """
     directory = Path(directory)
     platforms = platforms or [this_machine()]
-    require_way(name, platforms)
+    require_way(name, platforms, catalogue)
     _check_writable(directory)
-    if name in MADE_APART:
-        return _build_python_unit(directory, name)
     try:
-        return _maker(name)(directory, platforms)
+        return _maker(name, catalogue)(directory, platforms)
     except CompilerError as error:
         raise FmuBuildError(f"{name} was not built: {error}") from error
 
 
-def require_way(name: str, platforms: Sequence[Platform] = ()) -> None:
+def require_way(
+    name: str, platforms: Sequence[Platform] = (), catalogue: Catalogue = CATALOGUE
+) -> None:
     """Raises FmuBuildError where there is no compiler for a unit that needs one."""
-    of_block = () if name in MADE_APART or _is_of_heat(name) else (native.guid(),)
+    of_block = () if name in MADE_APART or _is_of_heat(name) else (native.guid(catalogue),)
     of_heat = (native_unit.guid(),) if _is_of_heat(name) or name == SYSTEM else ()
     try:
         for guid in (*of_block, *of_heat):
             libraries.require_way(guid, platforms or [this_machine()])
     except CompilerError as error:
-        why = f"custom effects are compiled, and there is {NO_COMPILER}" if _outside() else error
+        why = (
+            f"custom effects are compiled, and there is {NO_COMPILER}"
+            if catalogue.outside
+            else error
+        )
         if name in (NATIVE, FMI3):
             why = (
                 f"{why}; {PYTHON} needs none: `stickslip build {PYTHON} -o .`, `run --fmu {PYTHON}`"
@@ -134,36 +131,32 @@ def _is_of_heat(name: str) -> bool:
     return name in native_unit.FILES.values()
 
 
-def _maker(name: str) -> Callable[[Path, Sequence[Platform]], Path]:
+def _maker(name: str, catalogue: Catalogue) -> Callable[[Path, Sequence[Platform]], Path]:
+    if name in MADE_APART:
+        return partial(_made_apart, name, catalogue)
     if name == SYSTEM:
         from cosim.fmu.thermal import structure  # the scenario, and with it the heat model
 
-        return structure.build
+        return partial(structure.build, catalogue=catalogue)
     if _is_of_heat(name):
         of_heat = libraries.FMI3 if name == THERMAL_FMI3 else libraries.FMI2
         return partial(native_unit.build, fmi=of_heat)
-    return partial(native.build, fmi=libraries.FMI3 if name == FMI3 else libraries.FMI2)
+    fmi = libraries.FMI3 if name == FMI3 else libraries.FMI2
+    return partial(native.build, fmi=fmi, catalogue=catalogue)
 
 
-def _build_python_unit(directory: Path, name: str) -> Path:
+def _made_apart(
+    name: str, catalogue: Catalogue, directory: Path, platforms: Sequence[Platform]
+) -> Path:
     """In a process of its own, since pythonfmu imports what it builds."""
-    done = subprocess.run(
-        [sys.executable, "-P", "-m", MADE_APART[name], str(directory.resolve())],
-        capture_output=True,
-        text=True,
-        check=False,
-        env=os.environ | {"PYTHONPATH": _packages()},
-    )
-    if done.returncode != 0:
-        said = done.stderr.strip().splitlines()
-        raise FmuBuildError(f"{name} was not built: {said[-1] if said else 'no reason given'}")
-    return directory / name
+    try:
+        if name == PYTHON:
+            return apart(python_unit.build, directory, None, catalogue)
+        from cosim.fmu.thermal import python_unit as of_heat  # scikit-fem
 
-
-def _packages() -> str:
-    """Where the packages of this process lie, for one that is to import the same."""
-    homes = [str(Path(package.__path__[0]).parent) for package in (cosim, stickslip)]
-    return os.pathsep.join([*homes, *filter(None, [os.environ.get("PYTHONPATH")])])
+        return apart(of_heat.build, directory)
+    except Exception as error:
+        raise FmuBuildError(f"{name} was not built: {error}") from error
 
 
 def _check_writable(directory: Path) -> None:

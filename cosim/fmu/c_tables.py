@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from string import Formatter
 
+from stickslip.catalogue import Catalogue
 from stickslip.contradictions import COMPUTABLE
-from stickslip.kernel.layout import DRAW_SEED, DRAW_UNIFORM, constants
 from stickslip.status import WHY_NOT
 
 from cosim.fmu.exchange import INDICATORS, local_slots, state_references, states
@@ -62,7 +62,7 @@ def hidden(header: str) -> str:
     return f"{pragma.format('push(hidden)')}\n{header}\n{pragma.format('pop')}"
 
 
-def variables_header(variables: Sequence[Variable], guid: str) -> str:
+def variables_header(variables: Sequence[Variable], guid: str, catalogue: Catalogue) -> str:
     """How many variables there are, where each kind begins, and the unit's GUID."""
     can = dict.fromkeys(("HAS_EXCHANGE", "TAKES_RATES", "BEGINS_WITH_INPUTS"), True)
     hold = [variable.name for variable in variables].index(HOLD["name"])
@@ -70,7 +70,11 @@ def variables_header(variables: Sequence[Variable], guid: str) -> str:
     places = {each.name: place for place, each in enumerate(variables)}
     lines += [f"#define {_constant(each)} {places[each]}" for each in UNIT_ALONE]
     lines += [f"#define WATCHED_COUNT {len(WATCHED)}"]
-    lines += [f"#define STATE_COUNT {len(states())}", f"#define INDICATOR_COUNT {INDICATORS}", ""]
+    lines += [
+        f"#define STATE_COUNT {len(states(catalogue))}",
+        f"#define INDICATOR_COUNT {INDICATORS}",
+        "",
+    ]
     lines += ["/* Where the kernel keeps each output. */", "extern const int OUTPUT_SLOTS[];"]
     lines += ["/* Where each local variable is among the states and, behind them, their rates. */"]
     lines += ["extern const int LOCAL_SLOTS[];"]
@@ -83,21 +87,23 @@ def variables_header(variables: Sequence[Variable], guid: str) -> str:
     return guarded("VARIABLES_H", lines)
 
 
-def variables_source(variables: Sequence[Variable]) -> str:
+def variables_source(variables: Sequence[Variable], catalogue: Catalogue) -> str:
     """The table of the variables, and where the kernel keeps what they show."""
-    places = constants()
+    kernel = catalogue.kernel
     slots = [
-        str(places[each.slot]) for each in variables if each.causality == "output" and each.slot
+        str(getattr(kernel, each.slot))
+        for each in variables
+        if each.causality == "output" and each.slot
     ]
     return "\n".join(
         [
             MADE,
             *table_lines(variables),
             _whole_numbers("OUTPUT_SLOTS", slots),
-            _whole_numbers("LOCAL_SLOTS", map(str, local_slots(variables))),
-            _whole_numbers("STATE_REFERENCES", map(str, state_references(variables))),
-            _whole_numbers("DRAW_SEED", (f"{seed:g}" for seed in DRAW_SEED)),
-            _whole_numbers("DRAW_UNIFORM", (f"{kind:g}" for kind in DRAW_UNIFORM)),
+            _whole_numbers("LOCAL_SLOTS", map(str, local_slots(variables, catalogue))),
+            _whole_numbers("STATE_REFERENCES", map(str, state_references(variables, catalogue))),
+            _whole_numbers("DRAW_SEED", (f"{seed:g}" for seed in kernel.DRAW_SEED)),
+            _whole_numbers("DRAW_UNIFORM", (f"{kind:g}" for kind in kernel.DRAW_UNIFORM)),
             "",
         ]
     )

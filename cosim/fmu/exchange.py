@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from stickslip.effects import EFFECTS
+from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.kernel import layout
+from stickslip.units import UNITS
 
-from cosim.fmu.units import UNITS
 from cosim.fmu.variables import Variable
 from cosim.fmu.variables import variables as variables_without
 
@@ -54,11 +54,11 @@ class State:
     is_output: bool
 
 
-def states() -> list[State]:
+def states(catalogue: Catalogue = CATALOGUE) -> list[State]:
     """The continuous states in the order of the kernel, which is that of FMI's vector of states."""
-    declared = {variable.name: variable for variable in variables_without()}
+    declared = {variable.name: variable for variable in variables_without(catalogue)}
     found = []
-    for slot in _slots():
+    for slot in _slots(catalogue):
         if slot in OUTPUTS:
             output = declared[OUTPUTS[slot]]
             found.append(
@@ -68,17 +68,17 @@ def states() -> list[State]:
             name, description = BRISTLES[slot]
             found.append(State(name, "m", slot, description, 1e-4, False))
         else:
-            found.append(_memory(slot))
+            found.append(_memory(slot, catalogue))
     return found
 
 
-def variables() -> list[Variable]:
+def variables(catalogue: Catalogue = CATALOGUE) -> list[Variable]:
     """All of the native unit: those of every unit, then states that are no outputs, then rates."""
-    every = states()
+    every = states(catalogue)
     outputs = {state.name for state in every if state.is_output}
     common = [
         replace(variable, is_state=True) if variable.name in outputs else variable
-        for variable in variables_without()
+        for variable in variables_without(catalogue)
     ]
     return [
         *common,
@@ -87,9 +87,9 @@ def variables() -> list[Variable]:
     ]
 
 
-def local_slots(declared: Sequence[Variable]) -> list[int]:
+def local_slots(declared: Sequence[Variable], catalogue: Catalogue) -> list[int]:
     """Where each local variable is in the kernel's states followed by their rates."""
-    places = {state.name: place for place, state in enumerate(states())}
+    places = {state.name: place for place, state in enumerate(states(catalogue))}
     return [
         places[variable.derivative_of] + len(places)
         if variable.derivative_of
@@ -99,21 +99,21 @@ def local_slots(declared: Sequence[Variable]) -> list[int]:
     ]
 
 
-def state_references(declared: Sequence[Variable]) -> list[int]:
+def state_references(declared: Sequence[Variable], catalogue: Catalogue) -> list[int]:
     """Value reference of each continuous state."""
     names = [variable.name for variable in declared]
-    return [names.index(state.name) for state in states()]
+    return [names.index(state.name) for state in states(catalogue)]
 
 
-def _slots() -> list[str]:
+def _slots(catalogue: Catalogue) -> list[str]:
     """Names of the states in an instant of the kernel, in order; time stands before them."""
-    names = [name for name, _ in layout.instant(EFFECTS)]
-    return [*names[1 : layout.STATES + 1], "SLIP_TIME"]
+    names = [name for name, _ in layout.instant(catalogue.effects)]
+    return [*names[1 : catalogue.kernel.STATES + 1], "SLIP_TIME"]
 
 
-def _memory(slot: str) -> State:
+def _memory(slot: str, catalogue: Catalogue) -> State:
     """What an effect remembers."""
-    for effect in EFFECTS:
+    for effect in catalogue.effects:
         for state in effect.states:
             if slot == f"{effect.id}_{state.name}".upper():
                 said = f"What {effect.id} remembers: {state.name.replace('_', ' ')}"

@@ -13,17 +13,17 @@ import zipfile
 import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
-from functools import cache
+from functools import cache, partial
 from importlib.metadata import version
 from pathlib import Path
 from xml.etree.ElementTree import ParseError, fromstring
 
+from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.contradictions import COMPUTABLE, SAID
 from stickslip.generation import c as c_generation
 from stickslip.generation.c import c_header, c_source
 from stickslip.generation.platforms import Platform
-from stickslip.generation.source import kernel_source
-from stickslip.names import NAMES
+from stickslip.kernel.layout import value_names
 from stickslip.status import WHY_NOT
 
 from cosim.files import write_bytes
@@ -34,7 +34,7 @@ from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.description.fmi3 import build_description, fmi3_description
 from cosim.fmu.exchange import INDICATORS, variables
 from cosim.fmu.extras import extras
-from cosim.fmu.libraries import FMI2, FMI3, of_platforms
+from cosim.fmu.libraries import FMI2, FMI3, Sources, of_platforms
 
 NAME = "StickSlip3DOF"
 #: Version of FMI -> file.
@@ -54,15 +54,15 @@ MAKERS = (
 
 
 @cache
-def sources() -> dict[str, bytes]:
+def sources(catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
     """File name -> content of everything that the library is compiled from."""
-    text, declared = kernel_source(), variables()
-    places = {name: place for place, name in enumerate(NAMES)}
+    text, declared = catalogue.text, variables(catalogue)
+    places = {name: place for place, name in enumerate(value_names(catalogue.effects))}
     made = {
         "kernel.h": c_tables.hidden(c_header(text)),
         "kernel.c": c_source(text),
-        "variables.h": c_tables.variables_header(declared, guid()),
-        "variables.c": c_tables.variables_source(declared),
+        "variables.h": c_tables.variables_header(declared, guid(catalogue), catalogue),
+        "variables.c": c_tables.variables_source(declared, catalogue),
         "words.h": c_tables.words_header(),
         "words.c": c_tables.words_source(SAID, places),
     }
@@ -70,11 +70,17 @@ def sources() -> dict[str, bytes]:
 
 
 @cache
-def guid() -> str:
+def sources_of(catalogue: Catalogue) -> Sources:
+    """What makes the `sources`; the same for the same catalogue."""
+    return partial(sources, catalogue)
+
+
+@cache
+def guid(catalogue: Catalogue = CATALOGUE) -> str:
     """The GUID of a unit built now: of what it is made from, which is quicker than making it."""
-    declared = [asdict(each) for each in variables()]
+    declared = [asdict(each) for each in variables(catalogue)]
     made_from = {
-        "kernel": kernel_source().encode(),
+        "kernel": catalogue.text.encode(),
         "words": json.dumps([WHY_NOT, SAID, COMPUTABLE]).encode(),
         "variables": json.dumps(declared, sort_keys=True).encode(),
         **{f"maker/{file.name}": file.read_bytes() for file in MAKERS},
@@ -106,7 +112,12 @@ def native_folder() -> Path:
     return checkout if checkout.is_dir() else here.with_name("native_sources")
 
 
-def build(directory: Path, platforms: Sequence[Platform], fmi: int = FMI2) -> Path:
+def build(
+    directory: Path,
+    platforms: Sequence[Platform],
+    fmi: int = FMI2,
+    catalogue: Catalogue = CATALOGUE,
+) -> Path:
     """Make the unit of a version of FMI, with libraries for those platforms that there is a way to.
 
     Written beside its final place and moved there, so that nobody ever sees half of it. Raises
@@ -114,20 +125,20 @@ def build(directory: Path, platforms: Sequence[Platform], fmi: int = FMI2) -> Pa
     """
     from cosim.fmu.description.documentation import documentation  # not for who only compiles
 
-    facts = _facts(fmi)
-    files = {f"sources/{name}": content for name, content in _sources_of(fmi).items()}
+    facts, declared = _facts(fmi, catalogue), variables(catalogue)
+    files = {f"sources/{name}": content for name, content in _sources_of(fmi, catalogue).items()}
     if fmi == FMI3:
-        files["modelDescription.xml"] = fmi3_description(facts, variables())
+        files["modelDescription.xml"] = fmi3_description(facts, declared)
         files["sources/buildDescription.xml"] = build_description(facts)
     else:
-        files["modelDescription.xml"] = fmi2_description(facts, variables())
-    files |= documentation(facts, variables(), fmi) | extras(variables(), fmi)
-    files |= of_platforms(guid(), sources, platforms, NAME, fmi)
+        files["modelDescription.xml"] = fmi2_description(facts, declared)
+    files |= documentation(facts, declared, fmi, catalogue) | extras(declared, fmi)
+    files |= of_platforms(guid(catalogue), sources_of(catalogue), platforms, NAME, fmi)
     return write_bytes(packed(files), directory / FILES[fmi])
 
 
-def _sources_of(fmi: int) -> dict[str, bytes]:
-    return of_version(sources(), fmi)
+def _sources_of(fmi: int, catalogue: Catalogue) -> dict[str, bytes]:
+    return of_version(sources(catalogue), fmi)
 
 
 def of_version(files: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
@@ -148,13 +159,13 @@ def built_guid(fmu: Path) -> str | None:
         return None
 
 
-def _facts(fmi: int) -> UnitFacts:
+def _facts(fmi: int, catalogue: Catalogue) -> UnitFacts:
     return UnitFacts(
         name=NAME,
-        guid=guid(),
+        guid=guid(catalogue),
         description=DESCRIPTION,
         version=version("stickslip"),
         tool="stickslip",
         indicators=INDICATORS,
-        sources=tuple(sorted(name for name in _sources_of(fmi) if name.endswith(".c"))),
+        sources=tuple(sorted(name for name in _sources_of(fmi, catalogue) if name.endswith(".c"))),
     )

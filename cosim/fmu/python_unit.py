@@ -14,20 +14,18 @@ from __future__ import annotations
 import json
 import pprint
 import re
-import sys
 import zipfile
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib import resources
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from stickslip import ports
-from stickslip.generation.source import kernel_source
+from stickslip import ports, units
+from stickslip.catalogue import CATALOGUE, Catalogue
+from stickslip.generation.source import one_kernel, travelling
 from stickslip.kernel import layout
-from stickslip.names import NAMES
 from stickslip.scratch import scratch_folder
 
 from cosim.files import write_bytes
@@ -50,9 +48,6 @@ from cosim.fmu.variables import (
 
 FMU = "StickSlip3DOF-python.fmu"
 MODULE = "stickslip3dof"
-#: Beside the kernel's text: files of the package `stickslip` as they are, but for where the names
-#: of the kernel come from.
-AS_THEY_ARE = ("contradictions.py", "draws.py", "packing.py", "status.py")
 PACKAGE_DOC = '"""The mechanics of StickSlip3DOF, as it travels inside the FMU."""\n'
 #: What pythonfmu loads, in whatever Python its host has: nothing newer than the check may come
 #: before it. The library runs it again for every instance and keeps for ever the classes that it
@@ -75,24 +70,18 @@ from stickslip.slave import StickSlip3DOF
 if locals() is not globals():
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))
 '''
-_KERNEL = re.compile(r"(?m)^from (\.|stickslip\.)kernel\.[\w.]+ import")
 
 
-def sources() -> dict[str, bytes]:
+def sources(catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
     """Path inside the FMU's resources -> content, before anything is renamed."""
     texts = {
         f"{MODULE}.py": DOOR,
         "stickslip/__init__.py": PACKAGE_DOC,
-        "stickslip/slave.py": slave_file("slave").read_text(encoding="utf-8"),
         "stickslip/unit_slave.py": slave_file("unit_slave").read_text(encoding="utf-8"),
-        "stickslip/kernel.py": kernel_source(),
-        "stickslip/names.py": _names(),
+        "stickslip/slave.py": one_kernel(slave_file("slave").read_text(encoding="utf-8")),
     }
-    for name in AS_THEY_ARE:
-        texts[f"stickslip/{name}"] = (resources.files("stickslip") / name).read_text("utf-8")
-    return {
-        name: _KERNEL.sub(r"from \1kernel import", text).encode() for name, text in texts.items()
-    }
+    texts |= {f"stickslip/{name}.py": text for name, text in travelling(catalogue.effects).items()}
+    return {name: text.encode() for name, text in texts.items()}
 
 
 def slave_file(name: str) -> Path:
@@ -102,18 +91,11 @@ def slave_file(name: str) -> Path:
     return checkout if checkout.is_file() else here.with_name(f"{name}.py")
 
 
-def _names() -> str:
-    head = '"""Names of the parameters in the order of the kernel\'s array ``v``."""'
-    return f"{head}\n\nNAMES = {NAMES}\n"
-
-
 #: Files that an FMU also depends on, though they do not travel.
 RECIPE_FILES = (
     Path(__file__),
-    *(
-        Path(__file__).with_name(f"{name}.py")
-        for name in ("pythonfmu_library", "units", "variables")
-    ),
+    *(Path(__file__).with_name(f"{name}.py") for name in ("pythonfmu_library", "variables")),
+    Path(units.__file__),
     Path(description.__file__),
     Path(fmi2.__file__),
     Path(ports.__file__),
@@ -168,20 +150,24 @@ class Recipe:
     documentation: dict[str, bytes]
 
 
-def build(directory: Path, files: dict[str, bytes] | None = None) -> Path:
+def build(
+    directory: Path,
+    files: dict[str, bytes] | None = None,
+    catalogue: Catalogue = CATALOGUE,
+) -> Path:
     """Make the FMU in a directory and return its path; other content than ours for tests."""
-    files = sources() if files is None else files
-    table = parameter_table()
+    files = sources(catalogue) if files is None else files
+    table, declared = parameter_table(catalogue), variables(catalogue)
     content = content_hash(files, table)
     recipe = Recipe(
         facts=_facts(content),
         module=MODULE,
         package="stickslip",
         files=files,
-        variables=variables(),
+        variables=declared,
         tells=variables_module(table, content),
         content=content,
-        documentation=of_mechanics(NAME, variables()),
+        documentation=of_mechanics(NAME, declared, catalogue),
     )
     return made(recipe, directory / FMU)
 
@@ -283,7 +269,3 @@ def module_of(values: dict[str, Any]) -> bytes:
     for name, value in values.items():
         lines.append(f"{name} = {pprint.pformat(value, width=100, sort_dicts=False)}")
     return "\n".join(lines).encode() + b"\n"
-
-
-if __name__ == "__main__":
-    print(build(Path(sys.argv[1])))

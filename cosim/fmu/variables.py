@@ -10,11 +10,12 @@ from typing import Any, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 from stickslip import Parameters, ports
+from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.kernel import layout
 from stickslip.quantity import details
+from stickslip.units import UNITS
 
 import cosim
-from cosim.fmu.units import UNITS
 
 Entry = dict[str, Any]
 
@@ -149,25 +150,26 @@ WATCHED = (
 )
 
 
-def variables() -> list[Variable]:
+def variables(catalogue: Catalogue = CATALOGUE) -> list[Variable]:
     """All of them: inputs, outputs, parameters."""
     return [
         *(_of_port(port, "input") for port in ports.INPUTS),
         *(_of_port(port, "output") for port in ports.OUTPUTS),
         *WATCHED,
-        *(Variable(causality="parameter", **entry) for entry in parameter_table()),
+        *(Variable(causality="parameter", **entry) for entry in parameter_table(catalogue)),
     ]
 
 
-def parameter_table() -> list[Entry]:
+def parameter_table(catalogue: Catalogue = CATALOGUE) -> list[Entry]:
     """Every parameter of the FMU, with unit, bounds and description from the parameter models.
 
     One entry each: name, unit (None: an integer), nominal, min, max, above_min (whether min itself
     is excluded), description, start. The starts are those of a scenario's file that leaves all
     out: a rig that can be built. Raises ValueError for a unit that `UNITS` lacks.
     """
-    starts = Parameters.model_validate(rig_defaults()).flat()
-    return [*(_entry(name, start) for name, start in starts.items()), HOLD, *LIMITS]
+    kind = Parameters.of(catalogue)
+    starts = kind.model_validate(rig_defaults()).flat()
+    return [*(_entry(kind, name, start) for name, start in starts.items()), HOLD, *LIMITS]
 
 
 def rig_defaults() -> dict[str, Entry]:
@@ -219,12 +221,12 @@ def bounds_of(field: FieldInfo) -> dict[str, float]:
     }
 
 
-def _entry(name: str, start: float) -> Entry:
+def _entry(kind: type[Parameters], name: str, start: float) -> Entry:
     group, key = name.split(".")
     entry = {"name": name, "nominal": abs(start) or 1.0, "start": start} | GUIDES.get(key, {})
     if key in GUIDES:
         return entry | {"start": int(start)}
-    table: Any = Parameters.model_fields[group].annotation
+    table: Any = kind.model_fields[group].annotation
     field = table.model_fields[key.partition("[")[0]]
     bounds = bounds_of(field)
     whole = field.annotation is int

@@ -7,9 +7,10 @@ the others: nothing is asked of the browser.
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 
+from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.generation.compiler import CompilerError, has_zig
 from stickslip.generation.platforms import BROWSER
 
@@ -26,17 +27,17 @@ SHARED = (
 
 
 @cache
-def sources() -> dict[str, bytes]:
+def sources(catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
     """File name -> content of everything that the module is compiled from."""
-    made = native.sources()
+    made = native.sources(catalogue)
     return {name: made[name] for name in SHARED} | _written()
 
 
 @cache
-def guid() -> str:
+def guid(catalogue: Catalogue = CATALOGUE) -> str:
     """Of what the module is made from, by which a wheel's is known to be of today's content."""
     made_from = {
-        "unit": native.guid().encode(),
+        "unit": native.guid(catalogue).encode(),
         "maker": Path(__file__).read_bytes(),
         **_written(),
     }
@@ -48,13 +49,13 @@ def _written() -> dict[str, bytes]:
     return {file.name: file.read_bytes() for file in folder.iterdir() if file.suffix == ".c"}
 
 
-def module() -> bytes:
+def module(catalogue: Catalogue = CATALOGUE) -> bytes:
     """The WebAssembly: the wheel's where it is of today's content, or compiled.
 
     Raises CompilerError, in one line, where there is no way to it.
     """
     try:
-        return libraries(NAME, guid(), sources, (BROWSER,))[BROWSER]
+        return libraries(NAME, guid(catalogue), partial(sources, catalogue), (BROWSER,))[BROWSER]
     except CompilerError as error:
         if has_zig():
             raise

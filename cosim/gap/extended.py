@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from stickslip.effects.candidate import FreeParameter, Scales
+from stickslip.plugins.load import file_of
 
 from cosim.gap.data import Campaign
 from cosim.gap.laws import Context, FreeCurve, LawFit, free_curve, laws_of, scales_of
@@ -103,7 +104,7 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
     curve = free_curve(rung, finding, units.get(finding.name, of_level))
     if curve is None:
         return Part(finding, None, (), (), {})
-    context = Context(campaign, scales, {**unknown.settings, "mu_s": level.static}, _own())
+    context = Context(campaign, scales, {**unknown.settings, "mu_s": level.static}, _own(campaign))
     fits = laws_of(finding.name, curve, context)
     if not fits:
         return Part(finding, curve, (), (), {})
@@ -179,11 +180,8 @@ def _shares(effect: str, settings: Mapping[str, float]) -> dict[str, float]:
     return {f"{effect}.static_{'absolute' if share == 1.0 else 'relative'}": 1.0}
 
 
-def _own() -> frozenset[str]:
-    from stickslip.effects import EFFECTS
-    from stickslip.plugins.load import file_of
-
-    return frozenset(effect.id for effect in EFFECTS if file_of(effect) is not None)
+def _own(campaign: Campaign) -> frozenset[str]:
+    return frozenset(effect.id for effect in campaign.catalogue.effects if file_of(effect))
 
 
 def _numbers(fit: LawFit) -> tuple[list[Number], dict[str, float]]:

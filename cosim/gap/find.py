@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
 
-from stickslip.effects import EFFECTS
-
 from cosim.gap.checks import ANSWERABLE, blocking, doubts_of
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part, as_points, part_of
@@ -95,7 +93,7 @@ def _answer(campaign: Campaign, agreed: _Agreed, doubts: Sequence[Doubt]) -> Gap
     ladder, system, rung = named.ladder, named.system, named.rung
     rates = rates_of(ladder, named.unknowns) if named.unknowns else None
     names = [part.effect for part in parts]
-    verdict = judge(named.findings, names, models.ladder, _physics(), rates)
+    verdict = judge(named.findings, names, models.ladder, _physics(campaign), rates)
     doubts = _unanswered(doubts, models.ladder, bool(parts))
     if any(doubt.severe for doubt in doubts):
         verdict = replace(verdict, verdict="unknown", effects=())
@@ -281,9 +279,9 @@ def _unanswered(doubts: Sequence[Doubt], ladder: Sequence[Rung], found: bool) ->
     return tuple(replace(one, severe=one.severe and one.check != answered) for one in doubts)
 
 
-def _physics() -> set[str]:
+def _physics(campaign: Campaign) -> set[str]:
     """What has a name: effects of the catalogue, of the user's own files, and faults."""
-    return {effect.id for effect in EFFECTS} | set(FAULTS)
+    return {effect.id for effect in campaign.catalogue.effects} | set(FAULTS)
 
 
 class _Steps:

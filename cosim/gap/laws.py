@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
-from stickslip.effects import EFFECTS
 from stickslip.effects.candidate import Candidate, Scales
 from stickslip.effects.effect import Effect
 
@@ -92,7 +91,7 @@ def laws_of(name: str, curve: FreeCurve, context: Context) -> list[LawFit]:
     if shape is None:
         return []
     found = []
-    for effect in EFFECTS:
+    for effect in context.campaign.catalogue.effects:
         law = shape(effect, context)
         if law is None or not (effect.offered or effect.id in context.own):
             continue

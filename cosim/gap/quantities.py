@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+from stickslip.catalogue import CATALOGUE, Catalogue
 
 from cosim.gap.result import NINETY, Gap
 from cosim.report.page import unit_text
@@ -76,12 +77,13 @@ class Quantity:
 def fitted_quantities(gap: Gap) -> list[Quantity]:
     """Numbers of the extended model: of the campaign, then of each set-up and run."""
     fitted, unknown, found = gap.extended, undetermined(gap), []
+    catalogue = gap.campaign.catalogue
     labels = [label for label in fitted.values if not label.startswith(TABLES)]
     for label in sorted(labels, key=lambda label: ("@" in label, label.partition("@")[2])):
         value, sd = float(fitted.values[label]), NINETY * float(fitted.sd[label])
         instead = "at its bound" if label in fitted.at_bound else ""
         instead = "not determined" if label in unknown else instead
-        found.append(quantity(label, value, (value - sd, value + sd), instead))
+        found.append(quantity(label, value, (value - sd, value + sd), instead, catalogue))
     return found
 
 
@@ -103,13 +105,15 @@ def undetermined(gap: Gap) -> set[str]:
 
 
 def quantity(
-    label: str, value: float, interval: tuple[float, float] | None, instead: str = ""
-) -> Quantity:
-    """A number in the unit that it is read in. instead : said in place of the value."""
+    label: str, value: float, interval: tuple[float, float] | None, instead: str = "",
+    catalogue: Catalogue = CATALOGUE,
+) -> Quantity:  # fmt: skip
+    """A number in the unit that it is read in. instead : said in place of the value; catalogue :
+    of the effects that it may be of."""
     key, _, owner = label.partition("@")
     if owner.startswith("setup "):
         owner = f"set-up {int(owner.removeprefix('setup ')) + 1}"
-    factor, unit, meaning = BESIDE_THE_MODEL.get(key) or (1.0, *unit_and_meaning(key))
+    factor, unit, meaning = BESIDE_THE_MODEL.get(key) or (1.0, *unit_and_meaning(key, catalogue))
     if instead:
         return Quantity(key, owner, meaning, instead, "", unit)
     ends = interval if interval and 0.0 < np.ptp(interval) < math.inf else ()
@@ -117,9 +121,9 @@ def quantity(
     return Quantity(key, owner, meaning, shown, " to ".join(around), unit)
 
 
-def unit_and_meaning(key: str) -> tuple[str, str]:
+def unit_and_meaning(key: str, catalogue: Catalogue) -> tuple[str, str]:
     """Of `block.parameter` in SI; the unit is "" for a pure number."""
-    field = known_keys(Scenario).get(key.partition("[")[0])
+    field = known_keys(Scenario.of(catalogue)).get(key.partition("[")[0])
     if field is None:
         return "", key.partition(".")[2].replace("_", " ")
     unit = unit_of(field)

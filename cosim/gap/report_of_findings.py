@@ -112,7 +112,7 @@ def _size(part: Part, gap: Gap) -> str:
     axis = _axis_of(part)
     power = next((one for one in gap.exponents if one.effect == part.effect), None)
     if part.numbers or part.curve is None or axis is None:
-        size = _first_number(part, gap.extended)
+        size = _first_number(part, gap)
         return size + (_power(power) if power and not power.holds else "")
     most = int(np.argmax(np.abs(part.curve.mean)))
     mean, sd = part.curve.mean[most], float(np.sqrt(part.curve.covariance[most, most]))
@@ -128,11 +128,13 @@ def _power(one: Exponent) -> str:
     return f", force as the {one.quantity} to the power {value} ({low} to {high})"
 
 
-def _first_number(part: Part, fitted: Fitted) -> str:
+def _first_number(part: Part, gap: Gap) -> str:
     """The first that the runs determine, with its 90 % interval."""
-    parameters, intervals, _ = _numbers_of(part, fitted)
+    parameters, intervals, _ = _numbers_of(part, gap.extended)
     for key in (number.key for number in part.numbers if number.key in intervals):
-        shown = quantity(key, parameters[key], intervals[key]).text
+        shown = quantity(
+            key, parameters[key], intervals[key], catalogue=gap.campaign.catalogue
+        ).text
         return f", {shown.removeprefix(f'{part.effect}.')}"
     return ""
 

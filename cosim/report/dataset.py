@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel
-from stickslip import Parameters, Trajectory
+from stickslip import Trajectory
 from stickslip.ports import OUTPUTS
 
 from .bounds import WIDTH
@@ -73,10 +73,6 @@ Array = NDArray[np.float64]
 
 # whole numbers that models and masters carry as floats
 _COUNTS = {"mode": np.int8, "slip_count": np.int64}
-
-
-# tables of a scenario that a run without heat makes use of
-MECHANICS_ALONE = {*Parameters.model_fields, "run"}
 
 
 class BeltSnapshots(Protocol):
@@ -152,7 +148,8 @@ def trajectory_columns(
     dataset = _dataset(trajectory.time, trajectory.columns, units)
     status, reason = _outcome(trajectory)
     _describe(dataset, scenario, toml, status, reason, wall_time)
-    used = {name: table for name, table in tables_of(scenario).items() if name in MECHANICS_ALONE}
+    alone = {*type(trajectory.parameters).model_fields, "run"}
+    used = {name: table for name, table in tables_of(scenario).items() if name in alone}
     dataset.attrs.update(case="mechanics", parameters=json.dumps(used))
     dataset.attrs["events"] = "event_time: break-away and re-stick, located to rounding"
     return dataset.merge(_events(trajectory.events))

@@ -13,7 +13,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from cosim.scenario.defaults import RIG, stated
-from cosim.scenario.scenario import Scenario
+from cosim.scenario.scenario import scenario_type
 
 DRAFT = "http://json-schema.org/draft-07/schema#"
 #: Line of a TOML file, its first, by which editors find its schema.
@@ -26,7 +26,7 @@ _OWN_WORDS = ("title", "unit", "typical", "tried")
 
 def scenario_schema() -> dict[str, Any]:
     """The schema of a scenario file, with the defaults of a file."""
-    schema = schema_of(Scenario, "a scenario of stickslip")
+    schema = schema_of(scenario_type(), "a scenario of stickslip")
     for key, value in stated().items():
         table, _, entry = key.partition(".")
         owner = _resolved(schema, schema["properties"][table])

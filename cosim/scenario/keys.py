@@ -9,7 +9,7 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from cosim.scenario.defaults import IN_PROPORTION, stated
-from cosim.scenario.scenario import Scenario
+from cosim.scenario.scenario import scenario_type
 from cosim.scenario.validation import allowed, known_keys, unit_of
 
 
@@ -43,7 +43,7 @@ def all_keys() -> list[Key]:
     """The keys of a scenario, in the order of its tables."""
     return [
         key
-        for name, field in known_keys(Scenario).items()
+        for name, field in known_keys(scenario_type()).items()
         if not _is_table(field.annotation)
         for key in _with_entries(name, field)
     ]
@@ -89,7 +89,7 @@ def taken_line(taken: Mapping[str, Any]) -> str:
     """What a file left to the defaults, in one line; "" for nothing."""
     if not taken:
         return ""
-    units = known_keys(Scenario)
+    units = known_keys(scenario_type())
     told = [f"{key} = {shown(value)}{spaced(unit_of(units[key]))}" for key, value in taken.items()]
     return f'left to the defaults: {", ".join(told)} (defaults = "plain" takes none of them)'
 

@@ -22,7 +22,8 @@ from typing import Any, Literal, Self
 import tomli_w
 from pydantic import Field, PrivateAttr, create_model, field_validator, model_validator
 from stickslip import Parameters
-from stickslip.effects import PluginError, use
+from stickslip.catalogue import default_catalogue
+from stickslip.effects import PluginError
 from stickslip.packing import GRAVITY
 from stickslip.quantity import Table, quantity
 
@@ -140,11 +141,12 @@ class Scenario(Parameters):
 
     @field_validator("effects")
     @classmethod
-    def _have_effects(cls, files: tuple[str, ...]) -> tuple[str, ...]:
-        try:
-            use(*files)
-        except PluginError as error:
-            raise ValueError(f"effects: {error}") from None
+    def _check_effects(cls, files: tuple[str, ...]) -> tuple[str, ...]:
+        if not {Path(file).resolve() for file in files} <= {*cls.catalogue.files}:
+            raise ValueError(
+                f"effects = {list(files)}: of a scenario in Python allowed is "
+                f"Scenario.with_effects({', '.join(map(repr, files))})(...)"
+            )
         return files
 
     @cached_property
@@ -234,8 +236,8 @@ class Scenario(Parameters):
     @property
     def mechanics(self) -> Parameters:
         """The mechanical model's part."""
-        blocks = {name: getattr(self, name) for name in Parameters.model_fields}
-        return Parameters.model_construct(**blocks)
+        kind = Parameters.of(self.catalogue)
+        return kind.model_construct(**{name: getattr(self, name) for name in kind.model_fields})
 
     @property
     def thermal(self) -> ThermalParameters:
@@ -289,8 +291,22 @@ class Scenario(Parameters):
 
     @classmethod
     def from_tables(cls, tables: Mapping[str, Any]) -> Self:
-        """A scenario from the tables of a TOML file; ScenarioError in one line."""
-        return checked(cls, tables)
+        """A scenario from the tables of a TOML file; ScenarioError in one line.
+
+        The files of effects that it names are executed, unless this class has them already.
+        """
+        return checked(cls._with_named(tables.get("effects")), tables)
+
+    @classmethod
+    def _with_named(cls, files: Any) -> type[Self]:
+        """The class that has what a file's key `effects` names, too."""
+        is_list = isinstance(files, (list, tuple)) and all(isinstance(each, str) for each in files)
+        named = files if is_list else ()
+        lacking = [each for each in named if Path(each).resolve() not in cls.catalogue.files]
+        try:
+            return cls.with_effects(*lacking) if lacking else cls
+        except PluginError as error:
+            raise ScenarioError(f"effects: {error}") from error
 
     def to_tables(self) -> dict[str, Any]:
         """All keys that a file can hold, with their values, less those that follow from others."""
@@ -308,6 +324,11 @@ class Scenario(Parameters):
     def to_toml(self) -> str:
         """The text of a file that `read_scenario` reads as this scenario."""
         return tomli_w.dumps(self.to_tables())
+
+
+def scenario_type() -> type[Scenario]:
+    """What a file is read as: with the effects that every scenario has. PluginError."""
+    return Scenario.of(default_catalogue())
 
 
 def packaged_scenarios() -> list[str]:
@@ -347,7 +368,7 @@ def scenario_of(
     full, taken = defaults_of_files.filled(changed_tables(tables, changes))
     full.setdefault("name", Path(source).name.removesuffix(SUFFIX))
     try:
-        return Scenario.from_tables(full).with_taken(taken)
+        return scenario_type().from_tables(full).with_taken(taken)
     except ScenarioError as fault:
         where = f"{source}, as changed" if is_of_change(str(fault), changes) else source
         raise ScenarioError(f"{where}: {fault}") from None

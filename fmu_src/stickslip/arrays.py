@@ -4,44 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from types import SimpleNamespace
 from typing import Any, Self
 
 import numpy as np
 
-from .compiled import compiled_kernel
-from .kernel import advance, outputs
+from .catalogue import CATALOGUE, Catalogue
 from .kernel.layout import (
     DONE,
     E_CAPACITY,
     E_FIRST,
     E_WIDTH,
-    SHOWN,
+    STICK,
     TIME,
     U_FILM,
     U_FORCE_Y,
     U_SIZE,
     U_SPEED,
     U_TEMPERATURE,
-    W_SIZE,
-    Z_HAS_NEXT,
-    Z_SIZE,
-    Z_STARTED,
-    Z_STATUS,
+    X,
 )
 from .parameters import Parameters
 from .status import WHY_NOT
 
 #: x, y (m), phi (rad), vx, vy (m/s), omega (rad/s)
 STATE = ("x", "y", "phi", "vx", "vy", "omega")
-
-# the kernel as it stands, for whoever wants to step through it
-INTERPRETED = SimpleNamespace(
-    initialise=advance.initialise,
-    advance=advance.advance,
-    show=outputs.show,
-    record=outputs.record,
-)
 
 
 def inputs(
@@ -65,11 +51,12 @@ def interface_temperature(parameters: Parameters, temperature: float | None) -> 
 class RunArrays:
     """One run of a kernel: parameters, inputs, memory, scratch space and log of events.
 
-    Everything that the run remembers is in ``z``. kernel : the compiled one, or `INTERPRETED`,
-    whose arrays are lists.
+    Everything that the run remembers is in ``z``. kernel : the catalogue's compiled one, or the
+    interpreted, whose arrays are lists; layout : where it has what, with the catalogue's effects.
     """
 
     kernel: Any
+    layout: Any
     p: Any
     u: Any
     z: Any
@@ -84,14 +71,21 @@ class RunArrays:
         start: float = 0.0,
         events: int = 1,
         interpreted: bool = False,
+        catalogue: Catalogue = CATALOGUE,
     ) -> Self:
-        """A run that starts at the time ``start`` (s), with room for so many events in its log."""
+        """A run that starts at the time ``start`` (s), with room for so many events in its log.
+
+        catalogue : whose parameters ``p`` was made of. Raises ValueError for a ``p`` of another.
+        """
         array: Callable[[Any], Any] = list if interpreted else np.array
-        kernel = INTERPRETED if interpreted else compiled_kernel()
+        layout = catalogue.kernel
+        if len(p) != layout.P_SIZE:
+            raise ValueError(f"p has {len(p)} numbers, those of this catalogue {layout.P_SIZE}")
+        kernel = layout if interpreted else catalogue.compiled
         e = array(np.zeros(E_FIRST + E_WIDTH * events))
         e[E_CAPACITY] = float(events)
-        z, w = array(np.zeros(Z_SIZE)), array(np.zeros(W_SIZE))
-        run = cls(kernel, array(np.asarray(p, dtype=float)), array(u), z, w, e)
+        z, w = array(np.zeros(layout.Z_SIZE)), array(np.zeros(layout.W_SIZE))
+        run = cls(kernel, layout, array(np.asarray(p, dtype=float)), array(u), z, w, e)
         kernel.initialise(run.p, run.z, start)
         return run
 
@@ -107,12 +101,30 @@ class RunArrays:
     @property
     def time(self) -> float:
         """s"""
-        return float(self.z[SHOWN + TIME])
+        return float(self.z[self.layout.SHOWN + TIME])
+
+    @property
+    def instant(self) -> list[float]:
+        """What the run shows: an instant of the motion, see `kernel.layout`."""
+        begin = self.layout.SHOWN
+        shown: list[float] = np.asarray(self.z[begin : begin + self.layout.INSTANT]).tolist()
+        return shown
+
+    @property
+    def sticks(self) -> bool:
+        """Does the contact hold?"""
+        return bool(self.z[self.layout.SHOWN + self.layout.MODE] == STICK)
+
+    @property
+    def state(self) -> Any:
+        """(6,) x, y, phi, vx, vy, omega: of a compiled run the very numbers."""
+        begin = self.layout.SHOWN + X
+        return self.z[begin : begin + len(STATE)]
 
     @property
     def failure(self) -> str:
         """Why `advance` gave up, with the remedy."""
-        return f"t = {self.time:.9g} s: {WHY_NOT[int(self.z[Z_STATUS])]}"
+        return f"t = {self.time:.9g} s: {WHY_NOT[int(self.z[self.layout.Z_STATUS])]}"
 
     def advance(self, time: float) -> bool:
         """Go on to ``time`` (s); False where that cannot be."""
@@ -120,10 +132,11 @@ class RunArrays:
 
     def follow_surface(self) -> None:
         """Give a block that sticks the velocity of the surface."""
-        self.kernel.look_at(self.p, self.u, self.z, self.w, SHOWN)
-        self.kernel.follow_surface(self.p, self.u, self.z, self.w, SHOWN, 0.0)
+        shown = self.layout.SHOWN
+        self.kernel.look_at(self.p, self.u, self.z, self.w, shown)
+        self.kernel.follow_surface(self.p, self.u, self.z, self.w, shown, 0.0)
 
     def settle(self, time: float) -> bool:
         """Start afresh from what ``z`` shows now, at ``time`` (s); False where that cannot be."""
-        self.z[Z_STARTED], self.z[Z_HAS_NEXT] = 0.0, 0.0
+        self.z[self.layout.Z_STARTED] = self.z[self.layout.Z_HAS_NEXT] = 0.0
         return self.advance(time)

@@ -8,9 +8,7 @@ from __future__ import annotations
 import ctypes
 import logging
 import re
-import threading
 from collections.abc import Callable
-from functools import cache
 from importlib import resources
 from types import ModuleType
 from typing import Any
@@ -18,7 +16,6 @@ from typing import Any
 from .generation.c import c_header, c_source
 from .generation.c_expressions import function_name
 from .generation.compiler import CompilerError
-from .generation.source import kernel_source
 from .machine_code import Code
 
 LOG = logging.getLogger(__name__)
@@ -30,7 +27,6 @@ _SCALARS: dict[str, Any] = {
     "None": None,
 }
 _ARRAY = ctypes.c_char * 0
-_LOADING = threading.Lock()
 
 
 class Library:
@@ -63,13 +59,6 @@ def _without_loops(function: Any, is_array: list[bool]) -> Callable[..., Any]:
     code = f"lambda {', '.join(names)}: f({', '.join(given)})"
     call: Callable[..., Any] = eval(code, {"f": function, "at": _ARRAY.from_buffer})
     return call
-
-
-@cache
-def compiled_kernel() -> Any:
-    """The kernel's functions: a `Library`, or a module that is interpreted."""
-    with _LOADING:
-        return library(kernel_source())
 
 
 def library(text: str) -> Library | ModuleType:

@@ -8,16 +8,17 @@ from __future__ import annotations
 
 import math
 import warnings
+from functools import cache
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, TypeVar
 
 from pydantic import Field, create_model, model_validator
 
-from .contradictions import contradiction
+from .catalogue import CATALOGUE, Catalogue
 from .effects import EFFECTS
 from .friction.parameters import Friction
 from .kernel.layout import CURVE_LIMIT, TABLE_LIMIT, TEMPERATURE_LIMIT
-from .packing import pack
 from .quantity import Table, quantity
 
 #: m/s; nothing that ice lies on moves as fast: a slip of the unit.
@@ -219,7 +220,12 @@ else:
 
 
 class Parameters(EffectTables):
-    """Everything that the mechanical model needs, the drive included."""
+    """Everything that the mechanical model needs, the drive included.
+
+    Those of custom effects are of a class of their own, see `with_effects`.
+    """
+
+    catalogue: ClassVar[Catalogue] = CATALOGUE
 
     rig: Rig = Rig()
     springs: Springs = Springs()
@@ -228,6 +234,28 @@ class Parameters(EffectTables):
     initial: Initial = Initial()
     imperfections: Imperfections = Imperfections()
     solver: Solver = Solver()
+
+    @classmethod
+    def with_effects(cls, *files: str | Path) -> type[Self]:
+        """The same tables, and one for the effect of each file, which is executed.
+
+        Raises PluginError in one line: file, line, what is wrong, what is allowed.
+
+        >>> Parameters.with_effects("brush.py")(brush={"fall": 0.3}).brush.fall  # doctest: +SKIP
+        0.3
+        """
+        return cls.of(cls.catalogue.with_files(*files))
+
+    @classmethod
+    def of(cls, catalogue: Catalogue) -> type[Self]:
+        """The same tables, with those of a catalogue's effects; one class for each catalogue."""
+        # of a class that has custom effects already, the one that was written
+        base = cls if cls.catalogue is CATALOGUE else cls.__mro__[1]
+        return _made_of(base, catalogue)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """As what the class is made of: where it is unpickled, there may be none yet."""
+        return _blank, (type(self).of(CATALOGUE), self.catalogue), self.__getstate__()
 
     @model_validator(mode="after")
     def _check_together(self) -> Self:
@@ -238,7 +266,7 @@ class Parameters(EffectTables):
             )
         if self.friction.has_table:
             self._check_table_alone()
-        refusal = contradiction(self.flat())
+        refusal = self.catalogue.contradiction(self.flat())
         if refusal:
             raise ValueError(refusal)
         speed = abs(self.surface.speed)
@@ -266,7 +294,7 @@ class Parameters(EffectTables):
 
     def _check_table_alone(self) -> None:
         """One law of the sliding speed: the table's, or those of the effects, by its name."""
-        for effect in EFFECTS:
+        for effect in self.catalogue.effects:
             if not any(term.__name__ == "dry_factor" for term in effect.terms):
                 continue
             for name in effect.switch:
@@ -282,9 +310,10 @@ class Parameters(EffectTables):
 
     def flat(self) -> dict[str, float]:
         """The FMU's parameters: ``table.parameter`` -> number (see `packing.pack`)."""
+        effects = [effect.id for effect in self.catalogue.effects]
         values = {
             f"{table}.{name}": float(value)
-            for table in Parameters.model_fields
+            for table in dict.fromkeys([*effects, *Parameters.model_fields])
             for name, value in getattr(self, table).model_dump().items()
             if isinstance(value, (int, float))
         }
@@ -319,7 +348,7 @@ class Parameters(EffectTables):
 
     def pack(self) -> list[float]:
         """The kernel's parameter vector ``p``."""
-        return pack(self.flat())
+        return self.catalogue.pack(self.flat())
 
     @property
     def natural_frequency(self) -> float:
@@ -328,3 +357,24 @@ class Parameters(EffectTables):
         k is that of one spring, of a force-length curve its mean slope.
         """
         return math.sqrt(4.0 * self.springs.mean_stiffness / self.rig.mass) / (2.0 * math.pi)
+
+
+Kind = TypeVar("Kind", bound=Parameters)
+
+
+@cache
+def _made_of(base: type[Kind], catalogue: Catalogue) -> type[Kind]:
+    if catalogue is CATALOGUE:
+        return base
+    tables: dict[str, Any] = {each.id: (each.table, each.table()) for each in catalogue.outside}
+    made = create_model(
+        base.__name__, __base__=base, __module__=base.__module__, __doc__=base.__doc__, **tables
+    )
+    made.catalogue = catalogue
+    return made
+
+
+def _blank(base: type[Kind], catalogue: Catalogue) -> Kind:
+    """For unpickling."""
+    kind = base.of(catalogue)
+    return kind.__new__(kind)

@@ -12,15 +12,13 @@ from typing import NamedTuple, Self
 import numpy as np
 
 from .arrays import RunArrays, inputs
+from .catalogue import CATALOGUE, Catalogue
 from .kernel.layout import (
-    INSTANT,
-    MODE,
     O_SIZE,
     P_MU_K,
     P_MU_S,
     P_MU_SCALE,
     R_SIZE,
-    SHOWN,
     TRACKED,
     U_FORCE_X,
 )
@@ -76,15 +74,17 @@ def simulate_restarted(
     restarts: Restarts,
     force: Force | None = None,
     aside: float = 0.0,
+    catalogue: Catalogue = CATALOGUE,
 ) -> np.ndarray:
     """Outputs at ``times`` (n,), s, increasing: (n, O_SIZE), columns as `ports.OUTPUTS` slots.
 
     p : kernel vector of `packing.pack`; speed, m/s and temperature, degC: the inputs, constant.
     Rows are NaN from where the model gave up to the next restart. force : from the model's own
     state, constant from one time to the next: extrapolated to the middle of the interval, so that
-    the error is of second order in it. aside : constant external force along y, N.
+    the error is of second order in it. aside : constant external force along y, N. catalogue : of
+    ``p``.
     """
-    run = _begin(p, inputs(speed, temperature, aside=aside), times)
+    run = _begin(p, inputs(speed, temperature, aside=aside), times, catalogue)
     kernel = run.kernel
     return _simulated(run, times, restarts, force, kernel.record_restarted, kernel.record, O_SIZE)
 
@@ -97,15 +97,16 @@ def track_restarted(
     restarts: Restarts,
     force: Force | None = None,
     aside: float = 0.0,
+    catalogue: Catalogue = CATALOGUE,
 ) -> np.ndarray:
     """As `simulate_restarted`, but x, y and phi alone, (n, 3): in four fifths of the time."""
-    run = _begin(p, inputs(speed, temperature, aside=aside), times)
+    run = _begin(p, inputs(speed, temperature, aside=aside), times, catalogue)
     kernel = run.kernel
     return _simulated(run, times, restarts, force, kernel.track_restarted, kernel.track, TRACKED)
 
 
-def _begin(p: Sequence[float], u: np.ndarray, times: np.ndarray) -> RunArrays:
-    return RunArrays.begin(p, u, start=float(times[0]))
+def _begin(p: Sequence[float], u: np.ndarray, times: np.ndarray, catalogue: Catalogue) -> RunArrays:
+    return RunArrays.begin(p, u, start=float(times[0]), catalogue=catalogue)
 
 
 def _simulated(
@@ -143,10 +144,9 @@ def _record_forced(
     for row in range(*rows):
         if record(*run.all, times, o, row, 1) != 1:
             break
-        instant = run.z[SHOWN : SHOWN + INSTANT].tolist()
-        now = run.u[U_FORCE_X] = force(instant)
-        if before is not None and mode == instant[MODE] and row + 1 < len(times):
+        now = run.u[U_FORCE_X] = force(run.instant)
+        if before is not None and mode == run.sticks and row + 1 < len(times):
             growth = (now - before) / (times[row] - times[row - 1])
             run.u[U_FORCE_X] += 0.5 * growth * (times[row + 1] - times[row])
-        before, mode = now, instant[MODE]
+        before, mode = now, run.sticks
     run.u[U_FORCE_X] = 0.0

@@ -81,7 +81,11 @@ class _Run:
         self.parameters = parameters
         array = list if interpreted else np.array
         self.arrays = RunArrays.begin(
-            parameters.pack(), u, events=EVENTS_AT_ONCE, interpreted=interpreted
+            parameters.pack(),
+            u,
+            events=EVENTS_AT_ONCE,
+            interpreted=interpreted,
+            catalogue=parameters.catalogue,
         )
         self.times, self.t = times, array(times)
         self.o = array(np.zeros(O_SIZE * len(times)))

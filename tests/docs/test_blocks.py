@@ -128,8 +128,9 @@ def test_the_block_of_steel_is_one(tmp_path):
 
 
 INSTALLED = """
-from stickslip import EFFECTS, Parameters
-print(EFFECTS[-1].id, Parameters().flash_heating.fall)
+from cosim import read_scenario
+scenario = read_scenario("reference")
+print(scenario.catalogue.effects[-1].id, scenario.flash_heating.fall)
 """
 
 

@@ -50,7 +50,7 @@ MAY_IMPORT = {
     "cosim.simulated": ("stickslip", "cosim.scenario", "cosim.report"),
     "cosim.report": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario", *LEAVES),
     # two results may have one quantity in two units
-    "cosim.report.compare": ("cosim.report", "cosim.coupling", "cosim.fmu.units", *LEAVES),
+    "cosim.report.compare": ("cosim.report", "cosim.coupling", "stickslip.units", *LEAVES),
     "cosim.systems": ("stickslip.quantity", "cosim.coupling", "cosim.scenario", *LEAVES),
     "cosim.systems.show": ("cosim.systems", "cosim.coupling", "cosim.report", *LEAVES),
     "cosim.gap": (

@@ -73,16 +73,19 @@ def refused() -> tuple[type[Exception], ...]:
 
 def execute(arguments: Namespace) -> int:
     """Build the units afresh and say where they are, and for which platforms."""
+    from stickslip.catalogue import default_catalogue
+
     from cosim.files import writable
     from cosim.fmu.build import build_fmu, own_folder, require_way
     from cosim.fmu.libraries import platforms_of
 
+    catalogue = default_catalogue().with_files(*arguments.effects)
     units = arguments.units or UNITS
     platforms = list(dict.fromkeys(each for named in arguments.platforms for each in named))
     for name in units:
-        require_way(name, platforms)
-    folder = writable(Path(arguments.output) if arguments.output else own_folder(), units)
+        require_way(name, platforms, catalogue)
+    folder = writable(Path(arguments.output) if arguments.output else own_folder(catalogue), units)
     for name in units:
-        fmu = build_fmu(folder, name, platforms)
+        fmu = build_fmu(folder, name, platforms, catalogue)
         print(f"{fmu}: {', '.join(platforms_of(fmu))}")
     return DONE

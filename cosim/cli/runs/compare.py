@@ -103,13 +103,12 @@ def _scenario(source: str, coupled: bool) -> Scenario:
 def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
     """A scenario's run, which is kept nowhere."""
     from stickslip import simulate
-    from stickslip.compiled import compiled_kernel
 
     from cosim.cli.runs.run_io import progress_over
     from cosim.report import run_dataset, summary, trajectory_dataset
     from cosim.report.compare import OneResult
 
-    compiled_kernel()
+    _ = scenario.catalogue.compiled
     with progress_over(scenario.run.duration) as bar:
 
         def show(reached: float) -> None:

@@ -92,8 +92,6 @@ class Job(NamedTuple):
 
 def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
-    from stickslip.compiled import compiled_kernel
-
     from cosim.cli.numbers import numbers_asked
     from cosim.cli.runs import run_io, running
     from cosim.cli.scenarios import note_taken
@@ -108,9 +106,9 @@ def execute(arguments: Namespace) -> int:
     # said with the first step, when units, too, are known to be good; of old when it goes on
     unsaid = [] if arguments.resume else [job.scenario]
     fields = writable(job.results / run_io.FIELDS) if job.fields else None
-    compiled_kernel()  # before the bar begins to count
+    _ = job.scenario.catalogue.compiled  # before the bar begins to count
     logging = run_io.message_log(job.folder, arguments.verbose)
-    going_on = run_io.going_on(job.folder, _resume(job.results))
+    going_on = run_io.going_on(job.folder, _resume(job.results, job.scenario))
     with going_on, patient_interrupts() as patience, logging as log:
         with run_io.progress_over(job.scenario.run.duration) as show:
 
@@ -143,7 +141,7 @@ def execute(arguments: Namespace) -> int:
                 _field_files(done, job.results),
                 views=done.snapshots.views,
                 command=job.command,
-                resume=_resume(job.results) if goes_on else "",
+                resume=_resume(job.results, job.scenario) if goes_on else "",
                 log=log,
                 asked=numbers,
                 **job.shown,
@@ -156,8 +154,6 @@ def execute(arguments: Namespace) -> int:
 
 def _begun(arguments: Namespace) -> Job:
     """A run from its start."""
-    from stickslip.plugins import files
-
     from cosim.cli.plug_ins import digests
     from cosim.cli.runs import run_io, running
     from cosim.coupling.record import RunFolder
@@ -171,20 +167,20 @@ def _begun(arguments: Namespace) -> Job:
         )
     scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=True)
     # before anything is written: it may lack a compiler
-    unit = arguments.fmu or own_fmu()
+    unit = arguments.fmu or own_fmu(scenario.catalogue)
     results = running.results_folder(arguments.output, scenario, arguments.force)
     require_own(results, [run_io.COLLECTION], arguments.force)
     command = shlex.join(["stickslip", *sys.argv[1:]])
     fmu = None if arguments.fmu is None else str(Path(arguments.fmu).resolve())
     asked = {
-        "resume": _resume(results),
+        "resume": _resume(results, scenario),
         "command": command,
         "fmu": fmu,
         "views": arguments.animation,
         "fields": arguments.fields,
         "shown": shown(arguments),
         "taken": dict(scenario.taken),
-        "effects": digests(files()),
+        "effects": digests(scenario.catalogue.files),
     }
     folder = RunFolder.begun(results, asked, {SCENARIO: scenario.to_toml()}, force=arguments.force)
     return Job(
@@ -195,6 +191,7 @@ def _begun(arguments: Namespace) -> Job:
 
 def _found(arguments: Namespace) -> Job:
     """A run that was cut off, as it was begun."""
+    from cosim.cli.plug_ins import check_resumed
     from cosim.cli.runs import run_io, running
     from cosim.coupling.record import RunFolder
     from cosim.report.files import PAGE_ALONE
@@ -212,6 +209,7 @@ def _found(arguments: Namespace) -> Job:
     }
     run_io.refuse_beside_resume(given)
     results = Path(arguments.resume)
+    check_resumed(results, arguments.effects)
     folder = RunFolder.found(results)
     asked = folder.asked
     if not (folder.path / SCENARIO).is_file():
@@ -230,10 +228,9 @@ def _found(arguments: Namespace) -> Job:
     )
 
 
-def _resume(results: Path) -> str:
-    from stickslip.plugins import files
-
-    effects = ["--effects", *map(str, files())] if files() else []
+def _resume(results: Path, scenario: Scenario) -> str:
+    files = scenario.catalogue.files
+    effects = ["--effects", *map(str, files)] if files else []
     return shlex.join(["stickslip", "run", "--resume", str(results), *effects])
 
 

@@ -35,8 +35,6 @@ def refused() -> tuple[type[Exception], ...]:
 
 def execute(arguments: Namespace) -> int:
     """Simulate, write, report; the exit status."""
-    from stickslip.compiled import compiled_kernel
-
     from cosim.cli.numbers import numbers_asked
     from cosim.cli.runs import running
     from cosim.cli.scenarios import note_taken
@@ -51,7 +49,7 @@ def execute(arguments: Namespace) -> int:
     # also where a coupled run was cut off: its folder is no place for another run's results
     RunFolder.begun(folder, asked, {}, force=arguments.force).finished()
     note_taken(scenario)
-    compiled_kernel()  # before the bar begins to count
+    _ = scenario.catalogue.compiled  # before the bar begins to count
     with patient_interrupts() as patience:
         start = time.perf_counter()
         trajectory = _simulated(scenario, patience)

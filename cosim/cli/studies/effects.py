@@ -18,6 +18,7 @@ from cosim.manifest import made_by, results_in
 
 if TYPE_CHECKING:
     from cosim.report.page import Picture
+    from cosim.studies.effects import Entry
 
 EXAMPLE = "stickslip effects -o results/effects"
 RESULT, PAGE = "effects.json", "effects.html"
@@ -47,14 +48,15 @@ def execute(arguments: Namespace) -> int:
     """Print the entries; write page, JSON and figures where asked to."""
     from cosim.studies.effects import chosen, described
 
-    entries = [described(entry) for entry in chosen(arguments.effects)]
+    told = chosen(arguments.effects)
+    entries = [described(each.effect) for each in told]
     asked = numbers_asked(arguments, ("id", "sentence", "parameters"))
     if arguments.output is not None:
         folder = Path(arguments.output)
         names = (RESULT, PAGE, *(f"{entry['id']}.png" for entry in entries))
         writable(folder, names)
         with results_in(folder, made_by(), names, arguments.force) as results:
-            results.complete = _write(entries, folder)
+            results.complete = _write(entries, told, folder)
         if not results.complete:
             return FAILED
     if not asked.give(json.dumps(entries, indent=1)):
@@ -78,20 +80,20 @@ def _print(entry: dict[str, Any]) -> None:
         print(f"        {parameter['description']}")
 
 
-def _write(entries: list[dict[str, Any]], folder: Path) -> bool:
+def _write(entries: list[dict[str, Any]], told: list[Entry], folder: Path) -> bool:
     """Figures, then the page of all of them; whether it got so far."""
     with held_interrupts():
         from cosim.studies.effects.page import effect_figure, page
 
     pictures: dict[str, Picture] = {}
     try:
-        for entry in Bar(entries, unit="figure"):
-            name = entry["id"]
+        for entry in Bar(told, unit="figure"):
+            name = entry.effect.id
             with held_interrupts():
-                pictures[name] = effect_figure(name)
+                pictures[name] = effect_figure(entry)
                 write_bytes(pictures[name].png, folder / f"{name}.png")
         write_text(json.dumps(entries, indent=1), folder / RESULT)
-        write_text(page(entries, pictures), folder / PAGE)
+        write_text(page(told, pictures), folder / PAGE)
     except KeyboardInterrupt:
         print(
             f"error: interrupted; {len(pictures)} of {len(entries)} figures are in {folder}",

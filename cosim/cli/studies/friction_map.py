@@ -92,7 +92,7 @@ def execute(arguments: Namespace) -> int:
     began = time.perf_counter()
     scenario = given_scenario(arguments.scenario, arguments.changes)
     asked = numbers_asked(arguments, KEYS)
-    own_fmu()  # once, and before anything is written: it may lack a compiler
+    own_fmu(scenario.catalogue)  # once, and before anything is written: it may lack a compiler
     folder = Path(arguments.output)
     writable(folder)
     require_own(folder, (RESULT, TABLE, FIGURE, PAGE), arguments.force)

@@ -127,7 +127,7 @@ def execute(arguments: Namespace) -> int:
     not_taken(folder, OWN)
     require_own(folder, OWN, arguments.force)
     if _is_coupled(grids[""]) and arguments.dask is None:
-        own_fmu()  # once, and before anything is written: it may lack a compiler
+        own_fmu(scenario.catalogue)  # once, and before anything is written: it may lack a compiler
     note_taken(scenario)
     datasets = {}
     try:

@@ -9,8 +9,6 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from stickslip import EFFECTS
-
 from cosim.coupling import (
     Connection,
     CoupledResult,
@@ -127,7 +125,7 @@ def run_scenario(
     check_work(scenario, coupled=True)
     store = None if folder is None else folder.path
     snapshots = Snapshots(scenario.run.snapshot_interval, fields, views, store)
-    path = Path(fmu or own_fmu())
+    path = Path(fmu or own_fmu(scenario.catalogue))
     mechanics = _mechanics(scenario, path, debug)
     model = BeltIceModel(scenario.thermal, prepared_block(scenario.thermal))
     heat = ThermalParticipant(model, THERMAL, observer=snapshots, melts=feels_melting(scenario))
@@ -193,7 +191,7 @@ def feels_melting(scenario: Scenario) -> bool:
     """Whether friction is another where the face of the ice melts, by law or by the water there."""
     return any(
         getattr(getattr(scenario, effect.id), switch) > 0.0
-        for effect in EFFECTS
+        for effect in scenario.catalogue.effects
         for switch in effect.feels_melting
     )
 

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from xml.etree.ElementTree import Element, SubElement
 
-from cosim.fmu.units import UNITS
+from stickslip.units import UNITS
+
 from cosim.fmu.variables import Variable
 
 LOG_CATEGORIES = {

@@ -12,8 +12,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache
 
-from stickslip import EFFECTS, Parameters
-from stickslip.kernel.layout import O_SIZE, U_SIZE, constants
+from stickslip import Parameters
+from stickslip.catalogue import CATALOGUE, Catalogue
+from stickslip.kernel import layout
+from stickslip.kernel.layout import O_SIZE, U_SIZE
 
 from cosim.fmu.description import UnitFacts
 from cosim.fmu.libraries import FMI2
@@ -23,7 +25,10 @@ Row = tuple[float, Sequence[float]]
 
 
 def documentation(
-    facts: UnitFacts, variables: Sequence[Variable], fmi: int = FMI2
+    facts: UnitFacts,
+    variables: Sequence[Variable],
+    fmi: int = FMI2,
+    catalogue: Catalogue = CATALOGUE,
 ) -> dict[str, bytes]:
     """Path in the unit -> content; the page is that of a version of FMI."""
     from cosim.report.page import render
@@ -34,12 +39,14 @@ def documentation(
         facts=facts,
         fmi=fmi,
         variables=by_array(variables),
-        effects=EFFECTS,
+        effects=catalogue.effects,
         allowed=allowed,
         starts=starts,
         reference=MECHANICS,
     )
-    return {"documentation/index.html": page.encode()} | of_mechanics(facts.name, variables)
+    return {"documentation/index.html": page.encode()} | of_mechanics(
+        facts.name, variables, catalogue
+    )
 
 
 def allowed(variable: Variable) -> str:
@@ -109,7 +116,9 @@ def _csv(columns: Sequence[str], rows: Iterable[Row]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def of_mechanics(name: str, variables: Sequence[Variable]) -> dict[str, bytes]:
+def of_mechanics(
+    name: str, variables: Sequence[Variable], catalogue: Catalogue = CATALOGUE
+) -> dict[str, bytes]:
     """Of the block as the unit starts: the interpreted model."""
     inputs = [variable for variable in variables if variable.causality == "input"]
     starts = [each.start or 0.0 for each in inputs]
@@ -118,22 +127,22 @@ def of_mechanics(name: str, variables: Sequence[Variable]) -> dict[str, bytes]:
         u[_place(each)] = start
     given = [(time, starts) for time in (0.0, MECHANICS.stop)]
     slots = [_place(each) for each in variables if each.name in SHOWN_OF_MECHANICS]
-    motion = ((time, [o[slot] for slot in slots]) for time, o in _motion(tuple(u)))
+    motion = ((time, [o[slot] for slot in slots]) for time, o in _motion(tuple(u), catalogue))
     shown = [each.name for each in variables if each.name in SHOWN_OF_MECHANICS]
     return cross_check(name, MECHANICS, ([each.name for each in inputs], given), (shown, motion))
 
 
 def _place(variable: Variable) -> int:
-    return int(str(constants()[variable.slot]))
+    return int(getattr(layout, variable.slot))
 
 
 @cache
-def _motion(u: tuple[float, ...]) -> list[tuple[float, list[float]]]:
+def _motion(u: tuple[float, ...], catalogue: Catalogue) -> list[tuple[float, list[float]]]:
     """Times, s, and all outputs of the kernel; once for the units of a process."""
     from stickslip.arrays import RunArrays  # numpy: only for who gets here
 
-    rig = Parameters.model_validate(rig_defaults())
-    run = RunArrays.begin(rig.pack(), list(u), interpreted=True)
+    rig = Parameters.of(catalogue).model_validate(rig_defaults())
+    run = RunArrays.begin(rig.pack(), list(u), interpreted=True, catalogue=catalogue)
     rows = []
     for time in MECHANICS.times:
         o = [0.0] * O_SIZE

@@ -6,20 +6,19 @@ Python. `cosim.fmu.python_unit` says how a unit is known by its content.
 
 from __future__ import annotations
 
-import sys
 from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from stickslip.quantity import details
+from stickslip.units import UNITS
 
 from cosim.fmu import python_unit
 from cosim.fmu.archive import guid_of
 from cosim.fmu.description import UnitFacts
 from cosim.fmu.thermal.reference_run import of_heat, reference_parameters
 from cosim.fmu.thermal.variables import DESCRIPTION, NAME, REFERENCE, STARTS, inputs, outputs
-from cosim.fmu.units import UNITS
 from cosim.fmu.variables import Variable, bounds_of, names
 from thermal import ThermalParameters
 
@@ -142,7 +141,3 @@ def build(directory: Path) -> Path:
         ),
         directory / FMU,
     )
-
-
-if __name__ == "__main__":
-    print(build(Path(sys.argv[1])))

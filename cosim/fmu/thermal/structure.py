@@ -12,8 +12,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from xml.etree.ElementTree import Element, SubElement, indent, register_namespace, tostring
 
+from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.generation.platforms import PLATFORMS, Platform
 from stickslip.scratch import scratch_folder
+from stickslip.units import UNITS
 
 from cosim.files import write_bytes
 from cosim.fmu import exchange, native
@@ -21,7 +23,6 @@ from cosim.fmu.archive import packed
 from cosim.fmu.description import STOP_TIME
 from cosim.fmu.thermal import native_unit
 from cosim.fmu.thermal.variables import reduced
-from cosim.fmu.units import UNITS
 from cosim.fmu.variables import Variable
 
 SSP = "StickSlipThermal.ssp"
@@ -44,23 +45,30 @@ _NAMES = {
 }
 
 
-def build(directory: Path, platforms: Sequence[Platform] = PLATFORMS) -> Path:
+def build(
+    directory: Path,
+    platforms: Sequence[Platform] = PLATFORMS,
+    catalogue: Catalogue = CATALOGUE,
+) -> Path:
     """Make the system of the reference scenario in a directory, its units inside.
 
     Raises CompilerError where there is no way to a library for any of the platforms.
     """
     with scratch_folder("ssp") as scratch:
-        units = [each.build(Path(scratch), platforms) for each in (native, native_unit)]
+        units = [
+            native.build(Path(scratch), platforms, catalogue=catalogue),
+            native_unit.build(Path(scratch), platforms),
+        ]
         files = {f"resources/{fmu.name}": fmu.read_bytes() for fmu in units}
-    files |= {"SystemStructure.ssd": description(), SET_FILE: values()}
+    files |= {"SystemStructure.ssd": description(catalogue), SET_FILE: values(catalogue)}
     return write_bytes(packed(files), directory / SSP)
 
 
-def values() -> bytes:
+def values(catalogue: Catalogue) -> bytes:
     """The set of values for tools that take it from a file."""
     for prefix, space in _NAMES.items():
         register_namespace(prefix, space)
-    known = {each.name: each for each in exchange.variables()}
+    known = {each.name: each for each in exchange.variables(catalogue)}
     return _text(_parameter_set(known, _changed(known), f"{MECHANICS}."))
 
 
@@ -70,7 +78,9 @@ def _changed(known: Mapping[str, Variable]) -> dict[str, float]:
 
     scenario = read_scenario("reference")
     given = {"surface_speed": scenario.surface.speed, **scenario.mechanics.flat()}
-    return {key: value for key, value in given.items() if known[key].start != value}
+    return {
+        key: value for key, value in given.items() if key in known and known[key].start != value
+    }
 
 
 def _text(root: Element) -> bytes:
@@ -78,9 +88,9 @@ def _text(root: Element) -> bytes:
     return tostring(root, encoding="UTF-8", xml_declaration=True)
 
 
-def description() -> bytes:
+def description(catalogue: Catalogue) -> bytes:
     """SystemStructure.ssd."""
-    mechanics = exchange.variables()
+    mechanics = exchange.variables(catalogue)
     for prefix, space in _NAMES.items():
         register_namespace(prefix, space)
     root = Element(

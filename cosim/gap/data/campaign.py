@@ -38,14 +38,14 @@ def read_campaign(path: str | Path) -> Campaign:
     """
     path = Path(path)
     path = path / FILE_NAME if path.is_dir() else path
-    table, run_tables = read_tables(path)
+    table, run_tables, catalogue = read_tables(path)
     law = read_friction_table(path, table, [run.surface_speed for run in run_tables])
     if law is not None and not any(run.file for run in run_tables):
         alone = "of runs of which only figures are known the law is mu_s and mu_k"
         raise CampaignError(f"{path}: friction.table: {alone}; allowed with a file in a [[run]]")
     campaign = Campaign(
         table.name, path.parent, table.rig, table.model.scheme, {}, (), (), (),
-        table.friction.given, table.errors, law, table.limits.given,
+        table.friction.given, table.errors, law, table.limits.given, catalogue,
     )  # fmt: skip
     runs, remarks = [], [] if law is None else [law.text]
     converted: dict[str, list[str]] = {}
@@ -90,7 +90,7 @@ def _run_of(campaign: Campaign, table: RunTable, number: int) -> MeasuredRun:
         summary=table.summary.given or None,
     )  # fmt: skip
     with warnings.catch_warnings(action="ignore"):  # the fit decides on the friction
-        checked(Parameters, campaign.parameters(run))
+        checked(Parameters.of(campaign.catalogue), campaign.parameters(run))
     return run
 
 

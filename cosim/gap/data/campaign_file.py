@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 import stickslip
 from pydantic import AllowInfNan, BeforeValidator, Field, create_model, model_validator
-from stickslip.effects import PluginError, use
+from stickslip.catalogue import Catalogue, default_catalogue
+from stickslip.effects import PluginError
 from stickslip.parameters import FASTEST_SURFACE
 from stickslip.quantity import Table, quantity
 
@@ -291,8 +292,8 @@ FILE_NAME = "campaign.toml"
 
 def read_tables(
     path: Path, kind: type[RunTable] = MeasuredRunTable
-) -> tuple[CampaignTable, list[RunTable]]:
-    """The campaign's table and those of its runs; CampaignError in one line.
+) -> tuple[CampaignTable, list[RunTable], Catalogue]:
+    """The campaign's table, those of its runs, and its effects; CampaignError in one line.
 
     kind : `RunTable` where the runs are only planned
     """
@@ -313,10 +314,11 @@ def read_tables(
         named = {"name": path.resolve().parent.name or "unnamed"} | tables
         campaign = checked(CampaignTable, named)
     try:
-        use(*(path.parent / name for name in campaign.model.effects))
+        files = [path.parent / name for name in campaign.model.effects]
+        catalogue = default_catalogue().with_files(*files)
     except PluginError as error:
         raise CampaignError(f"{path}: model.effects: {error}") from None
     for number, run in enumerate(runs, 1):
         with within(f"{path}: run {number}"):
             read.append(checked(kind, run))
-    return campaign, read
+    return campaign, read, catalogue

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from stickslip.catalogue import CATALOGUE, Catalogue
 
 from cosim.gap.data.campaign_file import Errors, Rig
 from cosim.gap.data.friction_table import FrictionTable
@@ -127,6 +128,7 @@ class Campaign:
     friction_table : kinetic friction over the sliding speed that the model sets out from, if any
     limits : surface_speed (m/s), mass (kg), stiffness (N/m) -> (low, high), of those that are
         stated: a next run is asked for within them
+    catalogue : effects that are tried, those of the file's own among them
     """
 
     name: str
@@ -141,6 +143,7 @@ class Campaign:
     errors: Errors = field(default_factory=Errors)
     friction_table: FrictionTable | None = None
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    catalogue: Catalogue = CATALOGUE
 
     @property
     def known_friction(self) -> dict[str, tuple[float, float]]:

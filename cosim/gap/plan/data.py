@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from stickslip import EFFECTS
-from stickslip.quantity import details
-
 from cosim.gap.plan.next_run import SETTINGS
 from cosim.gap.plan.plan import Plan
 from cosim.gap.plan.sizes import DRAWS, Size
@@ -52,10 +49,7 @@ def _of(size: Size) -> dict[str, Any]:
 
 def unit_of(size: Size) -> str:
     """Of the parameter; "" where it has none."""
-    block, _, name = size.law.key.partition(".")
-    (table,) = (effect.table for effect in EFFECTS if effect.id == block)
-    unit = details(table.model_fields[name])["unit"]
-    return "" if unit == "1" else unit
+    return "" if size.law.unit == "1" else size.law.unit
 
 
 def value_text(value: float | None, size: Size, never: str = "not seen") -> str:

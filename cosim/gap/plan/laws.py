@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from stickslip import EFFECTS
 from stickslip.effects.candidate import Candidate
 from stickslip.effects.effect import Effect, no_candidates
+from stickslip.quantity import details
 
 from cosim.gap.laws import SHAPES, Context, scales_of
 from cosim.gap.rates import Option, option_of_wave
@@ -49,6 +49,7 @@ class Law:
     unknown, sizes : whose columns times sizes(value) (q,) are what it does to the rows
     part : of friction, that a size of 1 stands for
     wave : how the ladder would find it where it is periodic
+    unit : of that parameter
     """
 
     argument: str
@@ -59,6 +60,7 @@ class Law:
     sizes: Callable[[float], np.ndarray]
     part: float = 1.0
     wave: Option | None = None
+    unit: str = "1"
 
     @property
     def key(self) -> str:
@@ -103,7 +105,7 @@ def laws_of(system: System, unknowns: Mapping[str, Sequence[Unknown]]) -> list[L
         {"mu_s": system.level.static},
     )  # fmt: skip
     found: dict[tuple[str, float], Law] = {}
-    for effect in EFFECTS:
+    for effect in system.campaign.catalogue.effects:
         for candidate in effect.candidates(context.scales) if effect.offered else ():
             if not candidate.free_parameters or candidate.lateral:
                 continue
@@ -119,10 +121,10 @@ def laws_of(system: System, unknowns: Mapping[str, Sequence[Unknown]]) -> list[L
     return list(found.values())
 
 
-def silent(laws: Sequence[Law]) -> dict[str, str]:
+def silent(laws: Sequence[Law], effects: Sequence[Effect]) -> dict[str, str]:
     """effect -> why no size is told, of those that `gap` offers."""
     there = {law.candidate.effect for law in laws}
-    offered = [one for one in EFFECTS if one.offered and one.candidates is not no_candidates]
+    offered = [one for one in effects if one.offered and one.candidates is not no_candidates]
     return {one.id: WHY.get(one.id, "these runs cannot show it")
             for one in offered if one.id not in there}  # fmt: skip
 
@@ -140,6 +142,13 @@ def _range(effect: Effect, candidate: Candidate) -> tuple[float, float]:
     return neutral, free.high if free.start > neutral else free.low
 
 
+def _unit(effect: Effect, candidate: Candidate) -> str:
+    """Of the size."""
+    name = candidate.free_parameters[0].key.rpartition(".")[2]
+    unit: str = details(effect.table.model_fields[name])["unit"]
+    return unit
+
+
 def _of_load(
     unknowns: Mapping[str, Sequence[Unknown]], effect: Effect, candidate: Candidate
 ) -> Iterator[Law]:
@@ -147,7 +156,7 @@ def _of_load(
     for unknown in unknowns.get("load_dependence", ()):
         span = np.array([-unknown.settings["span"]])
         yield Law("load_dependence", candidate, *_range(effect, candidate), unknown,
-                  partial(np.multiply, span))  # fmt: skip
+                  partial(np.multiply, span), unit=_unit(effect, candidate))  # fmt: skip
 
 
 def _along_curves(
@@ -182,7 +191,7 @@ def _along_curves(
             return np.asarray((there - nothing) / unit)
 
         part = unit / force if unknown.curve.per == "N" else 1.0
-        yield Law(name, candidate, *ends, unknown, sizes, part)
+        yield Law(name, candidate, *ends, unknown, sizes, part, unit=_unit(effect, candidate))
 
 
 def _waves(system: System, effect: Effect, candidate: Candidate) -> Iterator[Law]:
@@ -203,4 +212,5 @@ def _waves(system: System, effect: Effect, candidate: Candidate) -> Iterator[Law
             ]
             option = option_of_wave(parts, system, SCALES_ASKED)
             yield Law(effect.id, candidate, *_range(effect, candidate), parts[0].unknown,
-                      partial(np.multiply, first), wave=option)  # fmt: skip
+                      partial(np.multiply, first), wave=option,
+                      unit=_unit(effect, candidate))  # fmt: skip

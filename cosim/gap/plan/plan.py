@@ -83,7 +83,8 @@ def make_plan(
     sizes = [_settled(planned, size, wanted, seed, step) for size in sizes]
     next_run = best_next_run(system, pair, planned.friction, scatter, step) if pair else None
     progress(total, total)
-    return Plan(planned, wanted, tuple(sizes), silent(laws), false_names(design), next_run)
+    not_told = silent(laws, campaign.catalogue.effects)
+    return Plan(planned, wanted, tuple(sizes), not_told, false_names(design), next_run)
 
 
 def _settled(

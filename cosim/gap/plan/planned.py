@@ -73,7 +73,7 @@ def read_plan(path: str | Path) -> PlannedCampaign:
     """
     path = Path(path)
     path = path / FILE_NAME if path.is_dir() else path
-    table, tables = read_tables(path, RunTable)
+    table, tables, catalogue = read_tables(path, RunTable)
     noise = {"x": NOISE, **table.noise.given}
     remarks = [] if "x" in table.noise.given else [f"noise.x is not given: {NOISE:g} m"]
     own = read_friction_table(path, table, [run.surface_speed for run in tables])
@@ -98,7 +98,7 @@ def read_plan(path: str | Path) -> PlannedCampaign:
     campaign = Campaign(
         table.name, path.parent, table.rig, table.model.scheme, noise, (), (),
         friction=table.friction.given, errors=table.errors, friction_table=own,
-        limits=table.limits.given,
+        limits=table.limits.given, catalogue=catalogue,
     )  # fmt: skip
     runs = [_planned(path, campaign, run, number) for number, run in enumerate(tables, 1)]
     if all(run.setting.hold_out for run in runs):
@@ -122,7 +122,8 @@ def _planned(path: Path, campaign: Campaign, table: RunTable, number: int) -> Pl
     )  # fmt: skip
     try:
         with warnings.catch_warnings(action="ignore"):
-            Parameters.model_validate(campaign.parameters(setting), strict=True)
+            kind = Parameters.of(campaign.catalogue)
+            kind.model_validate(campaign.parameters(setting), strict=True)
     except ValidationError as report:
         raise CampaignError(f"{where}: {describe_faults(report, Parameters)}") from None
     period = 2.0 * np.pi / setting.natural_frequency
@@ -166,7 +167,8 @@ def simulated(
         "friction": law, "initial": {"vx": setting.surface_speed}, **(blocks or {}),
     }  # fmt: skip
     with warnings.catch_warnings(action="ignore"):
-        moved = simulate(Parameters.model_validate(parameters), run.duration, 1.0 / run.rate)
+        kind = Parameters.of(campaign.catalogue)
+        moved = simulate(kind.model_validate(parameters), run.duration, 1.0 / run.rate)
     if not np.isfinite(moved["x"]).all() or np.abs(moved["x"]).max() > (
         FARTHEST * campaign.rig.spring_length
     ):

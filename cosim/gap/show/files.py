@@ -81,7 +81,9 @@ def _page(gap: Gap, pictures: Sequence[Picture], corrected: Sequence[Path]) -> s
         owned=[one for one in quantities if one.owner and one.key not in STATED],
         first=[one for one in pictures if one.name in FIRST],
         folded=[one for one in pictures if one.name not in FIRST],
-        numbers=[text.numbers_of(row, quantities) for row in gap.ranking],
+        numbers=[
+            text.numbers_of(row, quantities, gap.campaign.catalogue) for row in gap.ranking
+        ],
     )  # fmt: skip
 
 
@@ -110,7 +112,7 @@ def plus_minus(value: float, sd: float) -> str:
 def reproduction_line(gap: Gap) -> str:
     """What the FMU does with the numbers of model.toml, in a sentence."""
     try:
-        off = largest_difference(gap, own_fmu())
+        off = largest_difference(gap, own_fmu(gap.campaign.catalogue))
     except FmuBuildError as error:
         return f"The FMU was not asked: {error}."
     moves = "moves as the fitted model does" if off < 1.0 else "does not move as the fitted model"

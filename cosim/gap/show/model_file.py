@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import tomli_w
-from stickslip.effects import EFFECTS
+from stickslip.catalogue import Catalogue
 from stickslip.plugins.load import file_of
 
 from cosim.gap.data import Campaign, MeasuredRun
@@ -87,7 +87,8 @@ def file_text(
     for table in sorted(filter(given.get, given), key=lambda table: table not in FIRST):
         lines += ["", f"[{table}]"]
         for key, value in given[table].items():
-            said = _comment(f"{table}.{key}", value, known.get(f"{table}.{key}"))
+            name = f"{table}.{key}"
+            said = _comment(name, value, known.get(name), scenario.catalogue)
             lines.append(f"{_entry(key, value):<34}  # {said}")
     return "\n".join(lines) + "\n"
 
@@ -123,7 +124,8 @@ def scenario_from(campaign: Campaign, tables: Mapping[str, Mapping[str, Any]]) -
         table: {key: rounded(value) for key, value in entries.items()}
         for table, entries in tables.items()
     }
-    own = [str(file) for effect in EFFECTS if effect.id in tables and (file := file_of(effect))]
+    effects = [effect for effect in campaign.catalogue.effects if effect.id in tables]
+    own = [str(file) for effect in effects if (file := file_of(effect))]
     first = {"name": f"{safe_name(campaign.name)}-model", **({"effects": own} if own else {})}
     with warnings.catch_warnings(action="ignore"):  # of friction that the fit decided on
         return Scenario.from_tables({**first, "defaults": "plain", **cut})
@@ -163,9 +165,9 @@ def _entry(key: str, value: Any) -> str:
     return re.sub(r"\s*\n\s*", " ", text).replace("[ ", "[").replace(", ]", "]")
 
 
-def _comment(key: str, value: Any, known: Quantity | None) -> str:
+def _comment(key: str, value: Any, known: Quantity | None, catalogue: Catalogue) -> str:
     """`meaning, unit; interval`; a run's own friction may lie outside the campaign's."""
-    unit, meaning = unit_and_meaning(key)
+    unit, meaning = unit_and_meaning(key, catalogue)
     said = ", ".join(filter(None, (re.split(r"[:;\[]", meaning)[0].strip(), unit)))
     if known is None:
         return said

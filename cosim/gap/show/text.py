@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from stickslip.catalogue import Catalogue
+
 from cosim.gap.judge import NOTHING_MISSING
 from cosim.gap.quantities import TABLES, Quantity, digits, quantity
 from cosim.gap.quantities import percent as percent
@@ -74,12 +76,12 @@ def evidence(value: float | None) -> str:
     return (f"{value:.0f}" if abs(value) >= 10.0 else f"{value:.1f}").replace("-", "−")
 
 
-def numbers_of(row: Ranked, known: Sequence[Quantity]) -> list[str]:
+def numbers_of(row: Ranked, known: Sequence[Quantity], catalogue: Catalogue) -> list[str]:
     """Of an effect that was tried; of one in the final model those of that."""
     own = [one.text for one in known if one.key.startswith(row.effect) and not one.owner]
     return own or [
-        quantity(key, value, row.intervals.get(key), "not determined" * (key in row.undetermined))
-        .text
+        quantity(key, value, row.intervals.get(key), "not determined" * (key in row.undetermined),
+                 catalogue).text
         for key, value in row.parameters.items()
         if key.startswith(row.effect)
     ]  # fmt: skip
@@ -133,7 +135,7 @@ def assumptions(gap: Gap) -> list[str]:
             f"{'from the data' if channel in estimated else 'as stated'}"
             for channel, value in campaign.noise.items()
         ),
-        *(quantity(key, value, None).text for key, value in kept.items()),
+        *(quantity(*one, None, catalogue=campaign.catalogue).text for one in kept.items()),
         *([campaign.friction_table.text] if campaign.friction_table else []),
     ]
 

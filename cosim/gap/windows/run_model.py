@@ -8,9 +8,9 @@ from collections.abc import Mapping
 
 import numpy as np
 from stickslip import Parameters
-from stickslip.effects import EFFECTS
+from stickslip.catalogue import Catalogue
 from stickslip.kernel import layout
-from stickslip.packing import GRAVITY, pack
+from stickslip.packing import GRAVITY
 from stickslip.restarted import Restarts, track_restarted
 
 from cosim.gap.data import Campaign, MeasuredRun
@@ -27,13 +27,6 @@ FEW_POINTS = 0.6
 #: Steps this much longer than a simulation's: a sixth of a period, still good to 1e-7 m; in stick
 #: on an even surface that moves steadily much longer, as the load only grows.
 LONGER, LONGER_STICK = 2.0, 20.0
-#: Parameters that make a surface uneven or unsteady where they are not 0.
-UNEVEN = [
-    f"{effect.id}.{name}"
-    for effect in EFFECTS
-    if effect.enters == "surface" or effect.axis == "place"
-    for name in effect.switch
-]
 FRICTION = ("friction.mu_s", "friction.mu_k")
 #: Points of a table of friction, in parts of mu_k, and of the springs' force curve, over their
 #: stiffness: these then scale the whole.
@@ -49,6 +42,16 @@ LOADING = "offset.loading"
 PER_WEIGHT = "per_weight."
 #: The same of what grows in proportion to the weight.
 WITH_WEIGHT = "with_weight."
+
+
+def uneven(catalogue: Catalogue) -> list[str]:
+    """Parameters that make a surface uneven or unsteady where they are not 0."""
+    return [
+        f"{effect.id}.{name}"
+        for effect in catalogue.effects
+        if effect.enters == "surface" or effect.axis == "place"
+        for name in effect.switch
+    ]
 
 
 def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, float]:
@@ -94,7 +97,8 @@ class RunModel:
     def __init__(self, campaign: Campaign, run: MeasuredRun, windows: Windows):
         self.campaign, self.run, self.windows = campaign, run, windows
         with warnings.catch_warnings(action="ignore"):  # friction is not known yet
-            parameters = Parameters.model_validate(campaign.parameters(run), strict=True)
+            kind = Parameters.of(campaign.catalogue)
+            parameters = kind.model_validate(campaign.parameters(run), strict=True)
         self.known = dict(parameters.flat()) | {"solver.tolerance": TOLERANCE}
         self.friction = {key: self.known[key] for key in FRICTION}
         if not windows.is_planar:
@@ -129,10 +133,11 @@ class RunModel:
     def packed(self, values: Mapping[str, float]) -> np.ndarray:
         """The kernel's parameters, of this run's values."""
         flat = {**self.known, **parameters_of(self.run, {**self.friction, **values})}
-        p = np.array(pack(flat))
+        catalogue = self.campaign.catalogue
+        p = np.array(catalogue.pack(flat))
         p[layout.P_FEW_POINTS] = FEW_POINTS
         p[layout.P_LONGEST_STEP] *= LONGER
-        is_uneven = any(flat[key] != 0.0 for key in UNEVEN)
+        is_uneven = any(flat[key] != 0.0 for key in uneven(catalogue))
         p[layout.P_LONGEST_STICK] *= LONGER if is_uneven else LONGER_STICK
         return p
 
@@ -156,7 +161,9 @@ class RunModel:
         friction[:, 0] = np.exp(states[self.sticks])
         restarts = Restarts(self.restarts, own, since, friction)
         temperature = self.known["temperature_dependence.reference_degC"]
-        places = track_restarted(p, speed, temperature, time, restarts)
+        places = track_restarted(
+            p, speed, temperature, time, restarts, catalogue=self.campaign.catalogue
+        )
         return seen(places, time, values) + self.zero(values)
 
     def residuals(self, values: Mapping[str, float], states: np.ndarray, p=None) -> np.ndarray:

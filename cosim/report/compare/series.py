@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
+from stickslip.units import UNITS
 
 from cosim.coupling.conversion import BASE_UNITS, told_dimension
-from cosim.fmu.units import UNITS
 
 Array = NDArray[np.float64]
 #: What is no quantity of its own: a system's inputs repeat outputs.

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from stickslip import EFFECTS
+from stickslip.catalogue import Catalogue, default_catalogue
 from stickslip.effects.effect import Effect
 from stickslip.friction.law_curves import axis_of
 from stickslip.plugins.load import file_of
@@ -13,23 +13,35 @@ from stickslip.quantity import details
 
 from cosim.names import nearest
 
-__all__ = ["UnknownEffect", "allowed", "chosen", "described", "snippet"]
+__all__ = ["Entry", "UnknownEffect", "allowed", "chosen", "described", "snippet"]
 
 
 class UnknownEffect(ValueError):
     """An id that the catalogue does not have; the message is one line."""
 
 
-def chosen(ids: list[str]) -> list[Effect]:
-    """Entries by their ids or files in the catalogue's order, all of them for none."""
-    known = [entry.id for entry in EFFECTS]
-    files = {file: entry.id for entry in EFFECTS if (file := file_of(entry)) is not None}
+class Entry(NamedTuple):
+    """An effect, and the catalogue that it is of."""
+
+    effect: Effect
+    catalogue: Catalogue
+
+
+def chosen(ids: list[str]) -> list[Entry]:
+    """Entries by their ids or files in the catalogue's order, all of them for none.
+
+    Files are of custom effects, and are executed: PluginError.
+    """
+    catalogue = default_catalogue().with_files(*(name for name in ids if name.endswith(".py")))
+    known = [entry.id for entry in catalogue.effects]
+    files = {file: entry.id for entry in catalogue.effects if (file := file_of(entry)) is not None}
     ids = [files.get(Path(name).resolve(), name) for name in ids]
     for name in ids:
         if name not in known:
             near = nearest(name, known, similarity=0.0)
             raise UnknownEffect(f"effect {name!r}: unknown, nearest known: {near}")
-    return [entry for entry in EFFECTS if not ids or entry.id in ids]
+    told = [each for each in catalogue.effects if not ids or each.id in ids]
+    return [Entry(each, catalogue) for each in told]
 
 
 def described(entry: Effect) -> dict[str, Any]:

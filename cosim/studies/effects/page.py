@@ -12,14 +12,13 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, FigureBase
-from stickslip import EFFECTS, Parameters, Trajectory, simulate
-from stickslip.effects.effect import Case, Effect
+from stickslip import Parameters, Trajectory, simulate
 from stickslip.friction.law_curves import LawCurve, axis_of, law_curve
 
 from cosim.report.live import Curve, Live, Panel, Series, on_one_axis, over_time
 from cosim.report.page import Picture, render, unit_text
 from cosim.report.style import BLUE, GREY, panels, picture
-from cosim.studies.effects import allowed
+from cosim.studies.effects import Entry, allowed, described
 
 INTERVAL = 0.005  # s
 #: A rig that sticks and slips from the start: pretensioned springs, friction along x.
@@ -34,14 +33,18 @@ CHANNELS = {"x": ("x [mm]", 1e3), "y": ("y [mm]", 1e3), "phi": ("φ [°]", 180.0
 SHOWS = 0.2
 #: Panels side by side of the picture of all.
 ABREAST = 5
-CASES: dict[str, Case] = {effect.id: effect.case for effect in EFFECTS}
 
 
-def page(entries: list[dict[str, Any]], pictures: dict[str, Picture]) -> str:
-    """HTML of the entries of `described`, each with its picture inside and folded."""
+def page(told: Sequence[Entry], pictures: dict[str, Picture]) -> str:
+    """HTML of the entries, each with its picture inside and folded."""
+    entries, by_id = (
+        [described(each.effect) for each in told],
+        {each.effect.id: each for each in told},
+    )
     names = dict.fromkeys(entry["enters"] for entry in entries)
     rooms = {name: [each for each in entries if each["enters"] == name] for name in names}
-    drawn = [each["id"] for inside in rooms.values() for each in inside if each["id"] in pictures]
+    ids = [each["id"] for inside in rooms.values() for each in inside if each["id"] in pictures]
+    drawn = [by_id[name] for name in ids]
     return render(
         "effects.html.j2",
         "cosim.studies.effects",
@@ -50,7 +53,7 @@ def page(entries: list[dict[str, Any]], pictures: dict[str, Picture]) -> str:
         sentence=sentence(rooms),
         overview=draw_overview(drawn) if len(drawn) >= ABREAST else None,
         pictures=pictures,
-        laws={name: law_figure(name) for name in pictures},
+        laws={name: law_figure(by_id[name]) for name in pictures},
         allowed=allowed,
     )
 
@@ -69,31 +72,31 @@ def sentence(rooms: Mapping[str, Sequence[Any]]) -> str:
     " one number, the motion.",
     alt="A small panel for each effect: its law, or the motion, without it and with it.",
 )
-def draw_overview(effect_ids: Sequence[str]) -> Figure:
+def draw_overview(entries: Sequence[Entry]) -> Figure:
     """A small panel an effect."""
-    rows = math.ceil(len(effect_ids) / ABREAST)
+    rows = math.ceil(len(entries) / ABREAST)
     figure, axes = panels(rows, ABREAST, height=1.6, width=10.0)
-    for ax, name in zip_longest(axes.flat, effect_ids):
-        if name is None:
+    for ax, entry in zip_longest(axes.flat, entries):
+        if entry is None:
             ax.set_visible(False)
             continue
-        shown = motion(name, True)
-        curves = [_curve(name, on, shown) for on in (False, True)]
+        shown = motion(entry, True)
+        curves = [_curve(entry, on, shown) for on in (False, True)]
         if curves[1] is not None:
             _draw_law(ax, curves)
         else:
-            channel = channels_shown(motion(name, False), shown, CASES[name].window[0])[0]
-            _draw_motion(ax, name, channel)
-        ax.set_title(name, fontsize=8.0)
+            channel = channels_shown(motion(entry, False), shown, entry.effect.case.window[0])[0]
+            _draw_motion(ax, entry, channel)
+        ax.set_title(entry.effect.id, fontsize=8.0)
         for axis in (ax.xaxis, ax.yaxis):
             axis.label.set_size(7.0)
         ax.tick_params(labelsize=6.5)
     return figure
 
 
-def effect_figure(effect_id: str) -> Picture:
+def effect_figure(entry: Entry) -> Picture:
     """PNG of the law and the two motions, with the numbers of the case in its caption."""
-    case = CASES[effect_id]
+    case = entry.effect.case
     sizes = ", ".join(f"{name} = {value:g}" for name, value in case.effect.items())
     rig = ", ".join(
         f"{block}.{name} = {value:g}"
@@ -105,20 +108,16 @@ def effect_figure(effect_id: str) -> Picture:
         where += f"; interface {case.warmer:g} K above the reference"
     if case.water:
         where += f"; {1e6 * case.water:g} µm of water in the contact"
-    curve = "its law, and " if axis_of(_effect(effect_id)) else ""
+    curve = "its law, and " if axis_of(entry.effect) else ""
     caption = f"Without and with the effect ({sizes}){where}: {curve}the motion where it shows."
-    alt = f"{effect_id}: {curve}the motion without and with it"
-    return replace(picture(effect_id, caption, alt=alt)(_draw)(effect_id), live=_live(effect_id))
+    alt = f"{entry.effect.id}: {curve}the motion without and with it"
+    return replace(picture(entry.effect.id, caption, alt=alt)(_draw)(entry), live=_live(entry))
 
 
-def _effect(effect_id: str) -> Effect:
-    return next(effect for effect in EFFECTS if effect.id == effect_id)
-
-
-def _live(effect_id: str) -> Live:
+def _live(entry: Entry) -> Live:
     """The motions for the page, which has the law as a drawing above them."""
-    begin, end = CASES[effect_id].window
-    plain, shown = motion(effect_id, False), motion(effect_id, True)
+    begin, end = entry.effect.case.window
+    plain, shown = motion(entry, False), motion(entry, True)
     panels = []
     for name in channels_shown(plain, shown, begin):
         label, factor = CHANNELS[name]
@@ -132,9 +131,9 @@ def _live(effect_id: str) -> Live:
     return over_time(time[seen], panels)
 
 
-def law_figure(effect_id: str) -> Picture | None:
+def law_figure(entry: Entry) -> Picture | None:
     """The law alone, to stand above motions that move; None for an effect without a curve."""
-    curves = [_curve(effect_id, on, motion(effect_id, True)) for on in (False, True)]
+    curves = [_curve(entry, on, motion(entry, True)) for on in (False, True)]
     if curves[1] is None:
         return None
 
@@ -143,15 +142,15 @@ def law_figure(effect_id: str) -> Picture | None:
         _draw_law(figure.subplots(), curves)
         return figure
 
-    alt = f"{effect_id}: {curves[1].quantity} over {curves[1].axis}"
+    alt = f"{entry.effect.id}: {curves[1].quantity} over {curves[1].axis}"
     caption = "The law, without the effect (grey) and with it (blue), as far as the motion goes."
-    return picture(f"{effect_id}_law", caption, alt=alt)(draw)()
+    return picture(f"{entry.effect.id}_law", caption, alt=alt)(draw)()
 
 
-def _draw(effect_id: str) -> Figure:
-    shown = motion(effect_id, True)
-    channels = channels_shown(motion(effect_id, False), shown, CASES[effect_id].window[0])
-    curves = [_curve(effect_id, on, shown) for on in (False, True)]
+def _draw(entry: Entry) -> Figure:
+    shown = motion(entry, True)
+    channels = channels_shown(motion(entry, False), shown, entry.effect.case.window[0])
+    curves = [_curve(entry, on, shown) for on in (False, True)]
     figure = Figure(figsize=(10.0, max(2.6, 0.6 + 1.8 * len(channels))), layout="constrained")
     right: FigureBase = figure
     if curves[1] is not None:
@@ -160,7 +159,7 @@ def _draw(effect_id: str) -> Figure:
         _draw_law(left.subplots(), curves)
     axes = right.subplots(len(channels), 1, sharex=True, squeeze=False)[:, 0]
     for ax, name in zip(axes, channels, strict=True):
-        _draw_motion(ax, effect_id, name)
+        _draw_motion(ax, entry, name)
         ax.label_outer()
     axes[0].set_title("motion")
     handles, labels = axes[0].get_legend_handles_labels()
@@ -168,11 +167,11 @@ def _draw(effect_id: str) -> Figure:
     return figure
 
 
-def _draw_motion(ax: Axes, effect_id: str, channel: str) -> None:
-    begin, end = CASES[effect_id].window
+def _draw_motion(ax: Axes, entry: Entry, channel: str) -> None:
+    begin, end = entry.effect.case.window
     label, factor = CHANNELS[channel]
     for said, on, colour in (("without", False, GREY), ("with", True, BLUE)):
-        run = motion(effect_id, on)
+        run = motion(entry, on)
         late = run.time >= begin
         ax.plot(run.time[late], factor * run[channel][late], color=colour, label=said)
     ax.set(xlabel="time [s]", ylabel=label, xlim=(begin, end))
@@ -194,9 +193,9 @@ def _draw_law(ax: Axes, curves: Sequence[LawCurve | None]) -> None:
         ax.set_ylim(bottom=0.0)
 
 
-def _curve(effect_id: str, on: bool, run: Trajectory) -> LawCurve | None:
+def _curve(entry: Entry, on: bool, run: Trajectory) -> LawCurve | None:
     """The law as far as the motion with the effect goes."""
-    effect, case = _effect(effect_id), CASES[effect_id]
+    effect, case = entry.effect, entry.effect.case
     reach = {
         "heat memory": float(run["heat"][-1]),
         "distance": float(run["sliding_distance"][-1]),
@@ -204,7 +203,7 @@ def _curve(effect_id: str, on: bool, run: Trajectory) -> LawCurve | None:
         "time": case.window[1] - case.window[0],
         "sliding speed": 3.0 * run.parameters.surface.speed,
     }.get(axis_of(effect), 0.0)
-    return law_curve(effect, case_parameters(effect_id, on), _warmth(effect_id), case.water, reach)
+    return law_curve(effect, case_parameters(entry, on), _warmth(entry), case.water, reach)
 
 
 def channels_shown(plain: Trajectory, shown: Trajectory, begin: float) -> list[str]:
@@ -224,31 +223,32 @@ def channels_shown(plain: Trajectory, shown: Trajectory, begin: float) -> list[s
 
 
 @cache
-def motion(effect_id: str, on: bool) -> Trajectory:
+def motion(entry: Entry, on: bool) -> Trajectory:
     """The run of a case; with the effect, the interface is as warm as the case says."""
-    case = CASES[effect_id]
+    case = entry.effect.case
     return simulate(
-        case_parameters(effect_id, on),
+        case_parameters(entry, on),
         case.window[1],
         INTERVAL,
-        interface_temperature=_warmth(effect_id) if on else None,
+        interface_temperature=_warmth(entry) if on else None,
         film_thickness=case.water,
     )
 
 
-def _warmth(effect_id: str) -> float | None:
+def _warmth(entry: Entry) -> float | None:
     """degC of the interface in a case; None where that has no say."""
-    case = CASES[effect_id]
+    case = entry.effect.case
     reference = case.effect.get("reference_degC")
     return None if reference is None else reference + case.warmer
 
 
-def case_parameters(effect_id: str, on: bool) -> Parameters:
+def case_parameters(entry: Entry, on: bool) -> Parameters:
     """The rig of an effect's case, with the effect or without."""
-    case = CASES[effect_id]
+    case = entry.effect.case
     tables = {
         name: PLAIN.get(name, {}) | dict(case.rig.get(name, {})) for name in PLAIN | dict(case.rig)
     }
     if on:
-        tables[effect_id] = tables.get(effect_id, {}) | dict(case.effect)
-    return Parameters.model_validate(tables)
+        name = entry.effect.id
+        tables[name] = tables.get(name, {}) | dict(case.effect)
+    return Parameters.of(entry.catalogue).model_validate(tables)

@@ -8,6 +8,7 @@ import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any, get_args
 
 import numpy as np
@@ -22,9 +23,6 @@ from cosim.scenario.validation import known_keys
 from .errors import SweepError
 
 LINK = "+"
-#: All keys of a scenario; those of the mechanics alone.
-KEYS = {key: entry for key, entry in known_keys(Scenario).items() if "." in key}
-MECHANICS = {key for key in known_keys(Parameters) if "." in key}
 #: In place of a key: a whole scenario.
 SCENARIO = "scenario"
 #: A key of one table of a list: the list's key, the table's number from 1, its own key.
@@ -32,6 +30,12 @@ LIST_ENTRY = re.compile(r"^(\w+\.\w+)\[(\d+)\]\.(\w+)$")
 _LARGEST = 2**1023
 #: Longest label of a value on an axis.
 LONGEST_LABEL = 32
+
+
+@cache
+def keys_of(kind: type[Parameters]) -> dict[str, FieldInfo]:
+    """`table.key` -> what it holds, of scenarios or of the mechanics alone."""
+    return {key: entry for key, entry in known_keys(kind).items() if "." in key}
 
 
 @dataclass(frozen=True)
@@ -53,8 +57,10 @@ class Axis:
         return len(self.settings)
 
 
-def axis(keys: str | Sequence[str], values: Sequence[Any]) -> Axis:
+def axis(keys: str | Sequence[str], values: Sequence[Any], kind: type[Scenario] = Scenario) -> Axis:
     """The axis of one key, or of linked keys: a tuple of keys (or "a+b") and tuples of values.
+
+    kind: of the scenario that has the keys.
 
     Raises SweepError, in one line, for a key that the mechanics does not have, for no values and
     for a value that is there twice. Bounds are checked with the whole combination.
@@ -67,7 +73,7 @@ def axis(keys: str | Sequence[str], values: Sequence[Any]) -> Axis:
     keys = tuple(keys.split(LINK)) if isinstance(keys, str) else tuple(keys)
     name = LINK.join(keys)
     for key in keys:
-        _check_key(key)
+        _check_key(key, kind)
     if len(set(keys)) < len(keys):
         raise SweepError(f"{name}: links a key with itself, allowed are different keys")
     rows = [_row(name, keys, value) for value in _listed(name, values)]
@@ -79,7 +85,7 @@ def axis(keys: str | Sequence[str], values: Sequence[Any]) -> Axis:
             raise SweepError(f"{name}: {shown} is there twice, allowed is each value once")
     columns = {key: [row[i] for row in rows] for i, key in enumerate(keys)}
     settings = tuple(dict(zip(keys, row, strict=True)) for row in rows)
-    return Axis(name, settings, _coordinates(name, columns))
+    return Axis(name, settings, _coordinates(name, columns, kind))
 
 
 def labelled_axis(
@@ -96,7 +102,7 @@ def scenario_axis(scenarios: Sequence[Scenario]) -> Axis:
     for i, name in enumerate(names):
         if name in names[:i]:
             raise SweepError(f"two scenarios are named {name}, allowed is each name once")
-    settings = [{SCENARIO: scenario.to_tables()} for scenario in scenarios]
+    settings = [{SCENARIO: scenario} for scenario in scenarios]
     return labelled_axis(SCENARIO, "scenario", "1", names, settings)
 
 
@@ -106,23 +112,25 @@ def list_entry(key: str) -> tuple[str, int, str] | None:
     return None if found is None else (found[1], int(found[2]), found[3])
 
 
-def field_of(key: str) -> FieldInfo | None:
+def field_of(key: str, kind: type[Scenario]) -> FieldInfo | None:
     """What a key of a scenario holds; None where there is no such key."""
+    known = keys_of(kind)
     place = list_entry(key)
     if place is None:
-        return KEYS.get(key)
-    field = KEYS.get(place[0])
+        return known.get(key)
+    field = known.get(place[0])
     kinds = get_args(field.annotation) if field else ()
     return getattr(kinds[0], "model_fields", {}).get(place[2]) if kinds else None
 
 
-def _check_key(key: str) -> None:
-    if field_of(key) is not None:
+def _check_key(key: str, kind: type[Scenario]) -> None:
+    if field_of(key, kind) is not None:
         return
-    tables = dict.fromkeys(known.partition(".")[0] for known in KEYS)
-    siblings = [known for known in KEYS if known.partition(".")[0] == key.partition(".")[0]]
+    every = keys_of(kind)
+    tables = dict.fromkeys(known.partition(".")[0] for known in every)
+    siblings = [known for known in every if known.partition(".")[0] == key.partition(".")[0]]
     allowed = ", ".join(siblings) or f"a key of {', '.join(tables)}"
-    near = nearest_key(key, KEYS)
+    near = nearest_key(key, every)
     hint = f"nearest: {near}" if near else f"allowed: {allowed}"
     raise SweepError(f"{key}: no such key of a scenario, {hint}")
 
@@ -155,21 +163,21 @@ def _plain(value: Any) -> Any:
     return value
 
 
-def _coordinates(name: str, columns: dict[str, list[Any]]) -> dict[str, Any]:
+def _coordinates(name: str, columns: dict[str, list[Any]], kind: type[Scenario]) -> dict[str, Any]:
     coordinates: dict[str, Any] = {}
     if len(columns) > 1:
         rows = zip(*columns.values(), strict=True)
         labels = [":".join(_label(value) for value in row) for row in rows]
         coordinates[name] = (_column(labels), {"units": "1", "long_name": name})
     for key, values in columns.items():
-        field = field_of(key)
+        field = field_of(key, kind)
         assert field is not None, "checked before"
         attributes = {
             "units": details(field).get("unit", "1"),
             "long_name": field.description or key,
         }
-        kind = int if field.annotation is int else float
-        coordinates[key] = (_column(values, kind), attributes)
+        number = int if field.annotation is int else float
+        coordinates[key] = (_column(values, number), attributes)
     return coordinates
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from stickslip import Parameters, simulate
-from stickslip.generation.source import kernel_source
+from stickslip.catalogue import CATALOGUE, Catalogue
 
 from cosim.processes import is_stopped
 from cosim.scenario import Scenario
@@ -81,13 +81,13 @@ class Task(NamedTuple):
 
 
 @cache
-def model_version() -> str:
+def model_version(catalogue: Catalogue = CATALOGUE) -> str:
     """Hash of everything that turns parameters into features; comments do not count."""
     package = resources.files("stickslip")
     files = sorted(file.name for file in package.iterdir() if file.name.endswith(".py"))
     texts = [(package / name).read_text(encoding="utf-8") for name in files]
     # rows are kept without the names of their numbers
-    texts += [kernel_source(), inspect.getsource(feature_module), repr(list(ALL))]
+    texts += [catalogue.text, inspect.getsource(feature_module), repr(list(ALL))]
     plain = "\n".join(ast.unparse(ast.parse(text)) for text in texts)
     return hashlib.sha256(plain.encode()).hexdigest()[:KEY_DIGITS]
 
@@ -107,7 +107,7 @@ def content_key(parameters: Parameters, run: Run) -> str:
     whole = isinstance(parameters, Scenario)
     # a name is none of what a run depends on
     tables = parameters.model_dump(mode="json", exclude={"name"} if whole else None)
-    content: list[Any] = [model_version(), duration, output_interval, tables]
+    content: list[Any] = [model_version(parameters.catalogue), duration, output_interval, tables]
     if coupled:
         content.append(heat_version())
     text = json.dumps(content, sort_keys=True)
@@ -123,7 +123,7 @@ def with_changes(base: Parameters, changes: Mapping[str, Any]) -> Parameters:
     for key, value in changes.items():
         block, _, entry = key.partition(".")
         tables[block][entry] = value
-    return Parameters.model_validate(tables, strict=True)
+    return type(base).model_validate(tables, strict=True)
 
 
 def compute_chunk(work: Work, tasks: Sequence[Task]) -> list[Row]:
@@ -131,7 +131,7 @@ def compute_chunk(work: Work, tasks: Sequence[Task]) -> list[Row]:
 
     Raises SweepStopped where the worker has another version of the model.
     """
-    if model_version() != work.version:
+    if model_version(work.base.catalogue) != work.version:
         raise SweepStopped(
             f"the worker on {platform.node()} has another version of the model than this process; "
             "install the same one there, or start again if it was just changed"

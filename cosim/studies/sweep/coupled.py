@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from copy import deepcopy
 from typing import Any
 
 import numpy as np
@@ -24,14 +23,14 @@ HEAT_TABLES = ("belt", "ice", "contact", "coupling")
 def changed(base: Scenario, changes: Mapping[str, Any]) -> Scenario:
     """A scenario with `block.key` -> value, `block.key[2].entry` for the second table of a list.
 
-    `SCENARIO` -> tables: of another scenario, in place of the base. ScenarioError in one line.
+    `SCENARIO` -> another, in place of the base. ScenarioError in one line.
     """
-    given = changes.get(SCENARIO)
-    tables = base.to_tables() if given is None else deepcopy(dict(given))
+    given: Scenario = changes.get(SCENARIO, base)
+    tables = given.to_tables()
     for key, value in changes.items():
         if key != SCENARIO:
             _set(tables, key, value)
-    return Scenario.from_tables(tables)
+    return type(given).from_tables(tables)
 
 
 def _set(tables: dict[str, Any], key: str, value: Any) -> None:

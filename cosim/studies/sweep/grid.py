@@ -18,7 +18,7 @@ from cosim.scenario import Scenario, ScenarioError
 from cosim.scenario.validation import describe_faults
 from cosim.scenario.work import check_mechanics
 
-from .axis import MECHANICS, SCENARIO, Axis, axis, scenario_axis
+from .axis import SCENARIO, Axis, axis, keys_of, scenario_axis
 from .combination import Run, content_key, with_changes
 from .coupled import check_coupled, differ_in_heat, is_heat
 from .errors import SweepError
@@ -105,7 +105,7 @@ class Grid:
         except ScenarioError as error:
             fault = str(error)
         except ValidationError as report:
-            fault = describe_faults(report, Parameters)
+            fault = describe_faults(report, type(self.base))
         raise SweepError(
             fault
             if any(fault.startswith(key) for key in changes)
@@ -125,7 +125,7 @@ class Grid:
 
 def _written(changes: Settings) -> str:
     return ", ".join(
-        f"{key} = {value['name'] if key == SCENARIO else value}" for key, value in changes.items()
+        f"{key} = {value.name if key == SCENARIO else value}" for key, value in changes.items()
     )
 
 
@@ -139,11 +139,12 @@ def product_grid(
     parameters: several scenarios are the first axis. coupled: see `sweep`.
     """
     several = [parameters] if isinstance(parameters, Parameters) else list(parameters)
-    axes = tuple(axis(*entry) for entry in vary.items())
+    catalogue = several[0].catalogue
+    axes = tuple(axis(*entry, Scenario.of(catalogue)) for entry in vary.items())
     keys = [key for each in axes for setting in each.settings[:1] for key in setting]
     scenarios = [one for one in several if isinstance(one, Scenario)]
     heat = [key for key in keys if is_heat(key)]
-    whole = [key for key in keys if key not in MECHANICS]
+    whole = [key for key in keys if key not in keys_of(Parameters.of(catalogue))]
     if not scenarios and whole:
         raise SweepError(f"{whole[0]}: is no key of the mechanics, allowed with a scenario")
     if coupled is False and heat:
@@ -167,9 +168,8 @@ def _feels_temperature(base: Parameters) -> bool:
 
 
 def mechanics_of(parameters: Parameters) -> Parameters:
-    """The mechanical part of a scenario, which is a Parameters and more."""
-    tables = {name: getattr(parameters, name) for name in Parameters.model_fields}
-    return Parameters.model_construct(**tables)
+    """The mechanical part, which a scenario has more than."""
+    return parameters.mechanics if isinstance(parameters, Scenario) else parameters
 
 
 def patience_of(parameters: Parameters, without: float = inf) -> float:

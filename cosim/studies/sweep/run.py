@@ -99,7 +99,8 @@ def run_grid(
     """`sweep` over combinations that are made already."""
     _check(run, jobs)
     keys = grid.keys(run)
-    store = Store(None if folder is None else Path(folder))
+    version = model_version(grid.base.catalogue)
+    store = Store(None if folder is None else Path(folder), version)
     rows = store.read()
     # equal combinations have one key, and are run once
     tasks = {key: Task(key, changes) for key, changes in zip(keys, grid.changes, strict=True)}
@@ -122,7 +123,7 @@ def run_grid(
         few = not run.coupled and todo * run.duration < NOT_WORTH_PROCESSES * CHUNK_TIME
         here = local_workers(1 if few else jobs)
         with here if dask is None else dask_workers(dask) as workers:
-            _finish(workers, Work(grid.base, run, model_version()), missing, keep)
+            _finish(workers, Work(grid.base, run, version), missing, keep)
     return _dataset(grid, run, [rows[key] for key in keys])
 
 
@@ -202,7 +203,7 @@ def _attributes(grid: Grid, run: Run, status: np.ndarray) -> dict[str, object]:
         "duration": run.duration,
         "output_interval": run.output_interval,
         "parameters": json.dumps(grid.base.model_dump(mode="json")),
-        "model_version": model_version(),
+        "model_version": model_version(grid.base.catalogue),
         "stickslip": version("stickslip"),
         **provenance(),
     }

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from cosim.files import OutputError, OutputRefused, writable, write_text
 
-from .combination import ERROR, Row, model_version
+from .combination import ERROR, Row
 from .errors import SweepError, SweepStopped
 
 FOLDER = "chunks"
@@ -23,10 +23,10 @@ VERSION_DIGITS = 12
 
 
 class Store:
-    """Rows in ``folder``/chunks; without a folder nothing is kept."""
+    """Rows in ``folder``/chunks, of a version of the model; without a folder nothing is kept."""
 
-    def __init__(self, folder: Path | None):
-        self.folder = None if folder is None else folder / FOLDER / model_version()[:VERSION_DIGITS]
+    def __init__(self, folder: Path | None, version: str):
+        self.folder = None if folder is None else folder / FOLDER / version[:VERSION_DIGITS]
         if self.folder is not None:
             try:
                 writable(self.folder)

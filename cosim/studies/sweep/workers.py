@@ -9,8 +9,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 import joblib
-from stickslip.compiled import compiled_kernel
-from stickslip.plugins.dask_transport import packed, to_send, unpacked_call
 
 from cosim.processes import BrokenProcessPool, as_finished
 
@@ -49,8 +47,8 @@ def _in_processes(count: int, work: Work, chunks: Chunks) -> Rows:
     if work.run.coupled:
         from cosim.fmu.build import own_fmu
 
-        own_fmu()  # here, once, and not by each process; so the kernel
-    compiled_kernel()
+        own_fmu(work.base.catalogue)  # here, once, and not by each process; so the kernel
+    _ = work.base.catalogue.compiled
     calls = [(work, chunk) for chunk in chunks]
     try:
         yield from as_finished(min(count, len(chunks)), compute_chunk, calls)
@@ -101,13 +99,11 @@ def _connected() -> Iterator[None]:
 def _on_cluster(client: Client, work: Work, chunks: Chunks) -> Rows:
     from distributed import KilledWorker, as_completed
 
-    # the work travels with every chunk: data scattered to workers would die with them. packed,
-    # for what is made of a custom effect can be unpacked only where that effect is.
+    # the work travels with every chunk: data scattered to workers would die with them.
     # not pure: work that is started again must not be given the futures of before
-    calls = [packed(compute_chunk, work, chunk) for chunk in chunks]
     lost = ""
     with _connected():
-        futures = client.map(unpacked_call, [to_send()] * len(calls), calls, pure=False)
+        futures = client.map(compute_chunk, [work] * len(chunks), chunks, pure=False)
         try:
             for future in as_completed(futures, loop=client.loop):
                 if future.status == "finished":

@@ -1,15 +1,14 @@
 """The catalogue of effects: what each adds to the plain model, one file each.
 
 An effect joins the house by one line in ``FILES``. Their order is that of the FMU's parameters and
-of the terms that meet in one place of the kernel: append. Behind them come those from outside
-(`stickslip.plugins`), whose files need no more than what is named here.
+of the terms that meet in one place of the kernel: append. A catalogue with custom effects behind
+them is a value of its own (`stickslip.catalogue`); their files need no more than is named here.
 """
 
 from collections.abc import Iterable
 from importlib import import_module
-from typing import TYPE_CHECKING, Any
 
-from ..plugins import PluginError, use
+from ..plugins.errors import PluginError
 from ..quantity import Table, quantity
 from .candidate import Candidate, FreeParameter, Scales
 from .effect import Case, Effect, State
@@ -24,9 +23,8 @@ __all__ = [
     "Scales",
     "State",
     "Table",
-    "catalogue",
+    "declared",
     "quantity",
-    "use",
 ]
 
 FILES = (
@@ -54,32 +52,17 @@ FILES = (
 )
 
 
-def catalogue(files: Iterable[str]) -> tuple[Effect, ...]:
+def declared(files: Iterable[str]) -> tuple[Effect, ...]:
     """The effects that some files declare. Raises ValueError for none in a file, or one twice."""
-    declared: dict[str, Effect] = {}
+    found: dict[str, Effect] = {}
     for file in files:
         effect = getattr(import_module(f"{__name__}.{file}"), "EFFECT", None)
         if not isinstance(effect, Effect):
             raise ValueError(f"effects/{file.replace('.', '/')}.py declares no Effect named EFFECT")
-        if effect.id in declared:
+        if effect.id in found:
             raise ValueError(f"effect {effect.id}: declared twice, again by {file}")
-        declared[effect.id] = effect
-    return tuple(declared.values())
+        found[effect.id] = effect
+    return tuple(found.values())
 
 
-if TYPE_CHECKING:
-    EFFECTS: tuple[Effect, ...]
-
-
-def __getattr__(name: str) -> Any:
-    """The effects are read when they are first asked for: until then, `use` may add files."""
-    if name == "EFFECTS":
-        all_of_them = import_module(f"{__name__}.outside")
-        try:
-            return all_of_them.EFFECTS
-        except AttributeError:
-            raise ImportError(
-                "an effect's file imports the model, which is made of the effects; allowed is "
-                f"{__name__}, which has {', '.join(__all__[1:])}"
-            ) from None
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+EFFECTS = declared(FILES)

@@ -92,7 +92,7 @@ class Case:
     water: float = 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Effect:
     """An entry of the catalogue.
 

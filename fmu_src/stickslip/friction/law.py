@@ -7,9 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..arrays import inputs
 from ..arrays import interface_temperature as temperature_of
-from ..compiled import compiled_kernel
-from ..kernel.layout import P_NORMAL_FORCE, W_FRICTION, W_SIZE
-from ..kernel.terms import feels_film
+from ..kernel.layout import P_NORMAL_FORCE
 from ..parameters import Parameters
 
 
@@ -33,15 +31,16 @@ def friction_coefficient(
     if not np.all(speeds > 0.0):
         raise ValueError(f"speed = {speeds.min():g} m/s: must be above 0")
     temperature = temperature_of(parameters, interface_temperature)
-    kernel, u = compiled_kernel(), inputs(0.0, temperature, film_thickness)
-    p, w = np.array(parameters.pack()), np.zeros(W_SIZE)
+    kernel, layout = parameters.catalogue.compiled, parameters.catalogue.kernel
+    u = inputs(0.0, temperature, film_thickness)
+    p, w = np.array(parameters.pack()), np.zeros(layout.W_SIZE)
     coefficients = np.empty(speeds.size)
     for i, value in enumerate(speeds):
         kernel.friction_in_slip(p, u, w, value, 0.0, 0.0)
-        coefficients[i] = -w[W_FRICTION] / p[P_NORMAL_FORCE]
+        coefficients[i] = -w[layout.W_FRICTION] / p[P_NORMAL_FORCE]
     return coefficients
 
 
 def feels_water(parameters: Parameters) -> bool:
     """Whether water in the contact matters to its friction, by any of the effects that are on."""
-    return bool(feels_film(parameters.pack()))
+    return bool(parameters.catalogue.kernel.feels_film(parameters.pack()))

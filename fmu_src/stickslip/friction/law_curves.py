@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,23 +18,7 @@ from ..arrays import interface_temperature as temperature_of
 from ..effects.effect import Effect
 from ..generation.functions import arguments
 from ..generation.slots import state_slot
-from ..kernel import layout
-from ..kernel.friction.coefficient import kinetic_coefficient, static_coefficient
-from ..kernel.friction.force import friction_in_slip
-from ..kernel.layout import (
-    DISTANCE,
-    HOLD_SINCE,
-    MODE,
-    P_NORMAL_FORCE,
-    STICK,
-    TIME,
-    U_TEMPERATURE,
-    W_FRICTION,
-    W_STATE,
-    X,
-)
-from ..kernel.rig.springs import damping_per_speed, spring_tension
-from ..kernel.rig.surface import surface_speed
+from ..kernel.layout import DISTANCE, P_NORMAL_FORCE, STICK, TIME, U_TEMPERATURE, W_STATE, X
 from ..packing import GRAVITY
 from ..parameters import Parameters
 from .law import friction_coefficient
@@ -76,10 +61,15 @@ class _Asked:
     temperature: float
     film: float
 
+    @property
+    def kernel(self) -> Any:
+        """Of the parameters' effects."""
+        return self.parameters.catalogue.kernel
+
     def arrays(self) -> tuple[list[float], list[float], list[float]]:
         """p, u and w of a block at rest at the start."""
         u = list(inputs(self.parameters.surface.speed, self.temperature, self.film))
-        return self.parameters.pack(), u, [0.0] * layout.W_SIZE
+        return self.parameters.pack(), u, [0.0] * self.kernel.W_SIZE
 
     def over(self, place: int, values: Array, ask: Callable[..., float]) -> Array:
         """What is asked of p, u, w with each of the values in a place of w."""
@@ -138,42 +128,43 @@ def _settled(asked: _Asked, speed: float) -> float:
         own = {name: getattr(table, name) for name in type(table).model_fields}
         taken = {k: v for k, v in (own | {"speed": speed}).items() if k in arguments(state.rate)}
         if {*taken, state.name} == set(arguments(state.rate)):  # else it stays as at the start
-            place = W_STATE + getattr(layout, state_slot(asked.effect, state.name))
+            place = W_STATE + getattr(asked.kernel, state_slot(asked.effect, state.name))
             w[place] = brentq(
                 lambda q, state=state, taken=taken: state.rate(**taken, **{state.name: q}), 0.0, 1e9
             )
-    friction_in_slip(p, u, w, speed, 0.0, 0.0)
-    return -w[W_FRICTION] / p[P_NORMAL_FORCE]
+    asked.kernel.friction_in_slip(p, u, w, speed, 0.0, 0.0)
+    friction: float = w[asked.kernel.W_FRICTION]
+    return -friction / p[P_NORMAL_FORCE]
 
 
 def _over_hold(asked: _Asked, reach: float) -> LawCurve:
     x = np.geomspace(1e-2, 1e3, POINTS)
     p, u, w = asked.arrays()
-    w[W_STATE + MODE], w[W_STATE + HOLD_SINCE] = float(STICK), 0.0
+    w[W_STATE + asked.kernel.MODE], w[W_STATE + asked.kernel.HOLD_SINCE] = float(STICK), 0.0
     y = np.empty(x.size)
     for i, hold in enumerate(x):
         w[W_STATE + TIME] = hold
-        y[i] = static_coefficient(p, u, w)
+        y[i] = asked.kernel.static_coefficient(p, u, w)
     return LawCurve("time at rest", "s", x, "static friction coefficient", "1", y, True)
 
 
 def _over_memory(asked: _Asked, reach: float) -> LawCurve:
     x = np.linspace(0.0, reach or 1.0, POINTS)
     first = asked.effect.states[0].name
-    place = W_STATE + getattr(layout, state_slot(asked.effect, first))
-    y = asked.over(place, x, kinetic_coefficient)
+    place = W_STATE + getattr(asked.kernel, state_slot(asked.effect, first))
+    y = asked.over(place, x, asked.kernel.kinetic_coefficient)
     return LawCurve("remembered heat", "J", x, "kinetic friction coefficient", "1", y)
 
 
 def _over_distance(asked: _Asked, reach: float) -> LawCurve:
     x = np.linspace(0.0, reach or 1.0, POINTS)
-    y = asked.over(W_STATE + DISTANCE, x, kinetic_coefficient)
+    y = asked.over(W_STATE + DISTANCE, x, asked.kernel.kinetic_coefficient)
     return LawCurve("distance slid", "m", x, "kinetic friction coefficient", "1", y)
 
 
 def _over_place(asked: _Asked, reach: float) -> LawCurve:
     x = np.linspace(0.0, reach or 1.0, POINTS)
-    y = asked.over(W_STATE + X, x, kinetic_coefficient)
+    y = asked.over(W_STATE + X, x, asked.kernel.kinetic_coefficient)
     return LawCurve("place on the surface", "m", x, "kinetic friction coefficient", "1", y)
 
 
@@ -190,21 +181,21 @@ def _over_load(asked: _Asked, reach: float) -> LawCurve:
 def _over_extension(asked: _Asked, reach: float) -> LawCurve:
     p, _, _ = asked.arrays()
     x = np.linspace(-(reach or 0.1), reach or 0.1, POINTS)
-    y = np.array([spring_tension(p, float(extension)) for extension in x])
+    y = np.array([asked.kernel.spring_tension(p, float(extension)) for extension in x])
     return LawCurve("extension of a spring", "m", x, "force of it", "N", y)
 
 
 def _over_velocity(asked: _Asked, reach: float) -> LawCurve:
     p, _, _ = asked.arrays()
     x = np.linspace(-0.5, 0.5, POINTS)
-    y = np.array([-damping_per_speed(p, float(v), 0.0) * v for v in x])
+    y = np.array([-asked.kernel.damping_per_speed(p, float(v), 0.0) * v for v in x])
     return LawCurve("velocity of the block", "m/s", x, "force on it", "N", y)
 
 
 def _over_time(asked: _Asked, reach: float) -> LawCurve:
     p, u, w = asked.arrays()
     x = np.linspace(0.0, reach or 4.0, POINTS)
-    y = np.array([surface_speed(p, u, w, float(t)) for t in x])
+    y = np.array([asked.kernel.surface_speed(p, u, w, float(t)) for t in x])
     return LawCurve("time", "s", x, "speed of the surface", "m/s", y)
 
 
@@ -213,7 +204,7 @@ def _over_temperature(asked: _Asked, reach: float) -> LawCurve:
     x, y = np.linspace(asked.temperature - 12.0, 0.0, POINTS), []
     for degrees in x:
         u[U_TEMPERATURE] = float(degrees)
-        y.append(kinetic_coefficient(p, u, w))
+        y.append(asked.kernel.kinetic_coefficient(p, u, w))
     return LawCurve(
         "interface temperature", "degC", x, "kinetic friction coefficient", "1", np.array(y)
     )

@@ -14,6 +14,8 @@ from typing import Any
 from ..effects.effect import Effect
 
 #: What a function may use that is not of its file: these names, and what it imports from `math`.
+#: By which a module that is made of a text keeps it.
+TEXT = "__text__"
 NAMES = ("abs", "bool", "float", "int", "max", "min", "range")
 
 
@@ -44,7 +46,9 @@ class EffectFunctions:
 
     @cached_property
     def _file(self) -> ast.Module:
-        return ast.parse(inspect.getsource(sys.modules[self.effect.table.__module__]))
+        module = sys.modules[self.effect.table.__module__]
+        # a custom effect's is the text that was executed, not what the file holds by now
+        return ast.parse(vars(module).get(TEXT) or inspect.getsource(module))
 
     @cached_property
     def _defined(self) -> dict[str, ast.FunctionDef]:

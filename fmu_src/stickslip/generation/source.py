@@ -13,7 +13,7 @@ from importlib import resources
 from ..effects import EFFECTS
 from ..effects.effect import Effect
 from ..kernel import MODULES, terms
-from ..kernel.layout import constants
+from ..kernel.layout import constants, value_names
 from .places import ARRAY
 from .terms import terms_source
 
@@ -21,6 +21,12 @@ from .terms import terms_source
 #: parse and write it anew would take a command a tenth of a second.
 _ANNOTATION = re.compile(r": Floats\b")
 _FOR_FILES_ONLY = re.compile(r"(?m)^from (?:\.[\w.]*|__future__) import (?:\([^)]*\)|[^(\n]*)\n+")
+
+#: Beside the kernel's text: files of the package as they are, but for where the kernel's names come
+#: from.
+AS_THEY_ARE = ("draws", "packing", "contradictions", "status")
+_OF_NAMES = "Names of the parameters in the order of the kernel's array ``v``."
+_KERNEL = re.compile(r"(?m)^from (\.|stickslip\.)kernel\.[\w.]+ import")
 
 
 def kernel_source(effects: Sequence[Effect] = EFFECTS) -> str:
@@ -40,6 +46,21 @@ def _source(effects: Sequence[Effect]) -> str:
     return "\n".join(
         f"# {name}\n{made[name] if name in made else _core(name)}\n" for name in MODULES
     )
+
+
+def travelling(effects: Sequence[Effect] = EFFECTS) -> dict[str, str]:
+    """Module -> text of all that travels inside a unit of the block: the kernel, and how named
+    parameters and random numbers enter it. In the order in which each imports those before it."""
+    names = f"NAMES = {value_names(effects)}\n"
+    texts = {"kernel": kernel_source(effects), "names": f'"""{_OF_NAMES}"""\n\n{names}'}
+    for name in AS_THEY_ARE:
+        texts[name] = (resources.files("stickslip") / f"{name}.py").read_text("utf-8")
+    return {name: one_kernel(text) for name, text in texts.items()}
+
+
+def one_kernel(text: str) -> str:
+    """A file of the package where the kernel is one module."""
+    return _KERNEL.sub(r"from \1kernel import", text)
 
 
 def layout_source(effects: Sequence[Effect] = EFFECTS) -> str:

@@ -4,4 +4,4 @@ from __future__ import annotations
 
 
 class PluginError(ValueError):
-    """A file is no plug-in effect, or comes too late; one line: file, line, what is allowed."""
+    """A file is no plug-in effect, or its name is taken; one line: file, line, what is allowed."""

@@ -3,29 +3,34 @@
 from __future__ import annotations
 
 import ast
-import linecache
+import hashlib
 import re
 import sys
 import traceback
-from collections.abc import Iterator
+from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from keyword import iskeyword
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
 from ..effects.candidate import Candidate, Scales
 from ..effects.effect import Effect
+from ..generation.functions import TEXT
 from ..generation.terms import terms_source
-from ..quantity import Table
+from ..quantity import Table, details
 from ..text_file import read_text
-from .active_plugins import GROUP, files
+from ..units import UNITS
 from .check import check_translatable
 from .errors import PluginError
 from .trial import try_terms
 
+#: Entry points of installed distributions: each names a module with an EFFECT.
+GROUP = "stickslip.effects"
+#: What the names of modules that are made of files begin with.
+OUTSIDE = "stickslip.plugins.of_file."
 #: The tables of a scenario that are no effects.
 TABLES = (
     *("rig", "springs", "friction", "surface", "initial", "imperfections", "solver"),
@@ -41,39 +46,61 @@ SCALES = Scales(
 )  # fmt: skip
 
 
-def plugged(known: tuple[Effect, ...]) -> tuple[Effect, ...]:
-    """The effects of this process from outside: of its files, then of what is installed.
+class Source(NamedTuple):
+    """The file of an effect as it was read: its absolute name, and its text."""
 
-    known : the catalogue. Raises PluginError in one line.
+    file: str
+    text: str
+
+
+def source_of(file: str | Path) -> Source:
+    """A file as it is now. Raises PluginError where it cannot be read."""
+    path = Path(file).resolve()
+    try:
+        return Source(str(path), read_text(path, MOST_BYTES))
+    except OSError as error:
+        raise PluginError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise PluginError(f"{path}: byte {error.start + 1} is not UTF-8") from None
+
+
+@cache
+def effect_in(source: Source) -> Effect:
+    """The effect that a file declares: the file is executed, once in a process.
+
+    Raises PluginError in one line.
     """
-    found: dict[str, Effect] = {}
-    for where, effect in (*_of_files(), *_installed()):
-        if effect.id in found or any(effect.id == each.id for each in known):
-            raise PluginError(
-                f"{where}: effect id {effect.id!r} is taken; allowed is another than "
-                f"{', '.join([*(each.id for each in known), *found])}"
-            )
-        found[effect.id] = effect
-    return tuple(found.values())
+    module, file = _module(source), Path(source.file)
+    try:
+        _execute(module, file, source.text)
+        effect = getattr(module, "EFFECT", None)
+        if not isinstance(effect, Effect):
+            what = "no" if effect is None else f"a {type(effect).__name__}, which is no"
+            raise PluginError(f"{file}: has {what} EFFECT; allowed is EFFECT = Effect(...)")
+        _check(effect, file, source.text)
+        return effect
+    except PluginError:
+        del sys.modules[module.__name__]
+        raise
 
 
 def file_of(effect: Effect) -> Path | None:
-    """The file that was named for an effect; None for one of the catalogue or installed."""
-    file = Path(getattr(sys.modules[effect.table.__module__], "__file__", None) or "")
-    return file if file in files() else None
+    """The file that was named for an effect; None for one of the house or installed."""
+    module = sys.modules[effect.table.__module__]
+    outside = module.__name__.startswith(OUTSIDE) and module.__file__
+    return Path(module.__file__) if outside and module.__file__ else None
 
 
-def _of_files() -> Iterator[tuple[Path, Effect]]:
-    for file in files():
-        yield file, effect_in(file)
-
-
-def _installed() -> Iterator[tuple[str, Effect]]:
+@cache
+def installed() -> tuple[Effect, ...]:
+    """The effects of installed distributions. Raises PluginError."""
+    found = []
     for entry in sorted(entry_points(group=GROUP), key=lambda each: each.name):
         where = f"installed effect {entry.name} = {entry.value}"
         if entry.dist is not None:
             where += f" (of {entry.dist.name}; `pip uninstall {entry.dist.name}` removes it)"
-        yield where, _of_entry(entry, where)
+        found.append(_of_entry(entry, where))
+    return tuple(found)
 
 
 def _of_entry(entry: EntryPoint, where: str) -> Effect:
@@ -89,46 +116,14 @@ def _of_entry(entry: EntryPoint, where: str) -> Effect:
     return effect
 
 
-def effect_in(file: Path) -> Effect:
-    """The effect that a file declares: the file is executed. Raises PluginError in one line."""
-    module, text = _module(file)
-    try:
-        return _declared_in(module, file, text)
-    except PluginError:
-        del sys.modules[module.__name__]
-        raise
-
-
-def _declared_in(module: ModuleType, file: Path, text: str) -> Effect:
-    _execute(module, file, text)
-    effect = getattr(module, "EFFECT", None)
-    if not isinstance(effect, Effect):
-        what = "no" if effect is None else f"a {type(effect).__name__}, which is no"
-        raise PluginError(f"{file}: has {what} EFFECT; allowed is EFFECT = Effect(...)")
-    _check(effect, file, text)
-    return effect
-
-
-def _module(file: Path) -> tuple[ModuleType, str]:
-    """An empty module for a file, and the file's text."""
-    try:
-        text = read_text(file, MOST_BYTES)
-    except OSError as error:
-        raise PluginError(f"{file}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise PluginError(f"{file}: byte {error.start + 1} is not UTF-8") from None
-    # below a module that reads the effects, so that a process that is handed a number of one can
-    # find its class
-    name = f"stickslip.effects.outside.{re.sub(r'[^a-zA-Z0-9_]', '_', file.stem)}"
-    if name in sys.modules:
-        raise PluginError(
-            f"{file}: another effect's file has the same name; allowed is one of each name"
-        )
+def _module(source: Source) -> ModuleType:
+    """An empty module for a file: of a name that only this text of it has."""
+    file, digest = Path(source.file), hashlib.sha256("".join(source).encode()).hexdigest()[:12]
+    name = f"{OUTSIDE}{re.sub(r'[^a-zA-Z0-9_]', '_', file.stem)}_{digest}"
     module = sys.modules[name] = ModuleType(name)
-    module.__file__ = str(file)
-    # the terms are read from the text that was executed, not from what the file holds by then
-    linecache.cache[str(file)] = (len(text), None, text.splitlines(keepends=True), str(file))
-    return module, text
+    module.__file__ = source.file
+    vars(module)[TEXT] = source.text
+    return module
 
 
 def _execute(module: ModuleType, file: Path, text: str) -> None:
@@ -208,12 +203,22 @@ def _check_table(effect: Effect, file: Path, text: str) -> None:
             raise PluginError(f"{where} is neither float nor int, which a parameter has to be")
         if field.is_required():
             raise PluginError(f"{where} has no default; needed is one, 0 for a switch")
+        _check_unit(details(field)["unit"], where)
+    for state in effect.states:
+        _check_unit(state.unit, f"{file}: {state.name}")
     try:
         effect.table.model_validate(effect.table().model_dump())
     except ValidationError as error:
         raise PluginError(
             f"{file}: default of {_said(error)}; allowed is one in its bounds"
         ) from None
+
+
+def _check_unit(unit: str, where: str) -> None:
+    if unit not in UNITS:
+        raise PluginError(
+            f"{where} is in {unit!r}, which no unit has; allowed is one of {', '.join(UNITS)}"
+        )
 
 
 def _check_candidates(effect: Effect, file: Path, where: str) -> None:

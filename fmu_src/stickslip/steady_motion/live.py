@@ -9,7 +9,6 @@ import numpy as np
 
 from ..arrays import STATE as NAMES
 from ..arrays import RunArrays, inputs, interface_temperature
-from ..kernel.layout import MODE, SHOWN, STICK, Z_STEP, X
 from ..parameters import Parameters
 
 #: x, y (m), phi (rad), vx, vy (m/s), omega (rad/s)
@@ -55,7 +54,7 @@ class LiveRun:
     def __init__(self, parameters: Parameters, interface: Interface = DRY) -> None:
         temperature = interface_temperature(parameters, interface.temperature)
         u = inputs(parameters.surface.speed, temperature, interface.film_thickness)
-        self._run = RunArrays.begin(parameters.pack(), u)
+        self._run = RunArrays.begin(parameters.pack(), u, catalogue=parameters.catalogue)
 
     @property
     def time(self) -> float:
@@ -65,17 +64,17 @@ class LiveRun:
     @property
     def state(self) -> np.ndarray:
         """(6,) x, y, phi, vx, vy, omega; a copy."""
-        return np.array(self._run.z[SHOWN + X : SHOWN + X + STATE])
+        return np.array(self._run.state)
 
     @property
     def sticks(self) -> bool:
         """Does the contact hold?"""
-        return bool(self._run.z[SHOWN + MODE] == STICK)
+        return self._run.sticks
 
     @property
     def step(self) -> float:
         """The integrator's step, s."""
-        return float(self._run.z[Z_STEP])
+        return float(self._run.z[self._run.layout.Z_STEP])
 
     def copy(self) -> Self:
         """The same instant, to go on differently from."""
@@ -97,7 +96,7 @@ class LiveRun:
 
     def displace(self, change: np.ndarray) -> Self:
         """Add ``change`` (6,) to the state; a contact that holds keeps the surface's velocity."""
-        self._run.z[SHOWN + X : SHOWN + X + STATE] += change
+        self._run.state[:] += change
         if self.sticks:
             self._run.follow_surface()
         if not self._run.settle(self.time):

@@ -17,7 +17,7 @@ from baseline import Figure, arguments, write
 from mechanics import median_seconds
 from scipy.integrate import solve_ivp
 from stickslip import Initial, Parameters, Rig, Solver, simulate
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import contact, layout, motion
 
 SPEED, DURATION = 0.15, 20.0
@@ -160,7 +160,7 @@ def compare(name: str) -> dict[str, Figure]:
     figures = {f"{name}: kernel": Figure(1e3 * seconds, "ms")}
     for language, kernel, array in (
         ("Python", PYTHON, list),
-        ("compiled", compiled_kernel(), np.array),
+        ("compiled", CATALOGUE.compiled, np.array),
     ):
         ScipyRun(name, kernel, array).break_aways(1e-3)  # compiles
         peer, error = same_accuracy(exact, ours, ScipyRun(name, kernel, array))

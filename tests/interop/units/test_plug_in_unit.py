@@ -12,22 +12,21 @@ EFFECT = Path(__file__).resolve().parents[2] / "examples" / "effects" / "flash_h
 #: Builds a unit and runs it through fmpy, beside the model in this process, interpreted.
 PROGRAM = """
 import json, sys
-from stickslip.effects import use
-use(sys.argv[1])
 import numpy as np
 from fmpy import read_model_description, simulate_fmu
 from stickslip import Parameters, simulate
 from cosim.fmu.build import build_fmu
 from stickslip.generation.platforms import this_platform
 
-fmu = build_fmu(sys.argv[2], sys.argv[3], [this_platform()])
-parameters = Parameters(
+Own = Parameters.with_effects(sys.argv[1])
+fmu = build_fmu(sys.argv[2], sys.argv[3], [this_platform()], Own.catalogue)
+parameters = Own(
     rig={"spring_natural_length": 0.17},
     initial={"vx": 0.15},
     flash_heating={"fall": 0.6, "onset": 0.06},
 )
 model = simulate(parameters, 1.0, 0.02, interpreted=True)
-plain = simulate(parameters.model_copy(update={"flash_heating": Parameters().flash_heating}),
+plain = simulate(parameters.model_copy(update={"flash_heating": Own().flash_heating}),
     1.0, 0.02, interpreted=True)
 unit = simulate_fmu(str(fmu), stop_time=1.0, step_size=0.02, output_interval=0.02,
     start_values=parameters.flat() | {"surface_speed": 0.15}, output=["x", "heat", "phi"])
@@ -65,14 +64,13 @@ def test_the_unit_moves_as_the_model_does(unit, tmp_path):
 
 WITHOUT = """
 import sys
-from stickslip.effects import use
-use(sys.argv[1])
+from stickslip import Parameters
 from stickslip.generation import compiler
 compiler.has_zig = lambda: False
 compiler.system_compiler = lambda: None
 from cosim.fmu.build import FmuBuildError, build_fmu
 try:
-    build_fmu(sys.argv[2])
+    build_fmu(sys.argv[2], catalogue=Parameters.with_effects(sys.argv[1]).catalogue)
 except FmuBuildError as error:
     print(error)
 """

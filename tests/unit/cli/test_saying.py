@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from stickslip import Parameters, compiled, machine_code, simulate
+from stickslip.catalogue import CATALOGUE
 
 from cosim.cli import main
 from cosim.cli.arguments import COMMANDS, parser
@@ -105,9 +106,9 @@ def not_compiled(monkeypatch, tmp_path):
     monkeypatch.setattr(machine_code, "_folders", lambda: [tmp_path / "cache"])
     monkeypatch.setattr(machine_code, "PREBUILT", "none")
     monkeypatch.setattr(machine_code, "CALLED_BY_NAME", ("-O0", "-fvisibility=default"))  # quick
-    compiled.compiled_kernel.cache_clear()
+    vars(CATALOGUE).pop("compiled", None)
     yield
-    compiled.compiled_kernel.cache_clear()
+    vars(CATALOGUE).pop("compiled", None)
 
 
 COMPILING = "compiling the mechanical model for this machine, once: a few seconds"
@@ -122,7 +123,7 @@ def test_what_compiles_says_so_before_it_begins(case, not_compiled, capsys, monk
     assert main(["simulate", case]) == 0
     assert said[0].splitlines()[-1] == f"note: {COMPILING}"
     assert "compiling" not in capsys.readouterr().err
-    compiled.compiled_kernel.cache_clear()
+    vars(CATALOGUE).pop("compiled", None)
     assert main(["simulate", case, "-o", "again"]) == 0
     assert "compiling" not in capsys.readouterr().err
 
@@ -132,7 +133,7 @@ def test_quiet_does_not_say_what_compiles_and_python_does(case, not_compiled, ca
     assert capsys.readouterr().err == ""
     for file in Path("cache").iterdir():
         file.unlink()
-    compiled.compiled_kernel.cache_clear()
+    vars(CATALOGUE).pop("compiled", None)
     caplog.clear()
     simulate(Parameters(), 0.01)
     (record,) = caplog.records

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import tomli_w
 from plan_campaigns import made, named
+from stickslip import EFFECTS
 
 from cosim.cli import main
 from cosim.gap.data.errors import CampaignError
@@ -156,7 +157,7 @@ def test_pairs_are_those_that_mislead_two_readers_of_twenty(laws):
 
 
 def test_effects_without_a_chance_are_said(asked):
-    said = silent(laws_of(*asked))
+    said = silent(laws_of(*asked), EFFECTS)
     assert "y and phi" in said["lateral_friction"]
     assert "same load" in said["load_dependence"]
     assert "mu_s" in said["stick_stiffness"]

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from stickslip import Parameters, compiled, machine_code, simulate
 from stickslip.arrays import RunArrays, inputs
+from stickslip.catalogue import CATALOGUE
 from stickslip.generation.platforms import this_machine
 from stickslip.kernel.layout import O_SIZE
 
@@ -127,11 +128,11 @@ def test_without_a_compiler_it_runs_interpreted_and_says_so(tmp_path, monkeypatc
     monkeypatch.setattr(machine_code, "PREBUILT", "none")  # an installed package has one
     monkeypatch.setattr(shutil, "which", lambda name: None)
     monkeypatch.setattr("stickslip.generation.compiler.has_zig", lambda: False)
-    compiled.compiled_kernel.cache_clear()
+    vars(CATALOGUE).pop("compiled", None)
     try:
         slow = simulate(Parameters(), 1.0)
     finally:
-        compiled.compiled_kernel.cache_clear()
+        vars(CATALOGUE).pop("compiled", None)
     assert "`pip install ziglang`" in caplog.text and "interpreted" in caplog.text
     monkeypatch.undo()
     np.testing.assert_array_equal(slow["x"], simulate(Parameters(), 1.0)["x"])

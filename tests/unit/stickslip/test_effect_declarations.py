@@ -4,7 +4,7 @@ import importlib.util
 import sys
 
 import pytest
-from stickslip.effects import catalogue
+from stickslip import effects
 from stickslip.effects.effect import Effect
 from stickslip.generation.places import PACKED
 from stickslip.generation.terms import terms_source
@@ -258,6 +258,6 @@ def test_a_term_from_another_file_is_refused(declared):
 
 def test_a_file_without_an_effect_and_an_effect_twice():
     with pytest.raises(ValueError, match=r"^effects/periodic.py declares no Effect named EFFECT$"):
-        catalogue(["periodic"])
+        effects.declared(["periodic"])
     with pytest.raises(ValueError, match=r"^effect run_in: declared twice"):
-        catalogue(["friction.run_in", "friction.run_in"])
+        effects.declared(["friction.run_in", "friction.run_in"])

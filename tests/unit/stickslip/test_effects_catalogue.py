@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from stickslip import EFFECTS, Parameters, simulate
+from stickslip import EFFECTS, Parameters, simulate, units
 from stickslip.effects.effect import AXES
 from stickslip.parameters import EffectTables
 
-from cosim.fmu import units, variables
+from cosim.fmu import variables
 
 EACH = pytest.mark.parametrize("effect", EFFECTS, ids=lambda effect: effect.id)
 

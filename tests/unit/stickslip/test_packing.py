@@ -12,7 +12,7 @@ from contradictory import CONTRADICTIONS, CURVE, MU, TABLE, places
 from effect_cases import IDS, draw_parameters
 from stickslip import EFFECTS, Parameters
 from stickslip import contradictions as words
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 from stickslip.draws import draws
 from stickslip.generation.source import kernel_source
 from stickslip.kernel import layout
@@ -102,7 +102,7 @@ def cases(count):
 
 
 def test_compiled_and_interpreted_make_the_same_vector():
-    kernel = compiled_kernel()
+    kernel = CATALOGUE.compiled
     with warnings.catch_warnings(action="ignore"):
         for values in cases(40):
             v = np.array(in_order(values))

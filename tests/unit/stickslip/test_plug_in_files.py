@@ -5,8 +5,8 @@ import subprocess
 import sys
 
 import pytest
-from stickslip.plugins import PluginError, use
-from stickslip.plugins.load import TABLES, effect_in
+from stickslip.plugins.errors import PluginError
+from stickslip.plugins.load import TABLES, effect_in, source_of
 
 from cosim.cli.authoring.effect import text_of
 from cosim.scenario import Scenario
@@ -23,7 +23,7 @@ def said(tmp_path):
         file = tmp_path / f"brush{len(list(tmp_path.iterdir()))}.py"
         file.write_text(text, encoding="utf-8")
         with pytest.raises(PluginError) as refusal:
-            effect_in(file)
+            effect_in(source_of(file))
         message = str(refusal.value)
         assert message.startswith(str(file)) and "\n" not in message
         return message.removeprefix(str(file))
@@ -38,7 +38,7 @@ def line_of(text, part):
 def test_the_template_is_an_effect_of_the_file_s_name(tmp_path):
     file = tmp_path / "brush.py"
     file.write_text(GOOD, encoding="utf-8")
-    effect = effect_in(file)
+    effect = effect_in(source_of(file))
     assert (effect.id, effect.table.__name__) == ("brush", "Brush")
     assert "template" not in GOOD.lower()
     assert [path.name for path in tmp_path.iterdir()] == ["brush.py"]  # no __pycache__
@@ -131,13 +131,13 @@ def test_a_table_without_words_is_none(said):
 
 def test_a_file_that_is_not_there(tmp_path):
     with pytest.raises(PluginError, match="No such file"):
-        effect_in(tmp_path / "none.py")
+        source_of(tmp_path / "none.py")
     (tmp_path / "latin.py").write_bytes(b"# \xff")
     (tmp_path / "binary.py").write_bytes(b"x = 1\x00")
     with pytest.raises(PluginError, match=r"binary\.py: .*null bytes"):
-        effect_in(tmp_path / "binary.py")
+        effect_in(source_of(tmp_path / "binary.py"))
     with pytest.raises(PluginError, match="byte 3 is not UTF-8"):
-        effect_in(tmp_path / "latin.py")
+        source_of(tmp_path / "latin.py")
 
 
 def test_no_effect_is_called_as_a_table_of_a_scenario():
@@ -149,29 +149,6 @@ def catalogue_ids():
     from stickslip import EFFECTS
 
     return {effect.id for effect in EFFECTS}
-
-
-def test_files_come_before_the_model(tmp_path):
-    with pytest.raises(PluginError, match="before anything else of stickslip is imported"):
-        use(tmp_path / "late.py")
-
-
-PROGRAM = """
-import pickle, sys
-from stickslip.effects import use
-use(sys.argv[1])
-from stickslip import EFFECTS, Parameters, simulate
-on = {"rig": {"spring_natural_length": 0.17}, "initial": {"vx": 0.15}}
-runs = [
-    simulate(Parameters(**on, brush={"fall": fall}), 0.6, 0.1, interpreted=True)
-    for fall in (0.0, 0.5)
-]
-differ = abs(runs[0]["x"] - runs[1]["x"]).max() > 1e-4
-exact = max(abs(run["energy_residual"]).max() for run in runs) < 1e-9
-open(sys.argv[2], "wb").write(pickle.dumps(Parameters(brush={"fall": 0.5}).brush))
-print(EFFECTS[-1].id, differ, exact)
-"""
-UNPICKLED = "import pickle, sys; print(pickle.load(open(sys.argv[1], 'rb')).fall)"
 
 
 @pytest.fixture(scope="module")
@@ -191,43 +168,23 @@ def alone(tmp_path_factory):
     return run
 
 
-def test_it_moves_the_block_and_other_processes_can_have_its_numbers(alone, tmp_path):
-    """Interpreted: what is compiled is the same text (tests/interop/units/test_plug_in_unit.py)."""
-    numbers = tmp_path / "numbers"
-    assert alone(PROGRAM, "brush.py", numbers) == ["brush", "True", "True"]
-    assert alone(UNPICKLED, numbers, STICKSLIP_EFFECTS="brush.py") == ["0.5"]
-
-
-EARLY = """
-import pathlib
-from stickslip.effects import PluginError, use
-pathlib.Path("early.py").write_text("from stickslip import Parameters")
-use("early.py")
-try:
-    from stickslip import EFFECTS
-except PluginError as error:
-    print(str(error).partition("early.py")[2])
-"""
-
-
-def test_a_file_that_imports_what_is_made_of_it(alone):
-    said = " ".join(alone(EARLY))
-    assert said.startswith(", line 1: ImportError: an effect's file imports the model")
-    assert "allowed is stickslip.effects" in said
+def test_a_unit_that_no_unit_has(said):
+    text = GOOD.replace('"m/s"', '"furlong"')
+    assert "onset is in 'furlong'" in said(text) and "m/s2" in said(text)
 
 
 INSTALLED = """
-from stickslip import EFFECTS, Parameters
-from stickslip.kernel import layout
-print(EFFECTS[-1].id, Parameters().grease.fall, layout.P_GREASE_FALL > layout.P_MASS)
+from cosim import read_scenario
+scenario = read_scenario("reference")
+print(scenario.catalogue.effects[-1].id, scenario.grease.fall)
 """
 
 
-def test_an_installed_one_is_there_by_itself(alone, tmp_path):
+def test_scenarios_have_an_installed_one_by_themselves(alone, tmp_path):
     (tmp_path / "grease.py").write_text(text_of("grease"), encoding="utf-8")
     info = tmp_path / "grease-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: grease\nVersion: 1.0\n")
     (info / "entry_points.txt").write_text("[stickslip.effects]\ngrease = grease:EFFECT\n")
     path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
-    assert alone(INSTALLED, PYTHONPATH=path) == ["grease", "0.0", "True"]
+    assert alone(INSTALLED, PYTHONPATH=path) == ["grease", "0.0"]

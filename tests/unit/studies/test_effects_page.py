@@ -5,27 +5,24 @@ import json
 import numpy as np
 import pytest
 from stickslip import EFFECTS
+from stickslip.catalogue import CATALOGUE
 
 from cosim.cli import main
 from cosim.report.style import shown
 from cosim.studies.effects import page as effects_page
-from cosim.studies.effects.page import CASES
 
 IDS = [entry.id for entry in EFFECTS]
+ENTRIES = [effects_page.Entry(effect, CATALOGUE) for effect in EFFECTS]
 
 
-def test_every_effect_has_a_case():
-    assert set(CASES) == set(IDS)
-
-
-@pytest.mark.parametrize("effect", IDS)
-def test_the_case_shows(effect):
+@pytest.mark.parametrize("entry", ENTRIES, ids=IDS)
+def test_the_case_shows(entry):
     """The motion differs by more than a tenth of its swing: the figure has something to say."""
-    plain, shown = (effects_page.motion(effect, on) for on in (False, True))
-    begin, end = CASES[effect].window
+    plain, shown = (effects_page.motion(entry, on) for on in (False, True))
+    begin, end = entry.effect.case.window
     assert plain.time[-1] == shown.time[-1] == end  # neither run gave up
     assert np.max(np.abs(plain["x"] - shown["x"])) > 0.1 * np.ptp(plain["x"])
-    aside = effect in ("lateral_friction", "turning_surface", "spring_misalignment")
+    aside = entry.effect.id in ("lateral_friction", "turning_surface", "spring_misalignment")
     assert aside == bool({"y", "phi"} & set(effects_page.channels_shown(plain, shown, begin)))
 
 
@@ -47,7 +44,7 @@ def test_command(tmp_path, capsys):
 
 def test_all_effects_are_seen_at_a_glance():
     """A panel each, with two curves: nobody has to unfold them to compare."""
-    seen = [ax for ax in shown(effects_page.draw_overview, IDS).axes if ax.get_visible()]
+    seen = [ax for ax in shown(effects_page.draw_overview, ENTRIES).axes if ax.get_visible()]
     assert [ax.get_title(loc="left") for ax in seen] == IDS
     assert all(len(ax.lines) >= 2 for ax in seen)
 
@@ -56,10 +53,10 @@ def test_all_effects_are_seen_at_a_glance():
 def test_what_was_drawn_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, drawn):
     effect_figure = effects_page.effect_figure
 
-    def interrupted(effect_id):
-        if effect_id == "run_in" or not drawn:
+    def interrupted(entry):
+        if entry.effect.id == "run_in" or not drawn:
             raise KeyboardInterrupt
-        return effect_figure(effect_id)
+        return effect_figure(entry)
 
     monkeypatch.setattr(effects_page, "effect_figure", interrupted)
     assert main(["effects", "run_in", "film_drag", "-o", str(tmp_path)]) == 1

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 import xarray as xr
 from stickslip import Friction, Parameters, Rig, Surface, simulate
+from stickslip.catalogue import CATALOGUE
 
 from cosim.studies.sweep import SweepError, SweepStopped, features, product_grid, sweep
 from cosim.studies.sweep import combination as combination_module
 from cosim.studies.sweep import run as run_module
-from cosim.studies.sweep import store as store_module
 from cosim.studies.sweep.store import Store
 
 BASE = Parameters(rig=Rig(degrees_of_freedom=("x",)), surface=Surface(run_up_time=0.5))
@@ -92,8 +92,8 @@ def test_what_changed_is_computed_and_nothing_else(tmp_path, computed, monkeypat
     assert len(computed) == 14
     sweep(BASE, VARY, **SHORT | {"duration": 3.0}, folder=tmp_path)
     assert len(computed) == 20
-    for module in (combination_module, run_module, store_module):
-        monkeypatch.setattr(module, "model_version", lambda: "0" * 32)
+    for module in (combination_module, run_module):
+        monkeypatch.setattr(module, "model_version", lambda catalogue: "0" * 32)
     sweep(BASE, VARY, **SHORT, folder=tmp_path)
     assert len(computed) == 26, "another version of the model"
 
@@ -103,15 +103,15 @@ def test_an_edited_term_is_another_version_and_a_comment_is_not(monkeypatch, cou
     """Also one that enters when parameters are packed, before the motion begins."""
     version = combination_module.model_version.__wrapped__
     before, term = version(), "(normal_force / reference_force) ** (-exponent)"
-    source = combination_module.kernel_source()
+    source = CATALOGUE.text
     assert term in source
     edited = source.replace(term, f"2.0 * {term}") if counts else f"{source}# words"
-    monkeypatch.setattr(combination_module, "kernel_source", lambda: edited)
+    monkeypatch.setitem(vars(CATALOGUE), "text", edited)
     assert (version() != before) is counts
 
 
 def test_a_worker_with_another_model_is_refused(monkeypatch):
-    monkeypatch.setattr(combination_module, "model_version", lambda: "0" * 32)
+    monkeypatch.setattr(combination_module, "model_version", lambda catalogue: "0" * 32)
     with pytest.raises(SweepStopped, match="has another version of the model"):
         sweep(BASE, VARY, **SHORT)
 
@@ -159,7 +159,7 @@ sweep(Parameters(), {{"rig.mass": [0.3 + 0.1 * i for i in range(10)]}}, duration
 """
     ended = subprocess.run([sys.executable, "-c", script], stderr=subprocess.DEVNULL)
     assert ended.returncode == -signal.SIGKILL
-    assert len(Store(tmp_path).read()) == 5
+    assert len(Store(tmp_path, combination_module.model_version()).read()) == 5
 
 
 def test_a_killed_process_of_the_pool_is_replaced(tmp_path, monkeypatch):

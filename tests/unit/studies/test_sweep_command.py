@@ -15,6 +15,7 @@ from cosim import read_scenario
 from cosim.cli.studies import sweep as sweep_command
 from cosim.studies.sweep import Run, SweepError
 from cosim.studies.sweep.axis import parse_vary
+from cosim.studies.sweep.combination import model_version
 from cosim.studies.sweep.plan import BELTS, plan_grid, repeats_grid
 from cosim.studies.sweep.store import Store
 
@@ -164,7 +165,7 @@ def test_a_signal_to_all_processes_loses_nothing(tmp_path, wanted, chunks):
     assert (process.returncode, out) == (1, "")
     assert err.startswith("error: interrupted; what is finished is kept in ")
     assert err.count("\n") == 1
-    kept = Store(tmp_path).read()
+    kept = Store(tmp_path, model_version()).read()
     plan = plan_grid(read_scenario("test_plan")).keys(Run(30.0, 0.01))
     assert chunks <= len(kept) < 1306 and kept.keys() <= set(plan)
     assert not list(tmp_path.rglob("*.partial"))

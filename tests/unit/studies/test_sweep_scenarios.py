@@ -140,9 +140,9 @@ def test_what_cannot_be_is_refused_before_anything_runs(texts, line, monkeypatch
     assert "\n" not in str(refused.value)
 
 
-def test_other_scenarios_tables_take_the_base_s_place():
+def test_another_scenario_takes_the_base_s_place():
     slab = read_scenario("slab")
-    whole = changed(SHORT, {"scenario": slab.to_tables(), "rig.mass": 1.25})
+    whole = changed(SHORT, {"scenario": slab, "rig.mass": 1.25})
     assert whole.rig.surface == "slab" and whole.rig.mass == 1.25
     assert SHORT.rig.surface == "belt"
 

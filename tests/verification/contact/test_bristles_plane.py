@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from stickslip import Parameters
 from stickslip.arrays import RunArrays
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import layout
 from stickslip.kernel.bristles.law import (
     bristle_energy,
@@ -139,7 +139,7 @@ def test_the_plane_s_motion_is_that_of_a_stiff_solver():
     }
     p, u = with_bristles(Parameters(**tables), 5e-5).pack(), np.zeros(layout.U_SIZE)
     u[layout.U_SPEED], u[layout.U_TEMPERATURE] = 0.05, -8.0
-    kernel, w = compiled_kernel(), np.zeros(layout.W_SIZE)
+    kernel, w = CATALOGUE.compiled, np.zeros(layout.W_SIZE)
     w[layout.W_STATE + layout.BRISTLES] = 1.0
 
     def slopes(t, y):

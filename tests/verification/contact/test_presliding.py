@@ -19,7 +19,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from stickslip import Parameters, simulate
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import layout
 
 GRAVITY = 9.81
@@ -194,7 +194,7 @@ def in_the_plane(case: str, creep: float) -> Parameters:
 
 def with_inertia(parameters: Parameters, end: float) -> np.ndarray:
     """Place at ``end`` by the stiff equations, from the velocity that a creep begins with."""
-    kernel = compiled_kernel()
+    kernel = CATALOGUE.compiled
     p, u, w = np.array(parameters.pack()), np.zeros(layout.U_SIZE), np.zeros(layout.W_SIZE)
     u[layout.U_SPEED] = parameters.surface.speed
     kappa = p[layout.P_LATERAL]
@@ -267,7 +267,7 @@ def test_loads_that_change_at_every_step_do_not_tear_the_stick():
     From c = v_c / (mu_s N): x' = V - c (K x + q t), of second order in the step if the force is
     that of the middle.
     """
-    kernel = compiled_kernel()
+    kernel = CATALOGUE.compiled
     blocks = LINE | {"surface": {"speed": SPEED, "run_up_time": 0.0}}
     p, u = np.array(Parameters(**blocks).pack()), np.zeros(layout.U_SIZE)
     u[layout.U_SPEED], growth = SPEED, 0.15 * HOLD

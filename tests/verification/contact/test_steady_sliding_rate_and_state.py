@@ -9,7 +9,7 @@ import pytest
 from kernel_steps import memory_of
 from scipy.integrate import solve_ivp
 from stickslip import Parameters
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import layout
 
 
@@ -32,7 +32,7 @@ def rig(ratio: float) -> Parameters:
 
 def creep_from(memory, duration: float):
     """Blocks at the first break-away and ``duration`` (s) later, and how many steps crept."""
-    kernel = compiled_kernel()
+    kernel = CATALOGUE.compiled
     p, u, z = (np.array(part) for part in (memory.p, memory.u, memory.z))
     w, e = np.zeros(layout.W_SIZE), np.zeros(layout.E_FIRST)
     begin, crept = None, 0
@@ -48,7 +48,7 @@ def creep_from(memory, duration: float):
 
 def radau(memory, begin, end: float) -> np.ndarray:
     """x, y, phi, their rates, age and sliding distance at ``end``, by the stiff equations."""
-    kernel = compiled_kernel()
+    kernel = CATALOGUE.compiled
     p, u, w = np.array(memory.p), np.array(memory.u), np.zeros(layout.W_SIZE)
     scale = np.array([1.0, p[layout.P_LATERAL], p[layout.P_LATERAL] * p[layout.P_RADIUS]])
     inertia = np.array([p[layout.P_MASS], p[layout.P_MASS], p[layout.P_INERTIA]])

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad, quad, solve_ivp
 from stickslip import Parameters, friction_coefficient, simulate
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 from stickslip.kernel.friction.coefficient import holding_coefficient, local_coefficient
 from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_SIZE
 
@@ -182,7 +182,7 @@ def test_the_law_is_the_same_number_compiled():
     u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
     for u[U_TEMPERATURE] in (-16.0, -3.3, -1e-6, 0.0):
         for speed in SPEEDS:
-            compiled = compiled_kernel().local_coefficient(
+            compiled = CATALOGUE.compiled.local_coefficient(
                 np.array(p), np.array(u), np.array(w), DRY, speed
             )
             assert compiled == local_coefficient(p, u, w, DRY, speed)

@@ -11,7 +11,7 @@ from kernel_steps import largest_step_difference, memory_of
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from stickslip import Parameters, friction_coefficient, simulate
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 
 from thermal import Ambient, Belt, BeltIceModel, Contact, Ice, ThermalParameters
 from thermal.materials import WATER_DENSITY, WATER_VISCOSITY
@@ -80,7 +80,7 @@ def test_interpreted_and_compiled_take_the_same_step(film):
         update={"rig": plane.rig.model_copy(update={"degrees_of_freedom": ("x", "y", "phi")})}
     )
     memory = memory_of(plane, film_thickness=film)
-    assert largest_step_difference(compiled_kernel(), memory, 60) == 0.0
+    assert largest_step_difference(CATALOGUE.compiled, memory, 60) == 0.0
 
 
 def test_a_film_that_nothing_feels_changes_no_bit():

@@ -8,7 +8,7 @@ that of the last halving, so it also says that nothing is left over at off.
 import numpy as np
 import pytest
 from stickslip import EFFECTS, Parameters, simulate
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import layout
 from stickslip.quantity import details
 
@@ -80,7 +80,7 @@ def with_effect(base: dict, name: str, share: float, size: float, other: dict) -
 
 def position_in_slip(parameters: Parameters) -> np.ndarray:
     """(x, y, a phi) in m after 0.2 s on a film of water, 2 K warmer than the reference."""
-    kernel = compiled_kernel()
+    kernel = CATALOGUE.compiled
     p, u, z = np.array(parameters.pack()), np.zeros(layout.U_SIZE), np.zeros(layout.Z_SIZE)
     w, e = np.zeros(layout.W_SIZE), np.zeros(layout.E_FIRST)
     u[layout.U_SPEED], u[layout.U_TEMPERATURE], u[layout.U_FILM] = (

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from kernel_steps import largest_step_difference, memory_of
 from scipy.interpolate import PchipInterpolator
 from stickslip import Parameters, friction_coefficient, simulate
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 from stickslip.friction.table_file import table_of
 from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.friction.table import table_coefficient
@@ -141,4 +141,4 @@ def test_interpreted_and_compiled_take_the_same_step():
     for _ in range(5):
         mu = [draw.uniform(0.05, 0.3) for _ in SPEED]
         memory = memory_of(Parameters(**table(SPEED, mu), **PLANAR), -8.0, 0.0)
-        assert largest_step_difference(compiled_kernel(), memory, 60) == 0.0
+        assert largest_step_difference(CATALOGUE.compiled, memory, 60) == 0.0

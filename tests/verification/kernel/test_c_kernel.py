@@ -19,19 +19,20 @@ from effect_cases import (
 )
 from kernel_steps import largest_step_difference, memory_of
 from stickslip import Initial, LateralFriction, Parameters, Rig, Surface, simulate
-from stickslip.compiled import Library, compiled_kernel
+from stickslip.catalogue import CATALOGUE
+from stickslip.compiled import Library
 
 SETS, STEPS = 10, 60
 FILM = 3e-6  # m of water, which mixed_lubrication feels
 
 
 def test_what_is_compared_is_compiled():
-    assert isinstance(compiled_kernel(), Library)
+    assert isinstance(CATALOGUE.compiled, Library)
 
 
 def assert_same_steps(parameters, draw):
     memory = memory_of(parameters, draw.uniform(-20.0, 2.0), FILM)
-    assert largest_step_difference(compiled_kernel(), memory, STEPS) == 0.0
+    assert largest_step_difference(CATALOGUE.compiled, memory, STEPS) == 0.0
 
 
 @pytest.mark.parametrize("effect", IDS)
@@ -73,7 +74,7 @@ def test_the_comparison_sees_a_difference():
     """A parameter that is off by 1e-9 for one of the two shows."""
     memory = memory_of(draw_parameters((), random.Random(1)))
     other = np.array(memory.p) * (1.0 + 1e-9)
-    assert largest_step_difference(compiled_kernel(), memory, STEPS, other_p=other) > 1e-11
+    assert largest_step_difference(CATALOGUE.compiled, memory, STEPS, other_p=other) > 1e-11
 
 
 PLANAR = LateralFriction(ratio=1.0)

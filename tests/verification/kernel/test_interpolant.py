@@ -7,7 +7,7 @@ import pytest
 from effect_cases import IDS, draw_parameters
 from kernel_steps import memory_of
 from stickslip import Parameters, Solver, simulate
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import advance, layout, outputs
 from stickslip.kernel.interpolant import copy_instant, interpolate, set_interpolant
 from stickslip.kernel.runge_kutta import begin_step, state_scale, take_step
@@ -75,7 +75,7 @@ def test_samples_are_as_exact_as_the_tolerance_asks(effect):
     test itself errs.
     """
     draw = random.Random(f"inside {effect}")
-    kernel = compiled_kernel()
+    kernel = CATALOGUE.compiled
     for _ in range(3):
         memory = memory_of(draw_parameters((effect,) if effect else (), draw))
         p, u, z = (np.array(part) for part in (memory.p, memory.u, memory.z))

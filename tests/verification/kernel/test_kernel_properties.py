@@ -8,7 +8,7 @@ from effect_cases import IDS, draw_parameters
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from stickslip import Parameters, Surface, simulate
-from stickslip.compiled import compiled_kernel
+from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import layout
 from stickslip.kernel.contact import limit_surface_ratio
 from stickslip.kernel.friction.force import friction_in_slip
@@ -22,7 +22,7 @@ CLOCKED = {"speed_ripple", "rate_and_state"}
 
 def run_from(parameters: Parameters, start: float, times: np.ndarray) -> tuple:
     """Outputs (times, O_SIZE), events (time since the start, mode, x) of a run begun at start."""
-    kernel = compiled_kernel()
+    kernel = CATALOGUE.compiled
     p, u, z = np.array(parameters.pack()), np.zeros(layout.U_SIZE), np.zeros(layout.Z_SIZE)
     w, e = np.zeros(layout.W_SIZE), np.zeros(layout.E_FIRST + 3000)
     u[layout.U_SPEED] = parameters.surface.speed
