@@ -13,6 +13,7 @@ from typing import Any
 from markupsafe import Markup
 from stickslip.catalogue import CATALOGUE, Catalogue, default_catalogue
 from stickslip.kernel import layout
+from stickslip.kernel.tables import value_names
 from stickslip.ports import OUTPUTS
 
 from cosim.explore.controls import groups
@@ -68,7 +69,7 @@ def page_data(
         "presets": presets,
         "chosen": presets.index(chosen),
         "groups": groups(catalogue),
-        "names": list(layout.value_names(catalogue.effects)),
+        "names": list(value_names(catalogue.effects)),
         "outputs": {port.name: getattr(layout, port.slot) for port in OUTPUTS},
         "units": {port.name: port.unit or "1" for port in OUTPUTS},
         "sizes": {

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from stickslip.catalogue import CATALOGUE, Catalogue
-from stickslip.kernel import layout
+from stickslip.kernel import layout, tables
 from stickslip.units import UNITS
 
 from cosim.fmu.variables import Variable
@@ -107,7 +107,7 @@ def state_references(declared: Sequence[Variable], catalogue: Catalogue) -> list
 
 def _slots(catalogue: Catalogue) -> list[str]:
     """Names of the states in an instant of the kernel, in order; time stands before them."""
-    names = [name for name, _ in layout.instant(catalogue.effects)]
+    names = [name for name, _ in tables.instant(catalogue.effects)]
     return [*names[1 : catalogue.kernel.STATES + 1], "SLIP_TIME"]
 
 

@@ -23,7 +23,7 @@ from stickslip.contradictions import COMPUTABLE, SAID
 from stickslip.generation import c as c_generation
 from stickslip.generation.c import c_header, c_source
 from stickslip.generation.platforms import Platform
-from stickslip.kernel.layout import value_names
+from stickslip.kernel.tables import value_names
 from stickslip.status import WHY_NOT
 
 from cosim.files import write_bytes

@@ -1,5 +1,5 @@
 """Names of the parameters in the order of the kernel's array ``v``; in the FMU they are a list."""
 
-from .kernel.layout import value_names
+from .kernel.tables import value_names
 
 NAMES = value_names()

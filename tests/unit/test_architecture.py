@@ -85,7 +85,7 @@ OPEN = {
         *("cosim.report.style", "cosim.report.page", "cosim.report.live", "cosim.report.files"),
         *("cosim.report.coupling", "cosim.report.columns", "cosim.report.material"),
     ),
-    "stickslip.kernel": ("stickslip.kernel.layout",),
+    "stickslip.kernel": ("stickslip.kernel.layout", "stickslip.kernel.tables"),
 }
 #: Folders whose files beside folders are no rooms, as they and the folders know each other: the
 #: kernel is one text, whichever folder a function of it stands in; the parameters of the whole are
@@ -274,7 +274,7 @@ def test_the_kernel_travels_alone():
 
     Layout and terms are made from the effects' declarations, which stay behind.
     """
-    made = {"stickslip.kernel", "stickslip.kernel.layout", "stickslip.kernel.terms"}
+    made = {f"stickslip.kernel{name}" for name in ("", ".tables", ".layout", ".terms")}
     outside = {
         name
         for module, names in IMPORTS.items()

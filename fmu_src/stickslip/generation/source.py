@@ -13,7 +13,7 @@ from importlib import resources
 from ..effects import EFFECTS
 from ..effects.effect import Effect
 from ..kernel import MODULES, terms
-from ..kernel.layout import constants, value_names
+from ..kernel.tables import constants, value_names
 from .places import ARRAY
 from .terms import terms_source
 

@@ -18,16 +18,16 @@ declarations, as the places in `layout` are. `stickslip.generation.source` joins
 
 from __future__ import annotations
 
-from collections.abc import MutableSequence
-from typing import TYPE_CHECKING, Any
+from typing import Protocol
 
-#: A flat array of floats: a list, or a numpy array.
-if TYPE_CHECKING:
-    import numpy as np
 
-    Floats = MutableSequence[float] | np.ndarray[Any, np.dtype[np.float64]]
-else:
-    Floats = MutableSequence[float]
+class Floats(Protocol):
+    """A flat array of floats: a list, or a numpy array."""
+
+    def __getitem__(self, place: int, /) -> float: ...
+
+    def __setitem__(self, place: int, value: float, /) -> None: ...
+
 
 # in the order in which each file uses only those before it
 MODULES = (

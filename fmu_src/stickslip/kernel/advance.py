@@ -84,7 +84,7 @@ from .steady_sliding import direction_is_free
 from .terms import set_starting_states
 
 
-def initialise(p: Floats, z: Floats, time: float):
+def initialise(p: Floats, z: Floats, time: float) -> None:
     """Lay out a run that starts at ``time`` from the parameters' initial state."""
     for i in range(Z_SIZE):
         z[i] = 0.0
@@ -171,7 +171,7 @@ def try_step(p: Floats, u: Floats, z: Floats, w: Floats, bound: float, grip: flo
     return error
 
 
-def finish_slip_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+def finish_slip_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
     """Note the course of a slip at NEXT, or settle the contact where the slip has turned round.
 
     Takes the contact at NEXT that `try_step` has left in ``w``.
@@ -185,7 +185,7 @@ def finish_slip_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
         set_direction(p, z, w, NEXT, speed)
 
 
-def land(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, rest: float):
+def land(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, rest: float) -> None:
     """Last step of a slip: the time to rest in one go, then stick or a new slip.
 
     Where what is left of the sliding has turned away from the frozen friction, the landing misses;
@@ -258,7 +258,7 @@ def internal_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, cap: fl
     return spring_status(p, z)
 
 
-def settle_contact(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+def settle_contact(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
     """Decide what the contact does at SHOWN."""
     if has_bristles(p):
         settle_bristles(p, u, z, w, e, SHOWN)

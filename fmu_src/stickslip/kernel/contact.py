@@ -34,7 +34,7 @@ from .rig.springs import add_damping, add_spring_forces
 from .rig.surface import surface_motion
 
 
-def set_sliding_velocity(w: Floats, state: int):
+def set_sliding_velocity(w: Floats, state: int) -> None:
     """Velocity of the block relative to the surface under its centre, into ``w[W_SLIDING:]``."""
     w[W_SLIDING] = w[state + VX] - w[W_SURFACE]
     w[W_SLIDING + 1] = w[state + VY] - w[W_SURFACE + 1]
@@ -56,7 +56,7 @@ def guided_sliding_speed(p: Floats, w: Floats) -> float:
     return sqrt(sy * sy + sr * sr)
 
 
-def set_holding_load(p: Floats, w: Floats):
+def set_holding_load(p: Floats, w: Floats) -> None:
     """Friction that would keep the block on the surface, into ``w[W_FRICTION:]``.
 
     M a_surface - loads, for the directions in which friction acts and the block is free;
@@ -143,7 +143,7 @@ def holding_ratio(p: Floats, u: Floats, w: Floats) -> float:
     return limit_surface_ratio(sqrt(fx * fx + fy * fy), abs(m), w)
 
 
-def set_onset_direction(p: Floats, u: Floats, w: Floats):
+def set_onset_direction(p: Floats, u: Floats, w: Floats) -> None:
     """Direction in which a block at rest on the surface begins to slide, into ``w[W_DIRECTION:]``.
 
     The scaled relative acceleration s satisfies m s = T - mu_k N grad P(s), where -T is the
@@ -261,7 +261,7 @@ def rest_speed(p: Floats, u: Floats) -> float:
     return min(max(1e-6, 0.1 * sqrt(p[P_TOLERANCE])), 1e-5) * speed_scale(p, u)
 
 
-def set_loads(p: Floats, u: Floats, w: Floats, state: int):
+def set_loads(p: Floats, u: Floats, w: Floats, state: int) -> None:
     """Springs, damping and external loads on the block into ``w[W_LOAD:]`` (N, N, N m)."""
     w[W_LOAD] = force_along(u, w[state + TIME])
     w[W_LOAD + 1] = force_across(u, w[state + TIME])
@@ -270,7 +270,7 @@ def set_loads(p: Floats, u: Floats, w: Floats, state: int):
     add_damping(p, w, state)
 
 
-def set_contact(p: Floats, u: Floats, w: Floats, state: int):
+def set_contact(p: Floats, u: Floats, w: Floats, state: int) -> None:
     """Loads, surface and sliding velocity at a moment: what every law of the contact needs."""
     set_loads(p, u, w, state)
     surface_motion(p, u, w, state)

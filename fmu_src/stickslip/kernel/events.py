@@ -59,7 +59,7 @@ from .steady_sliding import (
 from .stick import fastest_presliding
 
 
-def log_event(z: Floats, e: Floats, instant: int):
+def log_event(z: Floats, e: Floats, instant: int) -> None:
     """Note time, new mode and x; events beyond the capacity are counted only."""
     count = int(e[E_COUNT])
     if count < int(e[E_CAPACITY]):
@@ -69,21 +69,21 @@ def log_event(z: Floats, e: Floats, instant: int):
     e[E_COUNT] = count + 1.0
 
 
-def set_direction(p: Floats, z: Floats, w: Floats, instant: int, speed: float):
+def set_direction(p: Floats, z: Floats, w: Floats, instant: int, speed: float) -> None:
     """Remember the direction of sliding, from the sliding velocity in ``w``."""
     z[instant + DIRECTION] = w[W_SLIDING] / speed
     z[instant + DIRECTION + 1] = p[P_LATERAL] * w[W_SLIDING + 1] / speed
     z[instant + DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
 
 
-def note_break_away(z: Floats, instant: int):
+def note_break_away(z: Floats, instant: int) -> None:
     """Count a break-away at an instant, and note how old the contact is that gives way."""
     z[instant + SLIPS] += 1.0
     z[instant + AGE_AWAY] = z[instant + TIME] - z[instant + HOLD_SINCE]
     z[instant + DISTANCE_AWAY] = z[instant + DISTANCE]
 
 
-def release(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+def release(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """Let the contact slide, in the direction that the loads in ``w`` ask for.
 
     Where guides make it slide already, that is the direction.
@@ -100,7 +100,7 @@ def release(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
             z[instant + DIRECTION + i] = w[W_DIRECTION + i]
 
 
-def settle(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int):
+def settle(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int) -> None:
     """Decide whether the contact at an instant sticks or slips, and make the instant consistent.
 
     A stick goes on where the block slides no faster than presliding may be.
@@ -129,7 +129,7 @@ def settle(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int):
         log_event(z, e, instant)
 
 
-def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
     """Move NEXT back to the break-away, if the contact gives way in the step from HERE.
 
     Illinois iteration on the size of the step until time itself has no finer resolution, or the
@@ -178,7 +178,7 @@ def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     log_event(z, e, NEXT)
 
 
-def turn(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+def turn(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """Turn quasi-steady sliding at an instant to the direction in ``w[W_STEADY:]``.
 
     What the block's kinetic energy gains is the surface's work: the energy of the sliding stays.
@@ -193,14 +193,14 @@ def turn(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
         z[instant + DIRECTION + i] = w[W_STEADY + i]
 
 
-def keep_direction_steady(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+def keep_direction_steady(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """Give quasi-steady sliding the direction that the load asks for."""
     look_at(p, u, z, w, instant)
     set_steady_direction(p, u, w, sqrt(sliding_energy(p, w)))
     turn(p, u, z, w, instant)
 
 
-def choose_sliding(p: Floats, u: Floats, z: Floats, w: Floats):
+def choose_sliding(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Decide whether the slip from HERE is quasi-steady; slopes and contact are in ``w``."""
     before = z[HERE + QUASI_STEADY]
     now = 0.0

@@ -125,7 +125,7 @@ CREEPING = 2e-4
 RAMP_ROUNDING = 1e-8
 
 
-def load_moment(p: Floats, z: Floats, w: Floats):
+def load_moment(p: Floats, z: Floats, w: Floats) -> None:
     """Make SHOWN what the laws of motion look at, in the phase of the surface between events."""
     load_instant(p, z, w, SHOWN)
     w[W_RUNNING_UP] = z[Z_RAMPING]
@@ -139,21 +139,21 @@ def along_direction(p: Floats, z: Floats, w: Floats) -> float:
     return along
 
 
-def put_states(z: Floats, s: Floats):
+def put_states(z: Floats, s: Floats) -> None:
     """The host's continuous states ``s`` become those of SHOWN."""
     for i in range(STATES):
         z[SHOWN + 1 + i] = s[i]
     z[SHOWN + SLIP_TIME] = s[STATES]
 
 
-def take_states(z: Floats, s: Floats):
+def take_states(z: Floats, s: Floats) -> None:
     """Continuous states of SHOWN, into ``s``."""
     for i in range(STATES):
         s[i] = z[SHOWN + 1 + i]
     s[STATES] = z[SHOWN + SLIP_TIME]
 
 
-def set_nominals(p: Floats, u: Floats, s: Floats):
+def set_nominals(p: Floats, u: Floats, s: Floats) -> None:
     """Sizes of the continuous states that count in this motion, each in its unit, into ``s``."""
     for i in range(STATES):
         s[i] = state_scale(p, u, i + 1, 0.0) / p[P_TOLERANCE]
@@ -177,7 +177,7 @@ def slowest_slip(p: Floats, u: Floats) -> float:
 # --- right-hand side --------------------------------------------------------------------------
 
 
-def set_rates_in_slip(p: Floats, u: Floats, z: Floats, w: Floats):
+def set_rates_in_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Slopes of a slip, into ``w[W_SLOPES:]``; of one that has turned back, of its mirror image."""
     set_contact(p, u, w, W_STATE)
     along = along_direction(p, z, w)
@@ -200,7 +200,7 @@ def set_rates_in_slip(p: Floats, u: Floats, z: Floats, w: Floats):
     w[W_SLOPES + PHI - 1] = p[P_FREE_PHI] * z[SHOWN + OMEGA]
 
 
-def set_presliding_velocity(p: Floats, u: Floats, z: Floats, w: Floats, ahead: float):
+def set_presliding_velocity(p: Floats, u: Floats, z: Floats, w: Floats, ahead: float) -> None:
     """Velocity of a presliding contact a time ``ahead`` of SHOWN, s, into ``w[W_STATE:]``."""
     load_moment(p, z, w)
     set_stick_velocity(p, u, w, p[P_PRESLIDING])
@@ -210,7 +210,7 @@ def set_presliding_velocity(p: Floats, u: Floats, z: Floats, w: Floats, ahead: f
     set_stick_velocity(p, u, w, p[P_PRESLIDING])
 
 
-def keep_to_velocity(p: Floats, z: Floats, w: Floats):
+def keep_to_velocity(p: Floats, z: Floats, w: Floats) -> None:
     """Let the velocities of a stick at SHOWN follow those in ``w[W_STATE:]``; as `set_slopes`.
 
     Their rates follow from the load, or from places ahead, and from the acceleration of the
@@ -230,7 +230,7 @@ def keep_to_velocity(p: Floats, z: Floats, w: Floats):
         w[W_SLOPES + WORK_SURFACE - 1] += inertia * z[SHOWN + VX + i] * rate
 
 
-def set_rates_in_stick(p: Floats, u: Floats, z: Floats, w: Floats):
+def set_rates_in_stick(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Slopes of a stick without presliding, into ``w[W_SLOPES:]``."""
     set_slopes(p, u, w, STICK, W_SLOPES)
     work = w[W_SURFACE + 3] * w[W_SURFACE] * p[P_MASS]
@@ -241,7 +241,7 @@ def set_rates_in_stick(p: Floats, u: Floats, z: Floats, w: Floats):
     keep_to_velocity(p, z, w)
 
 
-def set_rates_in_presliding(p: Floats, u: Floats, z: Floats, w: Floats):
+def set_rates_in_presliding(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Slopes of a stick with presliding, into ``w[W_SLOPES:]``.
 
     Velocities follow from places there; their rates are central differences along the motion.
@@ -263,7 +263,7 @@ def set_rates_in_presliding(p: Floats, u: Floats, z: Floats, w: Floats):
     keep_to_velocity(p, z, w)
 
 
-def set_exchanged_rates(p: Floats, u: Floats, z: Floats, w: Floats, s: Floats):
+def set_exchanged_rates(p: Floats, u: Floats, z: Floats, w: Floats, s: Floats) -> None:
     """Rates of the continuous states at SHOWN, into ``s``."""
     load_moment(p, z, w)
     mode = z[SHOWN + MODE]
@@ -295,7 +295,7 @@ def stick_reserve(p: Floats, u: Floats, z: Floats, w: Floats) -> float:
     return 1.0 - holding_ratio(p, u, w)
 
 
-def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats):
+def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats) -> None:
     """Event indicators at SHOWN, into ``g``: above 0 until their event, with 1 for none.
 
     The last is at the same time that of the inputs, see `rig.history.course_reserve`.
@@ -327,20 +327,20 @@ def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats):
 # --- events -----------------------------------------------------------------------------------
 
 
-def begin_exchange(p: Floats, u: Floats, z: Floats, w: Floats):
+def begin_exchange(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Hand a run that `advance` has begun over to a host's integrator."""
     set_ramp(p, z)
     settle_sliding(p, u, z, w)
 
 
-def set_ramp(p: Floats, z: Floats):
+def set_ramp(p: Floats, z: Floats) -> None:
     """Say whether the surface is in its speed ramp at SHOWN, by the time."""
     z[Z_RAMPING] = 0.0
     if z[SHOWN + TIME] < p[P_RUN_UP]:
         z[Z_RAMPING] = 1.0
 
 
-def settle_sliding(p: Floats, u: Floats, z: Floats, w: Floats):
+def settle_sliding(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Say which part of a slip SHOWN is in, after what `settle` has made of it."""
     if has_bristles(p):
         z[SHOWN + BRISTLES] = 1.0  # its shear is that of steady sliding where it has been left out
@@ -356,7 +356,7 @@ def settle_sliding(p: Floats, u: Floats, z: Floats, w: Floats):
         set_direction(p, z, w, SHOWN, speed)
 
 
-def slide_on(p: Floats, u: Floats, z: Floats, speed: float):
+def slide_on(p: Floats, u: Floats, z: Floats, speed: float) -> None:
     """Let a slip go on at a sliding speed, m/s, up to the next event by its speed."""
     z[Z_SLIDING] = SLIDING_GOES_ON
     z[Z_FASTER] = FASTER * speed
@@ -364,7 +364,7 @@ def slide_on(p: Floats, u: Floats, z: Floats, speed: float):
         z[Z_FASTER] = 0.0  # none
 
 
-def end_stick(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+def end_stick(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
     """Let the stick at SHOWN break away if its load has reached the limit; make it exact."""
     look_at(p, u, z, w, SHOWN)
     stop_sliding(p, u, z, w, SHOWN, p[P_PRESLIDING])
@@ -376,7 +376,7 @@ def end_stick(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     settle_sliding(p, u, z, w)
 
 
-def end_part_of_slip(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+def end_part_of_slip(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
     """Go from one part of a slip at SHOWN to the next, or let the contact settle.
 
     A host that looks for no events finds a slip reversed that has come to rest on the way: what
@@ -406,7 +406,7 @@ def end_part_of_slip(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
         set_direction(p, z, w, SHOWN, speed)
 
 
-def change_bristle_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+def change_bristle_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
     """Give the contact with bristles at SHOWN its other mode if it is beyond the present one."""
     if mode_excess(p, u, z, w, SHOWN) < -AT_THE_LIMIT:
         return
@@ -420,7 +420,7 @@ def change_bristle_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     log_event(z, e, SHOWN)
 
 
-def update_event(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, anew: bool):
+def update_event(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, anew: bool) -> None:
     """Decide at an event what the contact does from SHOWN on, and make SHOWN consistent.
 
     ``anew``: inputs have jumped there, or parameters have changed.
@@ -459,7 +459,7 @@ def complete_step(p: Floats, u: Floats, z: Floats, w: Floats) -> int:
     return DONE
 
 
-def show_moment(p: Floats, u: Floats, z: Floats, w: Floats, s: Floats, o: Floats):
+def show_moment(p: Floats, u: Floats, z: Floats, w: Floats, s: Floats, o: Floats) -> None:
     """Outputs at SHOWN into ``o``; the heat flow is the one of the moment. Rates into ``s``."""
     show(p, u, z, w, o, 0)
     set_exchanged_rates(p, u, z, w, s)

@@ -55,13 +55,13 @@ from .runge_kutta import (
 )
 
 
-def copy_instant(z: Floats, source: int, target: int):
+def copy_instant(z: Floats, source: int, target: int) -> None:
     """Copy one instant in ``z`` over another."""
     for i in range(INSTANT):
         z[target + i] = z[source + i]
 
 
-def set_interpolant(p: Floats, u: Floats, z: Floats, w: Floats):
+def set_interpolant(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Interpolant over the step from HERE whose stages ``w`` still holds, into ``z[Z_DENSE:]``.
 
     It counts as smooth up to an error of 10 in the unit of the error test; 3 is usual. Its defect
@@ -94,7 +94,7 @@ def set_interpolant(p: Floats, u: Floats, z: Floats, w: Floats):
         z[Z_SMOOTH] = 1.0
 
 
-def interpolate(p: Floats, u: Floats, z: Floats, w: Floats, target: int, time: float):
+def interpolate(p: Floats, u: Floats, z: Floats, w: Floats, target: int, time: float) -> None:
     """The instant ``time`` of the step from HERE by the interpolant, into instant ``target``."""
     t = (time - z[HERE + TIME]) / z[Z_SPAN]
     r = 1.0 - t
@@ -144,7 +144,7 @@ def defect(p: Floats, u: Floats, z: Floats, w: Floats, t: float) -> float:
     return largest
 
 
-def approach(p: Floats, u: Floats, z: Floats, w: Floats, time: float):
+def approach(p: Floats, u: Floats, z: Floats, w: Floats, time: float) -> None:
     """The instant ``time`` of the step from HERE by steps that pass the error test, into SHOWN.
 
     They become no finer than 2^-12 of the integrator's own, which has passed that test as a whole.
@@ -167,7 +167,7 @@ def approach(p: Floats, u: Floats, z: Floats, w: Floats, time: float):
         h = max(h, finest)
 
 
-def look_inside(p: Floats, u: Floats, z: Floats, w: Floats, time: float):
+def look_inside(p: Floats, u: Floats, z: Floats, w: Floats, time: float) -> None:
     """The instant ``time`` of the step from HERE to NEXT, into SHOWN.
 
     What only grows stays between its ends: where friction dies away within the step, either way of

@@ -49,7 +49,7 @@ from .stick import set_presliding
 from .terms import set_state_rates
 
 
-def set_slip_friction(p: Floats, u: Floats, w: Floats):
+def set_slip_friction(p: Floats, u: Floats, w: Floats) -> None:
     """Kinetic friction into ``w[W_FRICTION:]``.
 
     Where the sliding velocity is too small to have a direction, at the first instant of a slip,
@@ -102,7 +102,7 @@ def set_motion(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> float:
     return 0.0
 
 
-def set_rates(p: Floats, w: Floats, out: int):
+def set_rates(p: Floats, w: Floats, out: int) -> None:
     """Rates of x, y, phi and of their velocities, into ``w[out:]``, from loads and friction."""
     set_rates_of_place(p, w, out)
     w[out + VX - 1] = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
@@ -110,14 +110,14 @@ def set_rates(p: Floats, w: Floats, out: int):
     w[out + OMEGA - 1] = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
 
 
-def set_rates_of_place(p: Floats, w: Floats, out: int):
+def set_rates_of_place(p: Floats, w: Floats, out: int) -> None:
     """Rates of x, y, phi, into ``w[out:]``: the velocities, where the block is free."""
     w[out + X - 1] = w[W_STATE + VX]
     w[out + Y - 1] = p[P_FREE_Y] * w[W_STATE + VY]
     w[out + PHI - 1] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
 
 
-def set_slopes(p: Floats, u: Floats, w: Floats, mode: float, out: int):
+def set_slopes(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> None:
     """All slopes at the instant in ``w[W_STATE:]``, into ``w[out:]``: motion, heat, works
     and the effects' states.
 

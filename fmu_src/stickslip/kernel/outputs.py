@@ -64,7 +64,7 @@ def mean_heat_flow(z: Floats) -> float:
     return (z[SHOWN + HEAT] - z[Z_HEAT_BEFORE]) / duration
 
 
-def show(p: Floats, u: Floats, z: Floats, w: Floats, o: Floats, at: int):
+def show(p: Floats, u: Floats, z: Floats, w: Floats, o: Floats, at: int) -> None:
     """Write the outputs (`O_*`) at SHOWN to ``o[at:]``."""
     begin_step(p, u, z, w, SHOWN)
     for i in range(6):

@@ -44,13 +44,15 @@ from .runge_kutta import follow_surface, load_instant
 from .stick import set_stick_velocity
 
 
-def look_at(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+def look_at(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """Loads, surface and sliding velocity at an instant in ``z``."""
     load_instant(p, z, w, instant)
     set_contact(p, u, w, W_STATE)
 
 
-def set_contact_in_phase(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, phase: float):
+def set_contact_in_phase(
+    p: Floats, u: Floats, z: Floats, w: Floats, instant: int, phase: float
+) -> None:
     """Loads, surface and sliding velocity at an instant in ``z``, in a phase of the surface.
 
     ``phase`` is a time in the phase that counts: the end of the speed ramp belongs to the step that
@@ -74,7 +76,9 @@ def excess_load(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, phase:
     return holding_ratio(p, u, w) - 1.0
 
 
-def stop_sliding(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, presliding: float):
+def stop_sliding(
+    p: Floats, u: Floats, z: Floats, w: Floats, instant: int, presliding: float
+) -> None:
     """Take away what is left of the sliding velocity in ``w``, as friction would.
 
     What a stick has by ``presliding`` per load, m/(s N), is left. The impulse -M d that takes d

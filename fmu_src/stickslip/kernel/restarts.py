@@ -42,7 +42,7 @@ from .runge_kutta import follow_surface
 
 def restart(
     p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, times: Floats, r: Floats, at: int
-):
+) -> None:
     """Reach the time of restart ``r[at:]`` by the model's own motion, then be as that says."""
     time = times[int(r[at + R_ROW])]
     past = z[Z_STARTED]
@@ -91,7 +91,7 @@ def record_restarted(
     rows: int,
     r: Floats,
     restarts: int,
-):
+) -> None:
     """Outputs at ``times[0] ... times[rows - 1]``, as `record` writes them, with so many restarts.
 
     Where `advance` gives up, what is in ``o`` stays there up to the next restart.
@@ -113,7 +113,7 @@ def track_restarted(
     rows: int,
     r: Floats,
     restarts: int,
-):
+) -> None:
     """As `record_restarted`, but only what a tracker sees, as `track` writes it."""
     for i in range(restarts):
         restart(p, u, z, w, e, times, r, i * R_SIZE)

@@ -56,7 +56,7 @@ from .stick import held_energy, set_stick_velocity
 from .terms import with_state_scale
 
 
-def load_instant(p: Floats, z: Floats, w: Floats, instant: int):
+def load_instant(p: Floats, z: Floats, w: Floats, instant: int) -> None:
     """Make an instant in ``z`` the instant that the laws of motion look at."""
     for i in range(INSTANT):
         w[W_STATE + i] = z[instant + i]
@@ -65,7 +65,7 @@ def load_instant(p: Floats, z: Floats, w: Floats, instant: int):
     set_surface_phase(p, w, z[instant + TIME])
 
 
-def begin_step(p: Floats, u: Floats, z: Floats, w: Floats, start: int):
+def begin_step(p: Floats, u: Floats, z: Floats, w: Floats, start: int) -> None:
     """First stage of the step from instant ``start``; every size tried from there shares it."""
     load_instant(p, z, w, start)
     set_slopes(p, u, w, z[start + MODE], W_SLOPES)
@@ -91,7 +91,7 @@ def state_scale(p: Floats, u: Floats, i: int, value: float) -> float:
     return p[P_TOLERANCE] * (scale + abs(value))
 
 
-def add_stage(p: Floats, u: Floats, z: Floats, w: Floats, start: int, stage: int):
+def add_stage(p: Floats, u: Floats, z: Floats, w: Floats, start: int, stage: int) -> None:
     """Slopes of one stage of the step of size ``w[W_SPAN]`` from instant ``start``.
 
     Numbers that the slopes do not depend on, heat and works for instance, keep their value at the
@@ -155,7 +155,9 @@ def close_step(p: Floats, u: Floats, z: Floats, w: Floats, end: int, h: float) -
     return abs(h) * error5 / sqrt(bottom * NORM)
 
 
-def follow_surface(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, presliding: float):
+def follow_surface(
+    p: Floats, u: Floats, z: Floats, w: Floats, instant: int, presliding: float
+) -> None:
     """Give the block the velocity with which it sticks exactly, where friction holds it.
 
     Takes ``presliding`` and leaves the contact as `set_stick_velocity` does.
@@ -169,7 +171,7 @@ def follow_surface(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, pre
         z[instant + OMEGA] = w[W_STATE + OMEGA]
 
 
-def finish_stick(p: Floats, u: Floats, z: Floats, w: Floats, start: int, end: int):
+def finish_stick(p: Floats, u: Floats, z: Floats, w: Floats, start: int, end: int) -> None:
     """Velocity of a stick at instant ``end``, and the surface's work on it since ``start``."""
     follow_surface(p, u, z, w, end, p[P_PRESLIDING])
     if p[P_PRESLIDING] != 0.0:

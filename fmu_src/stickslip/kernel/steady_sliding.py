@@ -282,7 +282,7 @@ def may_slide_quasi_steadily(p: Floats, u: Floats, w: Floats) -> bool:
     return abs(rate) < 10.0 * QUASI_STEADY_ACCELERATION * limit / p[P_MASS]
 
 
-def turn_to_steady_direction(p: Floats, w: Floats):
+def turn_to_steady_direction(p: Floats, w: Floats) -> None:
     """Turn the velocities in ``w[W_STATE:]`` to ``w[W_STEADY:]``, at the same energy of sliding."""
     kappa = p[P_LATERAL]
     speed = sqrt(sliding_energy(p, w) / sliding_inertia(p, w, W_STEADY))

@@ -57,7 +57,7 @@ from .rig.surface import surface_motion
 QUADRATIC_SWEEPS = 8
 
 
-def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float):
+def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float) -> None:
     """Velocity of a block that sticks at the place in ``w[W_STATE:]``, where it is free.
 
     ``presliding`` is the sliding speed per load, m/(s N): P_PRESLIDING, or 0 for the surface's own
@@ -75,7 +75,7 @@ def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float):
         set_sliding_velocity(w, W_STATE)
 
 
-def add_presliding(p: Floats, u: Floats, w: Floats, c: float):
+def add_presliding(p: Floats, u: Floats, w: Floats, c: float) -> None:
     """Add presliding to the surface's velocity in ``w[W_STATE:]``, c per load, m/(s N).
 
     Leaves the contact in ``w``, friction as of `set_holding_load`.

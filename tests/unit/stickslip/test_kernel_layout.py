@@ -1,23 +1,26 @@
 """The kernel's arrays: no two slots overlap, none is left over, the sizes fit what stands there."""
 
+from importlib import resources
+
 import numpy as np
 import pytest
 from stickslip import EFFECTS, Parameters
 from stickslip.generation.derived import effect_slot_names
 from stickslip.generation.slots import draw_slots, effect_slots, value_slot
-from stickslip.kernel import layout
+from stickslip.generation.stubs import stubs
+from stickslip.kernel import layout, tables
 from stickslip.ports import OUTPUTS
 
 ARRAYS = {
-    "z": layout.memory(layout.INSTANT, layout.STATES, layout.U_SIZE),
-    "u": layout.INPUTS,
-    "p": [*layout.PARAMETERS, *effect_slots(EFFECTS)],
-    "v": [(value_slot(name), size) for name, size in layout.values(EFFECTS)],
-    "d": [*layout.DRAWS, *draw_slots(EFFECTS)],
-    "w": layout.scratch(layout.INSTANT, layout.STATES),
-    "tableau": layout.TABLEAU,
-    "quadrature": layout.QUADRATURE,
-    "instant": layout.instant(EFFECTS),
+    "z": tables.memory(layout.INSTANT, layout.STATES, layout.U_SIZE),
+    "u": tables.INPUTS,
+    "p": [*tables.PARAMETERS, *effect_slots(EFFECTS)],
+    "v": [(value_slot(name), size) for name, size in tables.values(EFFECTS)],
+    "d": [*tables.DRAWS, *draw_slots(EFFECTS)],
+    "w": tables.scratch(layout.INSTANT, layout.STATES),
+    "tableau": tables.TABLEAU,
+    "quadrature": tables.QUADRATURE,
+    "instant": tables.instant(EFFECTS),
 }
 
 
@@ -62,12 +65,12 @@ def test_the_tables_have_the_room_that_is_declared():
 def test_two_numbers_of_one_name_are_refused():
     twice = [EFFECTS[3], EFFECTS[3]]
     with pytest.raises(ValueError, match="two numbers of the kernel are called V_"):
-        layout.constants(twice)
+        tables.constants(twice)
 
 
 def test_an_effect_more_moves_no_other_number():
     """So the motion's arrays stay what they were; only parameters as given move, as in the FMU."""
-    fewer, all_of_them = layout.constants(EFFECTS[:-1]), layout.constants(EFFECTS)
+    fewer, all_of_them = tables.constants(EFFECTS[:-1]), tables.constants(EFFECTS)
     moved = {name for name in fewer if fewer[name] != all_of_them[name]}
     assert {name for name in moved if not name.startswith("V_")} <= {"P_SIZE", "DRAW_SEED"}
 
@@ -99,3 +102,10 @@ def test_no_two_parameters_share_a_slot():
 
 def test_outputs_name_every_slot_of_a_row():
     assert sorted(getattr(layout, port.slot) for port in OUTPUTS) == list(range(layout.O_SIZE))
+
+
+@pytest.mark.parametrize("file", stubs())
+def test_the_type_checker_knows_the_numbers_and_terms_that_there_are(file):
+    """A name that is none, as P_MASSS, is an error of mypy: also an effect's that has gone."""
+    written = (resources.files("stickslip.kernel") / file).read_text(encoding="utf-8")
+    assert written == stubs()[file], "python -m stickslip.generation.stubs writes them anew"

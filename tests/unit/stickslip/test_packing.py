@@ -15,7 +15,7 @@ from stickslip import contradictions as words
 from stickslip.catalogue import CATALOGUE
 from stickslip.draws import draws
 from stickslip.generation.source import kernel_source
-from stickslip.kernel import layout
+from stickslip.kernel import layout, tables
 from stickslip.kernel.packing import contradictions
 from stickslip.kernel.packing.vector import pack as pack_in_order
 from stickslip.names import NAMES
@@ -35,7 +35,7 @@ ALL = {
 def test_the_values_stand_in_the_order_of_the_fmu_s_parameters():
     assert list(NAMES) == list(OFF)
     assert in_order(OFF) == list(OFF.values())
-    for name, size in layout.values(EFFECTS):
+    for name, size in tables.values(EFFECTS):
         at = getattr(layout, f"V_{name}".replace(".", "_").upper())
         assert [name] * size == [each.partition("[")[0] for each in NAMES[at : at + size]]
 

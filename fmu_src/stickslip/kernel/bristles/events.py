@@ -70,7 +70,7 @@ def mode_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> flo
     return max(slow, -yielding_share(p, w))
 
 
-def change_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+def change_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
     """Move NEXT back to the moment at which the contact breaks away or sticks again, if it does.
 
     Illinois iteration on the size of the step, as `events.break_away` does it.
@@ -119,7 +119,9 @@ def change_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
     log_event(z, e, NEXT)
 
 
-def slide_steadily(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, bristles: float):
+def slide_steadily(
+    p: Floats, u: Floats, z: Floats, w: Floats, instant: int, bristles: float
+) -> None:
     """Give the bristles the shear of steady sliding at an instant whose contact is in ``w``.
 
     ``bristles`` as of BRISTLES from there on. What their energy changes by is friction heat.
@@ -130,7 +132,7 @@ def slide_steadily(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, bri
     z[instant + BRISTLES] = bristles
 
 
-def settle_bristles(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int):
+def settle_bristles(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int) -> None:
     """Make an instant consistent at which a run begins, is set to a state, or its inputs change.
 
     Where the shear is not known, it is that of steady sliding in slip, and in stick what the

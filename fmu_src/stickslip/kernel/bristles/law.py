@@ -88,7 +88,7 @@ def yield_rate(p: Floats, own: float, other: float, limit: float, whole: float) 
     return p[P_BRISTLE_STIFFNESS] * other / max(whole, least_friction(p))
 
 
-def set_bristle_friction(p: Floats, u: Floats, w: Floats):
+def set_bristle_friction(p: Floats, u: Floats, w: Floats) -> None:
     """Friction of the sheared contact in ``w``, its rates of shear and mean sliding speed.
 
     Into ``w[W_FRICTION:]`` (N, N, N m), ``w[W_SHEARING:]`` and ``w[W_MEAN_SPEED]`` (m/s).
@@ -135,7 +135,7 @@ def bristle_energy(p: Floats, z: Floats, instant: int) -> float:
     return 0.5 * p[P_BRISTLE_STIFFNESS] * (zx * zx + zy * zy + 0.5 * zr * zr)
 
 
-def set_sliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+def set_sliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """Shear of a contact that slides steadily as in ``w``, not at rest, into ``z``."""
     sx = w[W_SLIDING]
     sy = p[P_LATERAL] * w[W_SLIDING + 1]
@@ -152,7 +152,7 @@ def set_sliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
         z[instant + SHEAR_X + 2] = 2.0 * most * w[W_PAIR + 1] * sr / abs(sr)
 
 
-def set_holding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+def set_holding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """Shear of a contact at rest that holds the loads in ``w``, or all it can, into ``z``."""
     kappa = p[P_LATERAL]
     set_holding_load(p, w)
@@ -165,7 +165,7 @@ def set_holding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
         z[instant + SHEAR_X + 2] = -2.0 * share * w[W_FRICTION + 2] / (kappa * p[P_RADIUS])
 
 
-def set_presliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int):
+def set_presliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """Shear and velocity of a contact whose load grows as the surface carries the block along.
 
     z' is the rate of the load over sigma_0, and F the load; the sliding velocity s that has this

@@ -72,7 +72,7 @@ def fast_slip_bound(p: Floats, w: Floats) -> float:
     return rest * max(1e-3, 1.0 - aim / speed)
 
 
-def end_fast_slip(p: Floats, u: Floats, z: Floats, w: Floats):
+def end_fast_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Where a fast slip has become slow at NEXT, let it end there, after P_FAST_SLIP or before.
 
     A step beyond that speed is taken again, shorter.
@@ -133,7 +133,7 @@ def turning_lag(p: Floats, w: Floats) -> float:
     return shear_at_most(p) * sqrt(ax * ax + ay * ay + ar * ar) / size
 
 
-def choose_bristles(p: Floats, u: Floats, z: Floats, w: Floats):
+def choose_bristles(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Decide whether the bristles count in a fast slip from HERE; slopes and contact are in ``w``.
 
     They are left out where they hardly move any more, and come back where the sliding turns.
@@ -154,7 +154,7 @@ def choose_bristles(p: Floats, u: Floats, z: Floats, w: Floats):
         begin_step(p, u, z, w, HERE)
 
 
-def finish_bristle_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats):
+def finish_bristle_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
     """Events of a contact with bristles in the step from HERE to NEXT."""
     if z[HERE + BRISTLES] == 0.0:
         end_fast_slip(p, u, z, w)

@@ -147,7 +147,7 @@ def static_coefficient(p: Floats, u: Floats, w: Floats) -> float:
     return dry_share(p, u, w) * aged_coefficient(p, u, w, mu)
 
 
-def set_excess(p: Floats, u: Floats, w: Floats, mu: float):
+def set_excess(p: Floats, u: Floats, w: Floats, mu: float) -> None:
     """mu_s over mu_k at rest into ``w[W_EXCESS]``, where friction falls from one to the other.
 
     ``mu`` is that of `kinetic_coefficient`. A law of speed and state has no mu_s to fall from.

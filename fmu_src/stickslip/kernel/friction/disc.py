@@ -22,7 +22,7 @@ from ..layout import DEPTHS, P_FEW_POINTS, P_QUADRATURE, Q_DEPTH, Q_RAY, Q_STRIP
 from .coefficient import sliding_coefficient
 
 
-def elliptic_pair(kc2: float, w: Floats):
+def elliptic_pair(kc2: float, w: Floats) -> None:
     """B = int cos^2/D and kc^2 times int sin^2/D, with kc^2 = 1 - k^2, into ``w[W_PAIR:]``.
 
     Arithmetic-geometric mean (Abramowitz & Stegun 17.6); the c_n are carried by
@@ -73,7 +73,7 @@ def sine_cosine_integral(k2: float, b: float, d: float) -> float:
     return total
 
 
-def disc_friction(sliding: float, spinning: float, w: Floats):
+def disc_friction(sliding: float, spinning: float, w: Floats) -> None:
     """Force f and moment m (both per mu N, the moment also per radius) into ``w[W_PAIR:]``.
 
     ``sliding`` is U >= 0 and ``spinning`` is a |omega| >= 0, in m/s, not both zero.
@@ -107,7 +107,7 @@ def add_local_law(
     sliding: float,
     spinning: float,
     w: Floats,
-):
+) -> None:
     """Add to ``w[W_PAIR:]`` what a coefficient that varies with the local speed changes.
 
     Integrates mu(|u|) + aged - reference over the disc (``aged``: the part of the contact's age),
@@ -133,7 +133,7 @@ def add_law_at_points(
     sliding: float,
     k: float,
     w: Floats,
-):
+) -> None:
     """The centre of rotation is far away: |u| = U |(1 - k y, k x)| is nearly uniform.
 
     Albrecht's twelve points of a disc, exact to the seventh degree (Stroud, Approximate Calculation
@@ -167,7 +167,7 @@ def add_law_at_point(
     y: float,
     weight: float,
     w: Floats,
-):
+) -> None:
     """What the part ``weight`` of a disc adds that slides as its point (x, y), in radii."""
     q = sqrt((1.0 - k * y) * (1.0 - k * y) + k * k * x * x)
     excess = max(0.0, sliding_coefficient(p, u, w, mu, sliding * q) + aged) - reference
@@ -184,7 +184,7 @@ def add_law_over_strips(
     sliding: float,
     k: float,
     w: Floats,
-):
+) -> None:
     """The centre of rotation lies outside: |u| = U (cos theta + k tau cos psi)."""
     force = 0.0
     moment = 0.0
@@ -211,7 +211,7 @@ def add_law_over_rays(
     spinning: float,
     k: float,
     w: Floats,
-):
+) -> None:
     """The centre of rotation lies inside, k radii from the centre of the disc."""
     force = 0.0
     moment = 0.0

@@ -32,7 +32,7 @@ from .coefficient import (
 from .disc import add_local_law, disc_friction
 
 
-def set_friction(p: Floats, w: Floats, sx: float, sy: float, sr: float, sliding: float):
+def set_friction(p: Floats, w: Floats, sx: float, sy: float, sr: float, sliding: float) -> None:
     """Friction from the coefficients in ``w[W_PAIR:]`` (force, moment), into ``w[W_FRICTION:]``.
 
     (sx, sy, sr) is the scaled sliding velocity, of which only the direction counts here;
@@ -54,7 +54,7 @@ def set_friction(p: Floats, w: Floats, sx: float, sy: float, sr: float, sliding:
 
 def friction_at_onset(
     p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: float, speed: float
-):
+) -> None:
     """Friction against a slip that has a direction, but next to no ``speed`` (m/s) yet.
 
     (sx, sy, sr) is the direction. Writes force and moment to ``w[W_FRICTION:]``.
@@ -67,7 +67,9 @@ def friction_at_onset(
     set_friction(p, w, sx, sy, sr, sliding)
 
 
-def set_sliding_coefficients(p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: float):
+def set_sliding_coefficients(
+    p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: float
+) -> None:
     """Force and moment per normal force (and radius) against a sliding, into ``w[W_PAIR:]``.
 
     (sx, sy, sr) is the scaled sliding velocity; sr is a rim speed. The mean local sliding speed
@@ -92,7 +94,7 @@ def set_sliding_coefficients(p: Floats, u: Floats, w: Floats, sx: float, sy: flo
         add_local_law(p, u, mu, aged, whole, sliding, abs(sr), w)
 
 
-def add_contact_drag(p: Floats, w: Floats, sx: float, sy: float, sr: float):
+def add_contact_drag(p: Floats, w: Floats, sx: float, sy: float, sr: float) -> None:
     """Add the drag of a film to ``w[W_FRICTION:]``."""
     drag = with_contact_drag(p, 0.0)
     if drag != 0.0:
@@ -103,7 +105,7 @@ def add_contact_drag(p: Floats, w: Floats, sx: float, sy: float, sr: float):
         w[W_FRICTION + 2] -= drag * kappa * 0.5 * p[P_RADIUS] * sr
 
 
-def friction_in_slip(p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: float):
+def friction_in_slip(p: Floats, u: Floats, w: Floats, sx: float, sy: float, sr: float) -> None:
     """Friction against the scaled sliding velocity (sx, sy, sr), not zero; sr is a rim speed.
 
     Writes force and moment on the block to ``w[W_FRICTION:]`` (N, N, N m) and the mean local

@@ -48,7 +48,7 @@ from .points import copy_points, count_grown, count_points, inner_slope, secant
 LAG = 1e-4
 
 
-def set_friction_law(v: Floats, p: Floats):
+def set_friction_law(v: Floats, p: Floats) -> None:
     """Everything of friction but the effects' own numbers; mass and normal force are there."""
     p[P_TRANSITION_SPEED] = v[V_FRICTION_TRANSITION_SPEED]
     p[P_TRANSITION_EXPONENT] = v[V_FRICTION_TRANSITION_EXPONENT]
@@ -62,7 +62,7 @@ def set_friction_law(v: Floats, p: Floats):
         set_bristles(v, p, limit)
 
 
-def set_table(v: Floats, p: Floats):
+def set_table(v: Floats, p: Floats) -> None:
     """Points of the table of mu_k over the sliding speed, and rows of them over the temperature.
 
     The table takes the place of mu_k, which is then the table's value at rest, the largest of its
@@ -86,7 +86,7 @@ def set_table(v: Floats, p: Floats):
     p[P_MU_K] = p[P_MU_SCALE] * at_rest
 
 
-def set_row_slopes(p: Floats, row: int, count: int):
+def set_row_slopes(p: Floats, row: int, count: int) -> None:
     """PCHIP's slopes of so many points ``p[row:]``."""
     last = row + TABLE_WIDTH * (count - 1)
     second = row + TABLE_WIDTH
@@ -110,7 +110,7 @@ def set_row_slopes(p: Floats, row: int, count: int):
         p[at + 2] = inner_slope(p, at, TABLE_WIDTH)
 
 
-def set_bristles(v: Floats, p: Floats, limit: float):
+def set_bristles(v: Floats, p: Floats, limit: float) -> None:
     """Stiffness and damping of a contact that is sheared by so much under the load ``limit``, N.
 
     From the sliding speed P_FAST_SLIP on the bristles trail behind those of steady sliding by no
@@ -129,7 +129,7 @@ def set_bristles(v: Floats, p: Floats, limit: float):
     p[P_FAST_SLIP] = speed * fast ** (1.0 / p[P_TRANSITION_EXPONENT])
 
 
-def set_kind_of_law(p: Floats):
+def set_kind_of_law(p: Floats) -> None:
     """Whether mu_k varies over the contact, and on what of the past the motion depends.
 
     The numbers of the effects are there.

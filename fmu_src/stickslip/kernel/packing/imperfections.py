@@ -24,12 +24,12 @@ def departure(d: Floats, i: int, deviation: float) -> float:
     return deviation * max(-3.0, min(3.0, d[i]))
 
 
-def set_mass(v: Floats, d: Floats, p: Floats):
+def set_mass(v: Floats, d: Floats, p: Floats) -> None:
     """Mass of the block, kg, as this rig has it."""
     p[P_MASS] = v[V_RIG_MASS] * (1.0 + departure(d, D_MASS, v[V_IMPERFECTIONS_MASS]))
 
 
-def set_start(v: Floats, d: Floats, p: Floats):
+def set_start(v: Floats, d: Floats, p: Floats) -> None:
     """Where the block stands at the start and how it moves: x, y, phi, vx, vy, omega."""
     for i in range(6):
         p[P_INITIAL + i] = v[V_INITIAL_X + i]

@@ -29,7 +29,7 @@ def count_grown(v: Floats, first: int, limit: int) -> int:
     return count
 
 
-def copy_points(v: Floats, x: int, y: int, count: int, p: Floats, at: int, width: int):
+def copy_points(v: Floats, x: int, y: int, count: int, p: Floats, at: int, width: int) -> None:
     """Put abscissae ``v[x:]`` and ordinates ``v[y:]`` into the points ``p[at:]``."""
     for i in range(count):
         p[at + width * i] = v[x + i]

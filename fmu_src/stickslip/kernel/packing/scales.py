@@ -20,7 +20,7 @@ from ..layout import (
 from ..terms import with_fastest_rate
 
 
-def set_scales(v: Floats, p: Floats):
+def set_scales(v: Floats, p: Floats) -> None:
     """Rate and speed that belong to this rig, and the longest step.
 
     Rate and speed scale the integrator's error test only: where nothing sets a rate (no springs) it

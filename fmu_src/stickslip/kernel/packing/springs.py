@@ -29,7 +29,7 @@ from .imperfections import departure
 from .points import copy_points, count_points, inner_slope, secant
 
 
-def place_springs(v: Floats, d: Floats, p: Floats):
+def place_springs(v: Floats, d: Floats, p: Floats) -> None:
     """Attachments on the block, and anchors one spring length away from them.
 
     The springs lie along x, but for the turn and the shift that an effect gives them. A spring
@@ -59,7 +59,7 @@ def place_springs(v: Floats, d: Floats, p: Floats):
         p[P_ANCHOR + i] += departure(d, D_ANCHOR_POSITION + i, v[V_IMPERFECTIONS_ANCHOR_POSITION])
 
 
-def set_force_curve(v: Floats, p: Floats):
+def set_force_curve(v: Floats, p: Floats) -> None:
     """Points of the force-length curve with monotone slopes, and the energies under it, J.
 
     Beyond its ends it goes on as straight as its first and its last piece on the whole.

@@ -284,7 +284,7 @@ INTERPOLANT_WEIGHTS = (
 )
 
 
-def set_tableau(p: Floats):
+def set_tableau(p: Floats) -> None:
     """Put the tableau where the integrator looks; what a row leaves unused is 0."""
     k = 0
     for i in range(ALL_STAGES):  # the rows of T_B follow those of T_A

@@ -39,7 +39,7 @@ from .tableau import set_tableau
 FEW_POINTS = 0.07
 
 
-def pack(v: Floats, d: Floats, p: Floats):
+def pack(v: Floats, d: Floats, p: Floats) -> None:
     """Make ``p`` of the parameters' values and the standard random numbers that go with them.
 
     The values are taken as checked; what ``p`` held before does not matter.
@@ -58,7 +58,7 @@ def pack(v: Floats, d: Floats, p: Floats):
     set_tableau(p)
 
 
-def set_rig(v: Floats, d: Floats, p: Floats):
+def set_rig(v: Floats, d: Floats, p: Floats) -> None:
     """The block, how it is guided and driven; an inertia of 0 is a disc of the contact radius."""
     set_mass(v, d, p)
     p[P_RADIUS] = v[V_RIG_CONTACT_RADIUS]

@@ -162,7 +162,7 @@ def goes_on(g: Floats, i: int, sticks: bool) -> bool:
     return g[G_HAS_RATE + i] == 1.0 or g[G_FIRST] == 1.0
 
 
-def lead_anew(g: Floats, u: Floats, i: int, start: float, line: float, h: float):
+def lead_anew(g: Floats, u: Floats, i: int, start: float, line: float, h: float) -> None:
     """Lead input i, in a step of size h, from ``start`` to where the line of what the host says is
     at its end; from an event on not faster than over a whole step."""
     span = h
@@ -179,7 +179,7 @@ def lead_anew(g: Floats, u: Floats, i: int, start: float, line: float, h: float)
         u[i] = line + 0.5 * g[G_SLOPE + i] * h
 
 
-def keep_on(g: Floats, u: Floats, i: int, h: float):
+def keep_on(g: Floats, u: Floats, i: int, h: float) -> None:
     """Let input i go on, in a step of size h, as it has before the event."""
     if i == U_TEMPERATURE or i == U_FILM:
         return  # the mean of the whole step, up to its end
@@ -187,7 +187,7 @@ def keep_on(g: Floats, u: Floats, i: int, h: float):
     g[G_REACHED + i] = u[i] + (g[G_GOING + i] + 0.5 * curve(g, i) * h) * h
 
 
-def lead_input(g: Floats, u: Floats, i: int, sticks: bool, t: float, h: float):
+def lead_input(g: Floats, u: Floats, i: int, sticks: bool, t: float, h: float) -> None:
     """Input i during the step of size h from the time t: where it begins, into ``u``, and its rate,
     into ``g``."""
     line = g[G_VALUE + i]
@@ -209,7 +209,7 @@ def lead_input(g: Floats, u: Floats, i: int, sticks: bool, t: float, h: float):
     g[G_LINE + i] = line
 
 
-def lead_inputs(g: Floats, u: Floats, sticks: bool, t: float, h: float):
+def lead_inputs(g: Floats, u: Floats, sticks: bool, t: float, h: float) -> None:
     """Inputs during the step of size ``h`` from the time ``t``, into ``u``, of those in ``g``.
 
     The error of an input that is smooth in time is of the order h where it is held, h^2 where it
@@ -239,7 +239,7 @@ def lead_inputs(g: Floats, u: Floats, sticks: bool, t: float, h: float):
         g[G_CUT] = 0.0
 
 
-def cut_inputs(g: Floats, u: Floats, t: float):
+def cut_inputs(g: Floats, u: Floats, t: float) -> None:
     """Note in ``g`` that the step which `lead_inputs` has prepared has ended early, at ``t``."""
     g[G_REACHED + U_SPEED] = driven_speed(u, t)
     g[G_GOING + U_SPEED] = driven_acceleration(u, t)

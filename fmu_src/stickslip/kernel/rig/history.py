@@ -75,7 +75,7 @@ SHRINKS = 0.1  # a term of the course of a smooth input, at most, relative to th
 AT_ITS_END = 0.01  # what an indicator may have left in its event
 
 
-def move_moment(g: Floats, j: int, to: int):
+def move_moment(g: Floats, j: int, to: int) -> None:
     """Put the remembered moment ``j`` into the place ``to``."""
     g[G_MOMENT_TIME + to] = g[G_MOMENT_TIME + j]
     for i in range(GIVEN_INPUTS):
@@ -83,7 +83,7 @@ def move_moment(g: Floats, j: int, to: int):
         g[at + GIVEN_INPUTS * to] = g[at + GIVEN_INPUTS * j]
 
 
-def forget_later(g: Floats, t: float):
+def forget_later(g: Floats, t: float) -> None:
     """Drop what is known of inputs behind the time t: it was of a step that the host takes back."""
     kept = 0
     for j in range(int(g[G_COUNT])):
@@ -93,7 +93,7 @@ def forget_later(g: Floats, t: float):
     g[G_COUNT] = kept
 
 
-def forget_close(p: Floats, g: Floats, t: float):
+def forget_close(p: Floats, g: Floats, t: float) -> None:
     """Drop what is known of inputs close to the time t of an event, which takes its place.
 
     The event is decided by the inputs that the host has found it with.
@@ -114,7 +114,7 @@ def latest_moment(g: Floats) -> float:
     return latest
 
 
-def note_inputs(p: Floats, g: Floats, t: float):
+def note_inputs(p: Floats, g: Floats, t: float) -> None:
     """Remember the inputs as given for the time t.
 
     One that is close to another says nothing new, but where it is of the very same time; where
@@ -160,7 +160,7 @@ def find_nearest(g: Floats, t: float, until: float) -> int:
     return found
 
 
-def set_divided_differences(g: Floats, i: int, count: int):
+def set_divided_differences(g: Floats, i: int, count: int) -> None:
     """Newton's divided differences of input i over the times of `find_nearest`, into
     ``g[G_TABLE:]``."""
     for k in range(count):
@@ -192,7 +192,7 @@ def best_degree(g: Floats, count: int, t: float) -> int:
     return best
 
 
-def set_course(g: Floats, i: int, count: int, t: float):
+def set_course(g: Floats, i: int, count: int, t: float) -> None:
     """Input i and its rate at the time t, into ``g[G_COURSE:]``, by ``count`` times of
     `find_nearest`.
 
@@ -215,7 +215,7 @@ def set_course(g: Floats, i: int, count: int, t: float):
     g[G_COURSE + 1] = rate
 
 
-def follow_memory(g: Floats, t: float):
+def follow_memory(g: Floats, t: float) -> None:
     """Inputs and their rates at the time t by what is remembered."""
     count = find_nearest(g, t, LATEST)
     for i in range(GIVEN_INPUTS):
@@ -258,7 +258,7 @@ def course_reserve(p: Floats, u: Floats, g: Floats, t: float) -> float:
     return reserve
 
 
-def hear_input(g: Floats, t: float, in_event: bool):
+def hear_input(g: Floats, t: float, in_event: bool) -> None:
     """The host gives an input at the time t."""
     g[G_SET_TIME] = t
     g[G_IS_NEW] = 1.0
@@ -266,7 +266,7 @@ def hear_input(g: Floats, t: float, in_event: bool):
         g[G_IN_EVENT] = 1.0
 
 
-def put_followed(g: Floats, u: Floats, t: float):
+def put_followed(g: Floats, u: Floats, t: float) -> None:
     """Inputs and rates at the time t, into ``u``."""
     for i in range(GIVEN_INPUTS):
         u[i] = g[G_FOLLOWED + i] + g[G_ASIDE + i]
@@ -279,7 +279,7 @@ def put_followed(g: Floats, u: Floats, t: float):
     u[U_MOMENT_RATE] = g[G_TREND + U_MOMENT]
 
 
-def follow_inputs(p: Floats, g: Floats, u: Floats, t: float, for_rates: bool):
+def follow_inputs(p: Floats, g: Floats, u: Floats, t: float, for_rates: bool) -> None:
     """Inputs at the time t, for which a host asks for something, into ``u``.
 
     ``for_rates``: it asks for rates, which it does in steps that it has accepted, up to there.
@@ -309,7 +309,7 @@ def has_jumped(g: Floats, i: int) -> bool:
     return abs(g[G_VALUE + i] - g[G_FOLLOWED + i]) > JUMP * size
 
 
-def begin_course(p: Floats, g: Floats, t: float):
+def begin_course(p: Floats, g: Floats, t: float) -> None:
     """Forget what was before the time t, where an input has a kink: its rate is that behind it."""
     later = -1
     for j in range(int(g[G_COUNT])):
@@ -354,7 +354,7 @@ def take_given(p: Floats, g: Floats, u: Floats, t: float) -> bool:
     return jumped
 
 
-def begin_memory(g: Floats, u: Floats, t: float):
+def begin_memory(g: Floats, u: Floats, t: float) -> None:
     """Remember the inputs in ``u`` at the time t, and nothing before."""
     g[G_COUNT] = 1.0
     g[G_MOMENT_TIME] = t

@@ -90,7 +90,7 @@ def spring_energy(p: Floats, extension: float) -> float:
     return 0.5 * p[P_STIFFNESS] * extension * extension + more
 
 
-def add_spring_forces(p: Floats, w: Floats, state: int):
+def add_spring_forces(p: Floats, w: Floats, state: int) -> None:
     """Add force (N) and moment (N m) of the springs on the block to ``w[W_LOAD:]``.
 
     Spring i pulls its attachment r_i = (x, y) + R(phi) b_i towards its anchor A_i with the tension
@@ -128,7 +128,7 @@ def damping_per_speed(p: Floats, vx: float, vy: float) -> float:
     return p[P_DAMPING] + p[P_DAMPING_QUADRATIC] * sqrt(vx * vx + vy * vy)
 
 
-def add_damping(p: Floats, w: Floats, state: int):
+def add_damping(p: Floats, w: Floats, state: int) -> None:
     """Add the damping against the frame (structural_damping) to ``w[W_LOAD:]``."""
     d = damping_per_speed(p, w[state + VX], w[state + VY])
     w[W_LOAD] -= d * w[state + VX]

@@ -18,7 +18,7 @@ from ..terms import with_surface_acceleration, with_surface_speed
 from .drive import driven_acceleration, driven_speed
 
 
-def set_surface_phase(p: Floats, w: Floats, t: float):
+def set_surface_phase(p: Floats, w: Floats, t: float) -> None:
     """Say whether the internal step that begins at t lies in the speed ramp or behind it.
 
     No internal step straddles the end of the speed ramp, so the phase belongs to the step and not
@@ -49,7 +49,7 @@ def surface_acceleration(p: Floats, u: Floats, w: Floats, t: float) -> float:
     return with_surface_acceleration(p, u, w, rate, steady_speed(p, u, w, t), t)
 
 
-def surface_motion(p: Floats, u: Floats, w: Floats, state: int):
+def surface_motion(p: Floats, u: Floats, w: Floats, state: int) -> None:
     """Motion of the surface under the block's centre, into ``w[W_SURFACE:]``.
 
     Three velocities and three accelerations (x, y, turning). With curvature c = 1/R the surface
