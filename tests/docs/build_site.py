@@ -15,10 +15,9 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import rendered
 from gallery import NAMES, SLOW, ran
 from nbclient.exceptions import CellExecutionError
-from notebooks import PAGES, Executed, is_notebook
+from notebooks import Executed, is_notebook
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
@@ -91,11 +90,7 @@ def main() -> None:
                 ran(name, gallery)
     executed = Executed(folder / "cache", environment(folder))
     try:
-        page = build(folder, gallery, executed, os.cpu_count() or 1)
-        rendered.write(
-            (one, executed(one)) for one in sorted(PAGES.glob("*.md")) if is_notebook(one)
-        )
-        print(page)
+        print(build(folder, gallery, executed, os.cpu_count() or 1))
     except CellExecutionError as error:
         sys.exit(str(error))
     except subprocess.CalledProcessError as error:

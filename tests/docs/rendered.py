@@ -1,19 +1,21 @@
 """The tutorials as a code host shows them: Markdown with what the cells computed, pictures beside.
 
-`python tests/docs/build_site.py` writes them into tests/docs/tutorials, to which the README links.
+`python tests/docs/rendered.py` writes them into tests/docs/tutorials, for the README. What
+`build_site.py` has executed in results/site is not executed again.
 """
 
 import base64
 import io
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
+from build_site import ROOT, environment
 from nbformat import NotebookNode
+from notebooks import PAGES, Executed, is_notebook
 from PIL import Image
 
 FOLDER = Path(__file__).resolve().parent / "tutorials"
-HEAD = "<!-- made by tests/docs/build_site.py from tests/docs/site/tutorials/{} -->\n\n"
+HEAD = "<!-- made by tests/docs/rendered.py from tests/docs/site/tutorials/{} -->\n\n"
 LANGUAGES = {".toml": "toml", ".py": "python", ".c": "c", ".xml": "xml"}
 #: Colours of a picture: lines on white paper have few.
 COLOURS = 64
@@ -66,13 +68,19 @@ def _small(png: bytes) -> bytes:
     return file.getvalue()
 
 
-def write(pages: Iterator[tuple[Path, NotebookNode]]) -> None:
-    """All pages and their pictures, in place of those that were there."""
+def main() -> None:
+    """Write all pages and their pictures, in place of those that were there."""
+    folder = ROOT / "results" / "site"
+    executed = Executed(folder / "cache", environment(folder))
     FOLDER.mkdir(exist_ok=True)
     for old in FOLDER.iterdir():
         old.unlink()
-    for page, notebook in pages:
-        text, pictures = rendered(page, notebook)
+    for page in filter(is_notebook, sorted(PAGES.glob("*.md"))):
+        text, pictures = rendered(page, executed(page))
         (FOLDER / page.name).write_text(text, encoding="utf-8")
         for name, content in pictures.items():
             (FOLDER / name).write_bytes(content)
+
+
+if __name__ == "__main__":
+    main()

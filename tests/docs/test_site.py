@@ -157,7 +157,7 @@ def as_compared(text):
 
 
 def test_the_tutorials_that_a_code_host_shows_are_those_that_were_executed(executed):
-    """Else `python tests/docs/build_site.py` writes them anew."""
+    """Else `python tests/docs/rendered.py` writes them anew."""
     pages = [page for page in sorted(PAGES.glob("*.md")) if is_notebook(page)]
     shown = {file.name for file in rendered.FOLDER.iterdir()}
     for page in pages:
