@@ -11,6 +11,7 @@ from cosim.gap.extended import Part, as_points, part_of
 from cosim.gap.judge import (
     EXPLAINED,
     NOTHING_MISSING,
+    SURE,
     explains,
     halves,
     judge,
@@ -19,6 +20,7 @@ from cosim.gap.judge import (
     may_be_spurious,
     rivals_of,
     runs_ask,
+    told_by_both,
 )
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
@@ -32,7 +34,7 @@ from cosim.gap.report_of_findings import (
     sentence_of,
     where_of,
 )
-from cosim.gap.result import Doubt, Gap, Rejected, Rung
+from cosim.gap.result import Doubt, Gap, Rejected, Rung, Score
 from cosim.gap.scatter import Scatter
 from cosim.gap.weak_form.camera_faults import FAULTS
 from cosim.gap.weak_form.constants import ALIKE
@@ -69,13 +71,15 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
 class _Agreed:
     """Findings of the rows that the simulated runs ask for too, and the models with them.
 
-    rejected : what the rows ask for and the simulated runs do without
+    rejected : what the rows ask for and the simulated runs do without; left_without : what is
+    missing without any finding, where the models with them do not explain the runs
     """
 
     named: Named
     parts: list[Part]
     models: Models
     rejected: tuple[Rejected, ...] = ()
+    left_without: Score | None = None
 
 
 def _unsearched(campaign: Campaign, fitting: _Fitting) -> _Agreed:
@@ -93,7 +97,9 @@ def _answer(campaign: Campaign, agreed: _Agreed, doubts: Sequence[Doubt]) -> Gap
     ladder, system, rung = named.ladder, named.system, named.rung
     rates = rates_of(ladder, named.unknowns) if named.unknowns else None
     names = [part.effect for part in parts]
-    verdict = judge(named.findings, names, models.ladder, _physics(campaign), rates)
+    verdict = judge(
+        named.findings, names, models.ladder, _physics(campaign), rates, agreed.left_without
+    )
     doubts = _unanswered(doubts, models.ladder, bool(parts))
     if any(doubt.severe for doubt in doubts):
         verdict = replace(verdict, verdict="unknown", effects=())
@@ -158,7 +164,11 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
                 along = {part.finding.name for part in parts if part.finding.added}
                 doubted = fitting.rejected(parts, named, along - faint)
         if doubted is None:
-            return _Agreed(*fitting.told_apart(found, models, named), tuple(rejected))
+            named = fitting.told_apart(parts, named)
+            found = [replace(part, finding=finding)
+                     for part, finding in zip(found, named.findings, strict=True)]  # fmt: skip
+            left = fitting.left_without(found, models, named)
+            return _Agreed(named, found, models, tuple(rejected), left)
         rejected.append(doubted)
 
 
@@ -213,42 +223,46 @@ class _Fitting:
         return runs_ask(without.gained(part) - price_of(part.finding.name))
 
     def _makes_up(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
-        """Whether it takes what is missing without it, or half of that; or of an ideal contact."""
+        """Whether it takes what is missing without it, or half of that; or of an ideal contact.
+
+        What makes the runs e^500 times as probable is a part of what is missing.
+        """
         without = self._without(part, parts, named)
         if not part.in_kernel or (len(parts) == 1 and not leaves(without.ladder[-1].gap)):
             return True
-        found = self._fitted(named, parts)
         if leaves(before := without.ladder[-1].gap):
-            after = found.ladder[-1].gap
+            if without.gained(part) > SURE:
+                return True
+            after = self._fitted(named, parts).ladder[-1].gap
             return not leaves(after) or halves(after, before)
         left = without.unscattered
-        return leaves(left) and halves(found.unscattered, left)
+        return leaves(left) and halves(self._fitted(named, parts).unscattered, left)
 
-    def told_apart(
-        self, parts: list[Part], models: Models, named: Named
-    ) -> tuple[Named, list[Part], Models]:
-        """With a lone finding simulated beside its rivals, and with the best in its place."""
+    def left_without(self, parts: Sequence[Part], models: Models, named: Named) -> Score | None:
+        """What the runs miss without any finding; None where the model with them is near enough."""
+        if not parts or explains(models.ladder):
+            return None
+        return self._fitted(named, []).ladder[-1].gap
+
+    def told_apart(self, parts: Sequence[Part], named: Named) -> Named:
+        """A lone finding, its rivals in the rows simulated as well.
+
+        One that the rows do not tell from it goes where simulated runs do; one that they put behind
+        it stays as probable where simulated runs put it before.
+        """
         if len(parts) != 1 or not (parts[0].in_kernel and parts[0].finding.added):
-            return named, parts, models
-        (part,), finding = parts, parts[0].finding
-        rivals = {name: self._in_place(named, name) for name in rivals_of(finding)}
-        tried = {finding.name: part, **{n: p for n, p in rivals.items() if p.in_kernel}}
-        if len(tried) == 1:
-            return named, parts, models
-        without = self._fitted(named, [])
-        gained = {name: without.gained(each) - price_of(name) for name, each in tried.items()}
-        best = max(gained, key=lambda name: gained[name])
-        # of those that were simulated by what the runs gain, of others as the rows have them
-        places = {finding.name: 0.0, **finding.others}
-        others = {name: less - places[best] for name, less in places.items()}
-        others |= {name: value - gained[best] for name, value in gained.items()}
-        del others[best]
-        simulated = tuple(name for name in tried if name != best)
-        finding = replace(tried[best].finding, others=others, simulated=simulated)
-        named = named.with_one(finding)
-        if tried[best] is not part:
-            (part,), models = self.best_of([tried[best]], named)
-        return named, [replace(part, finding=finding)], models
+            return named
+        (finding,), without = named.findings, self._fitted(named, [])
+        if not (rivals := rivals_of(finding)):
+            return named
+        others = dict(finding.others)
+        for name in rivals:
+            rival = self._in_place(named, name)
+            if rival.in_kernel:
+                more = without.gained(rival) - without.gained(parts[0])
+                more -= price_of(name) - price_of(finding.name)
+                others[name] = told_by_both(others[name], more)
+        return replace(named, findings=(replace(finding, others=others),))
 
     def _in_place(self, named: Named, name: str) -> Part:
         """What another explanation would put into the model."""

@@ -8,18 +8,19 @@
  4. An argument is a finding where the rows are e^6 times as probable with it (e^3 the first), and
     it takes more than a small part of what was missing at first; the best joins, all others are
     asked again.
- 5. Between explanations within e^3 of one another in the same place, e^12 where a finding is below
-    e^500, simulated runs decide; what they do not tell apart by e^6, or rows by e^3, is a class.
+ 5. Findings within e^3 of one another in the same place, and within e^6 in simulated runs, cannot
+    be told apart: a class; so are two within e^12, the first below e^500, of which simulated runs
+    prefer the second.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
  8. A finding below e^500, or beside a greater one, or that does not explain the runs, goes, and the
     rows are not asked for it again, where the simulated runs are not e^6 times as probable with it,
-    or it takes neither all nor half of what they miss without it (of a lesser one, before friction
-    may scatter); `none` is no finding left, and every run at 1.1 at most; without any held out
-    nothing tells.
+    or, below e^500, it takes neither all nor half of what they miss without it (a lesser one
+    always, before friction may scatter); `none` is no finding left, and every run at 1.1 at most;
+    without any held out nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
-    where they are better but stay above that, and most of the misfit is gone.
+    where they are better but stay above that, and most of the misfit is gone, half by findings.
 10. Everything else is `unknown`.
 """
 
@@ -61,11 +62,12 @@ class Verdict:
 
 def judge(
     findings: Sequence[Finding], names: Sequence[str], ladder: Sequence[Rung], physics: set[str],
-    rates: Rates | None = None,
+    rates: Rates | None = None, without: Score | None = None,
 ) -> Verdict:  # fmt: skip
     """names : of the findings, by the laws that follow them; physics : what has a name at all.
 
     rates : what this design would answer, were something else true
+    without : what contact and scatter leave without any finding, where that is asked
     """
     before, after = judged(ladder[0].gap), judged(ladder[-1].gap)
     if not findings:
@@ -83,7 +85,8 @@ def judge(
         if classes and len(findings) == 1:
             return Verdict("class", classes[0], classes)
         return Verdict("named", tuple(names), classes)
-    if improves and ladder[-1].share >= MOST:
+    own = without is None or halves(ladder[-1].gap, without)
+    if improves and own and ladder[-1].share >= MOST:
         return Verdict("partial", tuple(names), classes)
     return Verdict("unknown", (), classes)
 
@@ -131,13 +134,22 @@ def rivals_of(finding: Finding) -> list[str]:
     return sorted(near, key=lambda name: -near[name])[:RIVALS]
 
 
+def told_by_both(rows: float, simulated: float) -> float:
+    """ln of how much more probable a rival is: as rows have it, 0 where simulated runs prefer it.
+
+    What the rows do not tell apart simulated runs may.
+    """
+    if rows > -ALIKE:
+        return simulated if simulated < -LEAST_GAIN else rows
+    return 0.0 if simulated > 0.0 else rows
+
+
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:
     """What explains the rows as well in a finding's place, itself first.
 
-    Also what these runs would too often call by this name, or were simulated with, if it explains
-    them nearly as well.
+    Also what these runs would too often call by this name, if it explains them nearly as well.
     """
-    confused = (*finding.simulated, *(confirmed(rates, name)[1:] if rates is not None else ()))
+    confused = confirmed(rates, name)[1:] if rates is not None else ()
     near = sorted(finding.others, key=lambda other: -finding.others[other])
     return (
         name,

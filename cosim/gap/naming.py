@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from cosim.gap.data import Campaign
 from cosim.gap.weak_form import periodic
@@ -43,14 +43,6 @@ class Named:
     system: System
     rung: Rows
     unknowns: Mapping[str, Sequence[Unknown]]
-
-    def with_one(self, finding: Finding) -> Named:
-        """The same with another finding in place of the only one."""
-        ladder = replace(
-            self.ladder, findings=(finding,), rung=self.ladder.system.rung(finding.added)
-        )
-        rung = self.system.rung(finding.added)
-        return replace(self, ladder=ladder, findings=(finding,), rung=rung)
 
 
 @dataclass(frozen=True)

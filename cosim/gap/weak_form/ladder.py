@@ -44,7 +44,6 @@ class Finding:
     without it; others : name -> ln evidence with another in its place, less that with it
     numbers, settings : of what moves the block across, (value, standard deviation), SI, and in
     which runs it is
-    simulated : those of ``others`` that are as simulated runs have them
     """
 
     name: str
@@ -53,7 +52,6 @@ class Finding:
     others: Mapping[str, float] = field(default_factory=dict)
     numbers: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     settings: Mapping[str, float] = field(default_factory=dict)
-    simulated: tuple[str, ...] = ()
 
     @property
     def variant(self) -> str:

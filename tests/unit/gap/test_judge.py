@@ -1,12 +1,13 @@
 """The decision: every threshold where it is, and parts of an answer that cannot contradict."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from stickslip.catalogue import CATALOGUE
 
 from cosim.gap.extended import Part
 from cosim.gap.judge import halves, judge, leaves, may_be_spurious, rivals_of, runs_ask
@@ -123,11 +124,12 @@ def test_rivals_are_the_best_few_that_rows_do_not_rule_out():
     assert rivals_of(sure) == ["film_drag"]
 
 
-@pytest.mark.parametrize(("less", "verdict"), [(-5.9, "class"), (-6.1, "named")])
-def test_simulated_runs_tell_rivals_apart_by_four_hundred_to_one(less, verdict):
-    one = replace(finding("run_in", film_drag=less), simulated=("film_drag",))
-    ladder = [rung(9.0, 5.0), rung(9.0, 1.0, 1.0)]
-    assert judge([one], ["run_in"], ladder, PHYSICS).verdict == verdict
+def test_a_part_is_half_of_what_contact_and_scatter_leave():
+    ladder = [rung(9.0, 5.0), Rung("", "", Score(2.0, 2.0), Score(1.0, 1.0), 0.9)]
+    for before, verdict in ((2.7, "partial"), (2.6, "unknown")):  # 1 + 2 (2^2 - 1) is 2.65^2
+        left = Score(before, before)
+        told = judge([finding("run_in")], ["run_in"], ladder, PHYSICS, None, left)
+        assert told.verdict == verdict
 
 
 def test_what_has_no_name_is_unknown():
@@ -278,6 +280,7 @@ def test_what_moves_the_block_across_has_a_name_and_no_curve():
     part = Part(across, None, (), (Number(key, 0.1, None, -20.0, 20.0),), {})
     fitted = SimpleNamespace(values={key: 0.995}, sd={key: 0.00638}, at_bound={})
     gap = SimpleNamespace(
+        campaign=SimpleNamespace(catalogue=CATALOGUE),
         verdict="named",
         effects=("turning_surface",),
         exponents=(),
