@@ -223,20 +223,23 @@ class _Fitting:
         return runs_ask(without.gained(part) - price_of(part.finding.name))
 
     def _makes_up(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
-        """Whether it takes what is missing without it, or half of that; or of an ideal contact.
+        """Whether it takes what is missing without it, or half of that; or half before scatter.
 
-        What makes the runs e^500 times as probable is a part of what is missing.
+        What makes the runs e^500 times as probable is a part of what is missing; a friction that
+        may scatter from run to run takes up what follows a setting.
         """
         without = self._without(part, parts, named)
-        if not part.in_kernel or (len(parts) == 1 and not leaves(without.ladder[-1].gap)):
+        is_missed = leaves(before := without.ladder[-1].gap)
+        if not part.in_kernel or (len(parts) == 1 and not is_missed):
             return True
-        if leaves(before := without.ladder[-1].gap):
-            if without.gained(part) > SURE:
-                return True
-            after = self._fitted(named, parts).ladder[-1].gap
-            return not leaves(after) or halves(after, before)
+        if is_missed and without.gained(part) > SURE:
+            return True
+        found = self._fitted(named, parts)
+        after = found.ladder[-1].gap
+        if is_missed and (not leaves(after) or halves(after, before)):
+            return True
         left = without.unscattered
-        return leaves(left) and halves(self._fitted(named, parts).unscattered, left)
+        return leaves(left) and halves(found.unscattered, left)
 
     def left_without(self, parts: Sequence[Part], models: Models, named: Named) -> Score | None:
         """What the runs miss without any finding; None where the model with them is near enough."""

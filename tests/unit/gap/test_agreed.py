@@ -157,8 +157,15 @@ def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told
 )
 def test_a_lone_finding_takes_what_is_missing(monkeypatch, reached, gained, names):
     rows = Rows(finding("speed_ripple", 56.0))
-    found, _ = agreed(monkeypatch, rows, {"speed_ripple": gained}, (1.19, reached))
+    found, _ = agreed(monkeypatch, rows, {"speed_ripple": gained}, (1.19, reached), (2.0, 1.6))
     assert len(found) == names
+
+
+def test_what_scatter_takes_up_is_asked_before_friction_may_scatter(monkeypatch):
+    rows = Rows(finding("load_dependence", 30.0))
+    gained, same = {"load_dependence": 30.0}, (1.17, 1.17)
+    assert agreed(monkeypatch, rows, gained, same, (2.0, 1.48))[0] == ["load_dependence"]
+    assert agreed(monkeypatch, rows, gained, same, (2.0, 1.6))[0] == []
 
 
 @pytest.mark.parametrize(("reached", "named"), [(1.29, 1), (1.31, 2)])
