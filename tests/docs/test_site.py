@@ -14,6 +14,7 @@ from pathlib import Path
 
 import pytest
 import rendered
+from browser import PHONE, WIDE
 from build_site import build
 from gallery import EXAMPLES, NAMES, SLOW
 from gallery import ran as run_example
@@ -213,3 +214,11 @@ def test_links_within_the_site_lead_somewhere(site):
             ):
                 broken.append(f"{page.relative_to(site)}: {target}")
     assert not broken
+
+
+@pytest.mark.parametrize("page", ["index", "cannot", "guide/index", "tutorials/rig_coupled"])
+def test_nobody_is_kept_out_of_the_site(site, browser, page):
+    for width in (WIDE, PHONE):
+        browser.open(site / f"{page}.html", width)
+        assert browser.overhang() <= 0
+        assert browser.barriers() == []
