@@ -52,10 +52,10 @@ ONE_THREAD = dict.fromkeys(
 
 Result = TypeVar("Result")
 #: Every call's result, in the order of the arguments.
-Map = Callable[[Callable[..., Any], Iterable[tuple]], Iterator[Any]]
+Map = Callable[[Callable[..., Any], Iterable[tuple[Any, ...]]], Iterator[Any]]
 
 
-def map_here(function: Callable[..., Any], arguments: Iterable[tuple]) -> Iterator[Any]:
+def map_here(function: Callable[..., Any], arguments: Iterable[tuple[Any, ...]]) -> Iterator[Any]:
     """A map over this process alone."""
     return (function(*each) for each in arguments)
 
@@ -73,7 +73,9 @@ def processes(jobs: int, first: Callable[[], object] | None = None) -> Iterator[
         with held_interrupts(), unheard_by_children():
             starting = [submit(first) for _ in range(jobs)] if first else []
 
-        def mapped(function: Callable[..., Any], arguments: Iterable[tuple]) -> Iterator[Any]:
+        def mapped(
+            function: Callable[..., Any], arguments: Iterable[tuple[Any, ...]]
+        ) -> Iterator[Any]:
             if not all(future.done() for future in starting):
                 return map_here(function, arguments)
             for future in starting:
@@ -86,7 +88,7 @@ def processes(jobs: int, first: Callable[[], object] | None = None) -> Iterator[
 
 
 def as_finished(
-    jobs: int, function: Callable[..., Result], arguments: Sequence[tuple]
+    jobs: int, function: Callable[..., Result], arguments: Sequence[tuple[Any, ...]]
 ) -> Generator[Result, None, None]:
     """Every call's result as soon as there is one, from ``jobs`` processes as `processes` has them.
 

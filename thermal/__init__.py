@@ -11,11 +11,14 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from .belt.parameters import Belt, Layer
     from .belt.single_pass import SinglePass
+    from .contact.parameters import Contact
     from .ice.mesh_file import MeshError
+    from .ice.parameters import Ice
     from .model import BeltIceModel
     from .output import FieldSeries, RigView, collection, rig_view
-    from .parameters import Ambient, Belt, Contact, Ice, Layer, ParameterError, ThermalParameters
+    from .parameters import Ambient, ParameterError, ThermalParameters
     from .steady_sliding import SlidingState, SteadySliding
     from .steady_state import NoSteadyState, settle
 

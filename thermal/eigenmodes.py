@@ -20,6 +20,8 @@ from skfem import BilinearForm, CellBasis, FacetBasis, LinearForm
 from .materials import Medium
 
 Array = NDArray[np.float64]
+#: Places (d, ...) -> what an element of them counts.
+Measure = Callable[[Array], Array]
 Films = Sequence[tuple[FacetBasis, float]]
 
 #: Modes that carry the heat of long times; see `_sharpen`.
@@ -41,7 +43,7 @@ class Eigenmodes:
 
 
 def _weighted_gradients(
-    basis: CellBasis, films: Films, medium: Medium, measure: Callable, shape: Array
+    basis: CellBasis, films: Films, medium: Medium, measure: Measure, shape: Array
 ) -> Array:
     """Vector g of a shape at the quadrature points with phi^T K psi = g(phi) . g(psi)."""
     weight = medium.conductivity * measure(basis.global_coordinates()) * basis.dx
@@ -66,7 +68,7 @@ def _sharpen(shapes: Array, capacity: spmatrix, gradients: Callable[[Array], Arr
     return np.array([np.sum(np.square(gradients(shape))) for shape in shapes.T])
 
 
-def eigenmodes(basis: CellBasis, films: Films, medium: Medium, measure: Callable) -> Eigenmodes:
+def eigenmodes(basis: CellBasis, films: Films, medium: Medium, measure: Measure) -> Eigenmodes:
     """Assemble and solve.
 
     films: facet bases, each with its heat transfer coefficient in W/m2K; measure: weight of the

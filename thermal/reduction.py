@@ -114,13 +114,9 @@ def _belt(belt: Belt, lane: float) -> ReducedBelt:
     boundaries, of_element = element_boundaries(belt.stack, belt.elements)
     basis = CellBasis(MeshLine(boundaries), ElementLineP2())
     faces = FacetBasis(basis.mesh, ElementLineP2(), facets=basis.mesh.boundary_facets())
-    capacity, conductivity = (
-        np.array([value(belt.stack[i]) for i in of_element])[:, None]
-        for value in (
-            lambda layer: layer.density * layer.heat_capacity,
-            lambda layer: layer.conductivity,
-        )
-    )
+    layers = [belt.stack[i] for i in of_element]
+    capacity = np.array([layer.density * layer.heat_capacity for layer in layers])[:, None]
+    conductivity = np.array([layer.conductivity for layer in layers])[:, None]
     stored, conduction, along = (
         lane * form.assemble(basis).toarray()
         for form in (
@@ -145,10 +141,10 @@ def _answers(stored: Array, conduction: Array, loss: Array, load: Array) -> Arra
     count = 1 + max(1, int(np.ceil(np.log(_FASTEST / low) / np.log(_APART))))
     shifts = [*np.geomspace(max(_FASTEST, _APART * low), low, count), lowest]
     if rates.size <= len(shifts) + 1:
-        return modes
+        return np.asarray(modes)
     found = [np.linalg.solve(shift * stored + loss, load) for shift in shifts]
     trial, _ = np.linalg.qr(modes.T @ stored @ np.column_stack([np.ones(load.size), *found]))
-    return modes @ trial
+    return np.asarray(modes @ trial)
 
 
 def _ice(space: IceSpace, air: float, heat_capacity: float) -> ReducedIce:
@@ -178,7 +174,8 @@ def _loss(space: IceSpace, times: float) -> Array:
     """Conduction and films, W/K, these so many times as strong."""
     films = [np.sqrt(times) * factor for factor in (space.side, space.top)]
     whole = np.concatenate((space.across, space.upwards, *films))
-    return whole.T @ whole
+    found: Array = whole.T @ whole
+    return found
 
 
 def _orthonormal(functions: Array, capacity: Array) -> Array:

@@ -31,7 +31,7 @@ def mean_response(x: Numbers) -> Numbers:
     """(exp(-x) - 1 + x) / x^2, the mean over a step of the response to p; 1/2 at x = 0."""
     is_small = np.abs(x) < _SERIES_BELOW
     large = np.where(is_small, _SERIES_BELOW, x)
-    result = (np.expm1(-large) + large) / large**2
+    result: Numbers = (np.expm1(-large) + large) / large**2
     small = x[is_small]
     series = np.zeros_like(small)
     for n in range(_TERMS + 1, 1, -1):

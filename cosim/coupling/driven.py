@@ -84,12 +84,14 @@ class Driven:
     @property
     def name(self) -> str:
         """That of the participant."""
-        return self._inner.name
+        found: str = self._inner.name
+        return found
 
     @property
     def ports(self) -> Mapping[str, Port]:
         """Those of the participant."""
-        return self._inner.ports
+        found: Mapping[str, Port] = self._inner.ports
+        return found
 
     @property
     def capabilities(self) -> Capabilities:
@@ -117,7 +119,8 @@ class Driven:
                     for port, curve in self.curves.items()
                 }
             )
-        return self._inner.step(time, size)
+        found: float | None = self._inner.step(time, size)
+        return found
 
     def _is_total(self, port: str) -> bool:
         return self.ports[port].unit == ENERGY_UNIT

@@ -101,7 +101,8 @@ def _acceleration(settings: Settings) -> Acceleration:
     if settings.acceleration == "none":
         return Relaxation()
     kinds = {"constant": Relaxation, "aitken": Aitken, "iqn_ils": QuasiNewton}
-    return kinds[settings.acceleration](settings.relaxation)
+    found: Acceleration = kinds[settings.acceleration](settings.relaxation)
+    return found
 
 
 def _estimate(settings: Settings, bonds: Sequence[tuple[str, str]]) -> Estimate:

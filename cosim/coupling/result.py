@@ -41,7 +41,8 @@ class EnergyFlow:
     @property
     def in_transit(self) -> np.ndarray:
         """Handed over and not yet taken up, J, (n,)."""
-        return self.handed - self.taken
+        found: np.ndarray = self.handed - self.taken
+        return found
 
 
 @dataclass(frozen=True)

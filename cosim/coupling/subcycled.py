@@ -40,12 +40,14 @@ class Subcycled:
     @property
     def name(self) -> str:
         """That of the participant."""
-        return self._inner.name
+        found: str = self._inner.name
+        return found
 
     @property
     def ports(self) -> Mapping[str, Port]:
         """Those of the participant."""
-        return self._inner.ports
+        found: Mapping[str, Port] = self._inner.ports
+        return found
 
     @cached_property
     def _powers(self) -> tuple[str, ...]:

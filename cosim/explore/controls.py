@@ -121,7 +121,8 @@ def _fields(table: str) -> Iterator[tuple[str, FieldInfo]]:
 
 def _table(model: type[BaseModel], name: str) -> type[BaseModel]:
     kind: Any = model.model_fields[name].annotation
-    return kind
+    table: type[BaseModel] = kind
+    return table
 
 
 def control(key: str, field: FieldInfo) -> dict[str, Any]:

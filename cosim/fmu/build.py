@@ -17,13 +17,13 @@ from stickslip.scratch import scratch_folder
 from cosim.files import clear_partial
 from cosim.fmu import libraries, native, python_unit
 from cosim.fmu.libraries import runs_here
-from cosim.fmu.thermal import native_unit
+from cosim.fmu.thermal import native_unit, variables
 from cosim.processes import apart
 
 #: Folder of a checkout in which its units stand, beside the recipes.
 BUILD_FOLDER = Path("build")
 NATIVE, FMI3, PYTHON = native.FILES[libraries.FMI2], native.FILES[libraries.FMI3], python_unit.FMU
-THERMAL, THERMAL_PYTHON = native_unit.FMU, f"{native_unit.NAME}-python.fmu"
+THERMAL, THERMAL_PYTHON = native_unit.FMU, f"{variables.NAME}-python.fmu"
 THERMAL_FMI3 = native_unit.FILES[libraries.FMI3]
 SYSTEM = "StickSlipThermal.ssp"
 UNITS = (NATIVE, FMI3, PYTHON, THERMAL, THERMAL_FMI3, THERMAL_PYTHON, SYSTEM)

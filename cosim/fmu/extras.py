@@ -97,4 +97,5 @@ def terminals(variables: Iterable[Variable]) -> bytes:
                 variableKind="signal",
             )
     indent(root)
-    return tostring(root, encoding="UTF-8", xml_declaration=True)
+    found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
+    return found

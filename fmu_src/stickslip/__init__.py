@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from .effects import EFFECTS
     from .friction.law import friction_coefficient
+    from .friction.parameters import Friction
     from .parameters import (
-        Friction,
         Imperfections,
         Initial,
         Parameters,

@@ -64,7 +64,8 @@ class Trajectory:
     @property
     def slip_starts(self) -> np.ndarray:
         """Times of break-away, s."""
-        return self.events[self.events[:, 1] == 1.0, 0]
+        found: np.ndarray = self.events[self.events[:, 1] == 1.0, 0]
+        return found
 
     def to_xarray(self) -> xarray.Dataset:
         """Everything as an `xarray.Dataset`, with units and long names.

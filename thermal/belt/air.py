@@ -114,7 +114,8 @@ def convection(
     size = span * width / (2.0 * (span + width))
     rayleigh = 0.7 * GRAVITY / temperature * rise * size**3 / viscosity**2
     natural = 0.5 * (0.54 + 0.27) * rayleigh**0.25 * conductivity / size
-    return (forced**3 + natural**3) ** (1.0 / 3.0)
+    found: float = (forced**3 + natural**3) ** (1.0 / 3.0)
+    return found
 
 
 def radiation(temperature_degC: float) -> float:

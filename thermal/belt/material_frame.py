@@ -43,7 +43,7 @@ def periodic_stiffness(cells: int, cell: float) -> Array:
     identify = coo_matrix((np.ones(cells + 1), (nodes, nodes % cells))).tocsr()
     stiffness = BilinearForm(lambda u, v, w: u.grad[0] * v.grad[0]).assemble(basis)
     circulant = identify.T @ stiffness @ identify
-    symbol = rfft(circulant[:, [0]].toarray().ravel()).real
+    symbol: Array = rfft(circulant[:, [0]].toarray().ravel()).real
     # The stiffness of a constant is zero; assembly leaves rounding.
     symbol[0] = 0.0
     return symbol
@@ -199,8 +199,10 @@ class BeltField:
 
     def face(self, which: int = CONTACT) -> Array:
         """A face at the nodes, K above the air: (cells,)."""
-        return irfft(np.einsum("m,mk->k", self._faces[which], self.amplitudes), self.cells)
+        found: Array = irfft(np.einsum("m,mk->k", self._faces[which], self.amplitudes), self.cells)
+        return found
 
     def field(self) -> Array:
         """Temperature rise at all nodes, K: (cells, depths)."""
-        return irfft(self._shapes @ self.amplitudes, self.cells, axis=1).T
+        found: Array = irfft(self._shapes @ self.amplitudes, self.cells, axis=1).T
+        return found

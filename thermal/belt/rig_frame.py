@@ -145,7 +145,8 @@ class BeltSeries:
         # Lanczos' factors: the series is cut off, which would ripple near the contact's edges.
         smooth = np.sinc(np.arange(self._wave.size) / self._wave.size)
         series = smooth * self._weight * (self._faces[0] @ self.amplitudes)
-        return (np.exp(1j * np.outer(x, self._wave)) @ series).real
+        found: Array = (np.exp(1j * np.outer(x, self._wave)) @ series).real
+        return found
 
     def warm(self, rise: float) -> None:
         """Make the whole belt warmer, K."""

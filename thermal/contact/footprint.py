@@ -25,7 +25,10 @@ Array = NDArray[np.float64]
 def disc_on_strip(radius: float, width: float) -> float:
     """Area (m2) of a disc that lies on a strip of given width through its centre (m)."""
     half = min(0.5 * width, radius)
-    return 2.0 * (half * np.sqrt(radius**2 - half**2) + radius**2 * np.arcsin(half / radius))
+    found: float = 2.0 * (
+        half * np.sqrt(radius**2 - half**2) + radius**2 * np.arcsin(half / radius)
+    )
+    return found
 
 
 class Footprint:

@@ -28,7 +28,8 @@ _RADIAL_STRETCH = 8.0
 
 
 def _around(x: Array) -> Array:
-    return 2.0 * np.pi * x[0]
+    found: Array = 2.0 * np.pi * x[0]
+    return found
 
 
 def _with_midpoints(boundaries: Array) -> Array:

@@ -34,7 +34,7 @@ def response_space(capacity: csr_matrix, conduction: csr_matrix, load: Array) ->
     ArithmeticError when the equations cannot be solved.
     """
     ones = np.ones(load.size)
-    space = (ones / np.sqrt(ones @ (capacity @ ones)))[:, None]
+    space: Array = (ones / np.sqrt(ones @ (capacity @ ones)))[:, None]
     for shift in SHIFTS:
         system = (shift * capacity + conduction).tocsr()
         guess = space @ np.linalg.solve(space.T @ (system @ space), space.T @ load)

@@ -194,4 +194,5 @@ def _fault_of_boundary(points: Array, surface: Cells) -> str | None:
 def base_of(points: Array, surface: Cells) -> NDArray[np.bool_]:
     """Which facets of the surface lie on the plane z = 0."""
     height = points[:, 2].max()
-    return np.all(np.abs(points[surface][:, :, 2]) <= FLAT * height, axis=1)
+    found: NDArray[np.bool_] = np.all(np.abs(points[surface][:, :, 2]) <= FLAT * height, axis=1)
+    return found

@@ -120,7 +120,8 @@ class Sample(IceBody):
 
     def at_points(self) -> Array:
         """Temperature rise at `points`, K: (nodes,)."""
-        return self.nodal()[self.basis.nodal_dofs[0]]
+        found: Array = self.nodal()[self.basis.nodal_dofs[0]]
+        return found
 
 
 def assembled(parameters: Ice, points: Array, cells: NDArray[np.int64], half: float) -> Body:

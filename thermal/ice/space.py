@@ -136,7 +136,8 @@ class Body:
         """Heat (N,) to the air through a part of the surface, W/K."""
         if part is None:
             return np.zeros(self.basis.N)
-        return LinearForm(lambda v, w: self.h * self.measure(w.x) * v).assemble(part)
+        found: Array = LinearForm(lambda v, w: self.h * self.measure(w.x) * v).assemble(part)
+        return found
 
     def space(self, trial: Array) -> IceSpace:
         """The Galerkin space of the columns of trial (N, n)."""

@@ -80,7 +80,8 @@ def _faults(path: Path, identity: tuple[int, ...]) -> list[str]:
 
 def is_fmi3(description: ModelDescription) -> bool:
     """Whether it is FMI 3, not 2."""
-    return description.fmiVersion.startswith("3.")
+    found: bool = description.fmiVersion.startswith("3.")
+    return found
 
 
 def _check(path: Path, description: ModelDescription) -> None:
@@ -117,7 +118,7 @@ def library_of(path: Path, folder: Path, description: ModelDescription) -> Path:
     """The library for this machine in the folder that a unit is unpacked in; FmuError for none."""
     platform = fmpy.platform_tuple if is_fmi3(description) else fmpy.platform
     file = f"{description.coSimulation.modelIdentifier}{fmpy.sharedLibraryExtension}"
-    library = folder / "binaries" / platform / file
+    library: Path = folder / "binaries" / platform / file
     if not library.is_file():
         binaries = folder / "binaries"
         there = sorted(each.name for each in binaries.iterdir()) if binaries.is_dir() else []

@@ -112,7 +112,8 @@ class Fmi2:
         self._fmu.freeFMUstate(handle)
 
     def as_bytes(self, handle: Any) -> bytes:
-        return self._fmu.serializeFMUstate(handle)
+        found: bytes = self._fmu.serializeFMUstate(handle)
+        return found
 
     def from_bytes(self, saved: bytes) -> Any:
         return self._fmu.deSerializeFMUstate(saved)

@@ -170,7 +170,8 @@ class Fmi3:
         self._fmu.freeFMUState(handle)
 
     def as_bytes(self, handle: Any) -> bytes:
-        return self._fmu.serializeFMUState(handle)
+        found: bytes = self._fmu.serializeFMUState(handle)
+        return found
 
     def from_bytes(self, saved: bytes) -> Any:
         return self._fmu.deserializeFMUState(saved)

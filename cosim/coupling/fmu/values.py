@@ -33,7 +33,7 @@ def whole(memory: Any) -> Callable[[Any], int]:
     least, most = (-(2**bits) if signed else 0), 2**bits - 1
 
     def convert(value: Any) -> int:
-        number = round(value)
+        number: int = round(value)
         if not least <= number <= most:
             raise FmuError(f"{value:g} is given to an integer from {least} to {most}")
         return number
@@ -43,7 +43,8 @@ def whole(memory: Any) -> Callable[[Any], int]:
 
 def truth(value: Any) -> bool:
     """Whether a number is nearer to 1 than to 0, or beyond."""
-    return round(value) != 0
+    found: bool = round(value) != 0
+    return found
 
 
 def encoded(value: str) -> bytes:

@@ -113,7 +113,7 @@ def unit_of(variable: ModelVariable) -> str:
 
 def _declared(variable: ModelVariable, key: str) -> str | None:
     """What is declared of a variable, or of its type."""
-    declared = getattr(variable, key)
+    declared: str | None = getattr(variable, key)
     if declared is None and variable.declaredType is not None:
         declared = getattr(variable.declaredType, key)
     return declared

@@ -131,7 +131,9 @@ class Served:
         returned = getattr(self._participant, call)(*arguments)
         return (returned, self._participant.read()) if call in WITH_OUTPUTS else returned
 
-    def _start(self, factory: Callable[..., Any], given: tuple, named: dict[str, Any]) -> Any:
+    def _start(
+        self, factory: Callable[..., Any], given: tuple[Any, ...], named: dict[str, Any]
+    ) -> Any:
         participant = self._participant = factory(*given, **named)
         messages = getattr(participant, "messages", None)
         if isinstance(messages, Messages):

@@ -56,7 +56,7 @@ class IsolatedParticipant:
             raise CouplingError(f"time_limit = {time_limit:g} s: must be greater than 0, finite")
         self._made_by = _checked(factory, arguments, named)
         self._limit = time_limit
-        self._told: list[tuple[str, tuple]] = []
+        self._told: list[tuple[str, tuple[Any, ...]]] = []
         self._states: set[State] = set()
         self._gives_states = False
         self._outputs: dict[str, float] | None = None
@@ -102,7 +102,8 @@ class IsolatedParticipant:
         self.messages.time = time
         self._outputs = None
         reached, self._outputs = self._ask("step", time, size)
-        return reached
+        found: float | None = reached
+        return found
 
     def get_state(self) -> State:
         """A state; it stays in the process, which takes it before it does anything else.
@@ -134,7 +135,8 @@ class IsolatedParticipant:
 
     def save_state(self) -> bytes:
         """Everything that the future depends on."""
-        return self._ask("save_state")
+        found: bytes = self._ask("save_state")
+        return found
 
     def load_state(self, saved: bytes) -> None:
         """Go on from what `save_state` gave."""
@@ -207,7 +209,9 @@ class IsolatedParticipant:
         lines.dropped = 0
 
 
-def _checked(factory: Callable[..., Any], given: tuple, named: dict[str, Any]) -> tuple:
+def _checked(
+    factory: Callable[..., Any], given: tuple[Any, ...], named: dict[str, Any]
+) -> tuple[Any, ...]:
     """What another process is to make a participant of; CouplingError where it cannot cross."""
     label = getattr(factory, "__qualname__", repr(factory))
     if getattr(factory, "__module__", None) == "__main__":

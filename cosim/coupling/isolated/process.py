@@ -85,7 +85,9 @@ class Process:
         """Whether it can be asked no more."""
         return not self._end.alive
 
-    def ask(self, told: Sequence[tuple[str, tuple]], call: str, arguments: tuple) -> Any:
+    def ask(
+        self, told: Sequence[tuple[str, tuple[Any, ...]]], call: str, arguments: tuple[Any, ...]
+    ) -> Any:
         """What a call returns there, or raises; IsolatedError where no answer comes."""
         deadline = time.monotonic() + self._limit + (START_SECONDS if call == START else 0.0)
         try:

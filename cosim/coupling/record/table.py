@@ -19,7 +19,7 @@ import weakref
 from collections.abc import Mapping, Sequence
 from io import FileIO
 from pathlib import Path
-from typing import Any, NamedTuple, Self
+from typing import NamedTuple, Self
 
 import numpy as np
 
@@ -212,7 +212,7 @@ def _without_count(head: bytes) -> bytes:
 def _new_file(path: Path | None) -> FileIO:
     if path is None:
         # numpy maps it, and wants a file that is one itself
-        file: Any = tempfile.TemporaryFile(buffering=0)  # noqa: SIM115  closed with the table
+        file: FileIO = tempfile.TemporaryFile(buffering=0)  # noqa: SIM115  closed with the table
         return file
     path.unlink(missing_ok=True)  # who has the earlier one open keeps it
     return path.open("x+b", buffering=0)

@@ -49,7 +49,8 @@ def fmi2_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
         _add_variable(declared, reference, variable, index, exchange)
     _add_structure(root, variables, index, facts.starts)
     indent(root)
-    return tostring(root, encoding="UTF-8", xml_declaration=True)
+    found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
+    return found
 
 
 def _add_model_exchange(root: Element, facts: UnitFacts) -> None:

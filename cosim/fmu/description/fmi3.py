@@ -75,7 +75,8 @@ def build_description(facts: UnitFacts) -> bytes:
 
 def _written(root: Element) -> bytes:
     indent(root)
-    return tostring(root, encoding="UTF-8", xml_declaration=True)
+    found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
+    return found
 
 
 def _add_interfaces(root: Element, facts: UnitFacts) -> None:

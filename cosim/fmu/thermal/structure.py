@@ -85,7 +85,8 @@ def _changed(known: Mapping[str, Variable]) -> dict[str, float]:
 
 def _text(root: Element) -> bytes:
     indent(root)
-    return tostring(root, encoding="UTF-8", xml_declaration=True)
+    found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
+    return found
 
 
 def description(catalogue: Catalogue) -> bytes:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
-from stickslip.parameters import Friction
+from stickslip.friction.parameters import Friction
 
 from cosim.gap.data.campaign_file import CampaignTable
 from cosim.gap.data.errors import CampaignError

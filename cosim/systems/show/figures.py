@@ -226,7 +226,8 @@ def _is_rounding(columns: Columns, name: str) -> bool:
         if each.attrs.get("participant") == own["participant"]
         and each.attrs["units"] == own["units"] != NO_UNIT
     ]
-    return 0.0 < size < max(OF_NOMINAL * own["nominal"], OF_ALIKE * max(alike, default=0.0))
+    found: bool = 0.0 < size < max(OF_NOMINAL * own["nominal"], OF_ALIKE * max(alike, default=0.0))
+    return found
 
 
 def _constant(columns: Columns, name: str) -> str:

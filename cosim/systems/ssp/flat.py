@@ -14,7 +14,7 @@ from cosim.names import unknown_name
 from cosim.systems.specification import Hop, Link, Start, UnitEntry
 from cosim.systems.ssp.package import Package
 from cosim.systems.ssp.structure import NUMBERS, Component, Connector, Ends, Structure, System
-from cosim.systems.ssp.values import bound_values
+from cosim.systems.ssp.values import Bound, bound_values
 from cosim.systems.system_errors import SystemFault
 
 #: Names of the elements from the outermost system's to this one, without the outermost's.
@@ -191,7 +191,7 @@ class Flat:
         self._pass_on(borders, found)
         return found
 
-    def _bound(self, path: Path) -> Iterator:
+    def _bound(self, path: Path) -> Iterator[Bound]:
         owner = self._components.get(path) or self._systems[path]
         return bound_values(owner.node, self._package, self._structure.units)
 

@@ -127,7 +127,8 @@ def tag(name: str) -> str:
 
 def below(node: etree._Element, path: str) -> Iterator[etree._Element]:
     """Elements at a path such as `ssd:Elements/ssd:Component`."""
-    return node.iterfind("/".join(tag(part) for part in path.split("/")))
+    found: Iterator[etree._Element] = node.iterfind("/".join(tag(part) for part in path.split("/")))
+    return found
 
 
 def local(node: etree._Element) -> str:

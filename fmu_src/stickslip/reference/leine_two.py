@@ -58,12 +58,14 @@ class LeineDisc:
         spring = self.stiffness * state[0]
         # k_t (m/J) phi r with state[2] = r phi
         torsion = self.torsion_stiffness * ratio * state[2]
-        return (spring + torsion) / (1.0 + self.radius**2 * ratio)
+        found: float = (spring + torsion) / (1.0 + self.radius**2 * ratio)
+        return found
 
     def sliding_force(self, state: np.ndarray, side: float) -> float:
         """Friction in slip, N; ``side`` +1 where the belt overtakes the contact, else -1."""
         sliding = max(side * (self.belt_speed - state[1] - state[3]), 0.0)
-        return side * self.static_force / (1.0 + self.weakening * sliding)
+        found: float = side * self.static_force / (1.0 + self.weakening * sliding)
+        return found
 
     def motion(self, state: np.ndarray, force: float) -> list[float]:
         """State's rate under a load on the contact, N."""
@@ -78,12 +80,13 @@ class LeineDisc:
     def energy(self, state: np.ndarray) -> np.ndarray:
         """Kinetic and spring energy, J; state (4, ...). radius 0 has no rotation."""
         turn = state[2] / self.radius, state[3] / self.radius
-        return 0.5 * (
+        found: np.ndarray = 0.5 * (
             self.mass * state[1] ** 2
             + self.stiffness * state[0] ** 2
             + self.inertia * turn[1] ** 2
             + self.torsion_stiffness * turn[0] ** 2
         )
+        return found
 
     def simulate(self, duration: float) -> list[Segment]:
         """Segments of stick and slip, their ends located; starts at rest on the belt."""

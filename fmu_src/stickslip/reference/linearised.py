@@ -187,7 +187,10 @@ class SchemeRun:
     def slip_phases(self) -> np.ndarray:
         """Phases of slip that ended in stick, (k, 5)."""
         ended = self.phases[:, 3]
-        return self.phases[(self.phases[:, 2] == SLIP) & ((ended == STUCK_AGAIN) | (ended == CUT))]
+        found: np.ndarray = self.phases[
+            (self.phases[:, 2] == SLIP) & ((ended == STUCK_AGAIN) | (ended == CUT))
+        ]
+        return found
 
     @property
     def slips(self) -> int:

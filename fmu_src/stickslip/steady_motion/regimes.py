@@ -98,7 +98,8 @@ class Regime:
     def _returns(self, name: str) -> bool:
         """Does a distance from the line that is more than little shrink?"""
         value = getattr(self, name)
-        return value > TOLERANCES[name][1] and self.change[name] < -SHRUNK * value
+        found: bool = value > TOLERANCES[name][1] and self.change[name] < -SHRUNK * value
+        return found
 
     @property
     def is_aside(self) -> bool:

@@ -274,7 +274,8 @@ def _lowest(run: Trajectory, begin: float) -> np.ndarray:
     if time.size < 2 or np.ptp(run["x"][late]) < 1e3 * DISTURBANCES[1]:
         return np.empty(0)
     up = np.flatnonzero((vx[:-1] < 0.0) & (vx[1:] >= 0.0))
-    return time[up] - vx[up] * (time[up + 1] - time[up]) / (vx[up + 1] - vx[up])
+    found: np.ndarray = time[up] - vx[up] * (time[up + 1] - time[up]) / (vx[up + 1] - vx[up])
+    return found
 
 
 def _transfer(
@@ -328,4 +329,5 @@ def _course(live: LiveRun, moment: float) -> np.ndarray:
     span = 1e-3 * (moment - live.time)
     there = live.copy().advance(moment)
     change = there.copy().advance(moment + span).state - there.state
-    return change / change[0]
+    found: np.ndarray = change / change[0]
+    return found

@@ -62,7 +62,7 @@ def test_what_is_known_of_the_rig(campaign):
 
 def test_a_planned_run_needs_no_file(tmp_path):
     path = write_campaign(tmp_path, [{"duration": 30.0, "rate": 50.0}], friction={"mu_k": 0.1})
-    table, (run,) = read_tables(path, RunTable)
+    table, (run,), _ = read_tables(path, RunTable)
     assert (run.duration, run.rate, table.friction.expected) == (30.0, 50.0, {"mu_k": 0.1})
     assert table.friction.given == {}  # expected, not measured
     with pytest.raises(CampaignError, match="run 1: file.*stickslip plan"):

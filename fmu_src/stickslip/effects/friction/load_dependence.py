@@ -51,7 +51,7 @@ def coefficient_factor(
     logarithmic: float,
 ) -> float:
     """mu_s and mu_k over their values at the reference force."""
-    factor = (normal_force / reference_force) ** -exponent
+    factor = float((normal_force / reference_force) ** -exponent)
     factor *= (1.0 + adhesion / normal_force) / (1.0 + adhesion / reference_force)
     return factor * max(0.0, 1.0 - logarithmic * log10(normal_force / reference_force))
 
