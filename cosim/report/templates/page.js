@@ -1,7 +1,7 @@
-// On every page: boxes that scroll can be reached with the keyboard.
+// On every page, and on those of the documentation: boxes that scroll can be reached with the keyboard.
 "use strict";
 (() => {
-  const boxes = document.querySelectorAll(".wide, pre, figure.still");
+  const boxes = document.querySelectorAll(".wide, .table-wrapper, pre, figure.still");
   const words = { PRE: "text", FIGURE: "picture" };
   function reachable() {
     for (const box of boxes) {

@@ -60,5 +60,7 @@ html_title = "stickslip"
 html_math_renderer = "mathml"
 html_show_sourcelink = False
 html_theme_options = {"navigation_with_keys": True}
-html_static_path = ["static"]
+# boxes that scroll can be reached with the keyboard, as on the pages of the commands
+html_static_path = ["static", str(CHECKOUT / "cosim" / "report" / "templates" / "page.js")]
+html_js_files = [("page.js", {"defer": "defer"})]
 html_css_files = ["tables.css"]
