@@ -56,9 +56,7 @@ def explorer_page(scenario: Scenario | None = None) -> str:
     )
 
 
-def page_data(
-    scenario: Scenario | None = None, catalogue: Catalogue = CATALOGUE
-) -> dict[str, Any]:
+def page_data(scenario: Scenario | None = None, catalogue: Catalogue = CATALOGUE) -> dict[str, Any]:
     """What the scripts are told: scenarios, controls, and places in the kernel's arrays."""
     presets = [preset(read_scenario(name)) for name in PRESETS]
     chosen = preset(scenario) if scenario is not None else presets[0]
