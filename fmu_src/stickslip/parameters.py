@@ -239,10 +239,8 @@ class Parameters(EffectTables):
     def with_effects(cls, *files: str | Path) -> type[Self]:
         """The same tables, and one for the effect of each file, which is executed.
 
-        Raises PluginError in one line: file, line, what is wrong, what is allowed.
-
-        >>> Parameters.with_effects("brush.py")(brush={"fall": 0.3}).brush.fall  # doctest: +SKIP
-        0.3
+        As in ``Parameters.with_effects("brush.py")(brush={"fall": 0.3})``. Raises PluginError in
+        one line: file, line, what is wrong, what is allowed.
         """
         return cls.of(cls.catalogue.with_files(*files))
 

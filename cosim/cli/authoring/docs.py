@@ -34,7 +34,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def refused() -> tuple[type[Exception], ...]:
     """What is bad input."""
-    return ()
+    return (BadInput,)
 
 
 def execute(arguments: Namespace) -> int:

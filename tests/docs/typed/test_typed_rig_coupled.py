@@ -1,7 +1,7 @@
 """Somebody with a rig does the page "Your rig, coupled"."""
 
 #: What the report tells of: run, motion, heat, ledger.
-NAMED = ("soft_springs", "stick-slip frequency", "rise at the contact", "Energy")
+NAMED = ("soft_springs", "stick-slip frequency", "warmest contact, over the air", "Energy")
 
 
 def test_rig_coupled(reader, browser):

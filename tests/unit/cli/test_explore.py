@@ -17,7 +17,7 @@ MODULE = b"\0asm\x01\0\0\0"
 def kernel(tmp_path, monkeypatch):
     """A place of one's own, and a kernel that nobody has to compile."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(web, "module", lambda: MODULE)
+    monkeypatch.setattr(web, "module", lambda *_: MODULE)
 
 
 @pytest.fixture
