@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import time
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -149,3 +150,13 @@ def lives(process):
     except ProcessLookupError:
         return False
     return " Z " not in Path(f"/proc/{process}/stat").read_text()
+
+
+def test_apart_imports_nothing_of_a_unit_that_was_left_on_the_path(tmp_path, monkeypatch):
+    """An instance that was never set up leaves its resources there, with a pythonfmu in them."""
+    package = tmp_path / "resources" / "pythonfmu"
+    package.mkdir(parents=True)
+    (package / "__init__.py").touch()
+    monkeypatch.syspath_prepend(package.parent)
+    assert Path(find_spec("pythonfmu").origin).parent == package
+    assert Path(apart(find_spec, "pythonfmu").origin).parent != package
