@@ -160,7 +160,7 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
         doubted = fitting.rejected(parts, named, faint)
         if doubted is None:
             found, models = fitting.best_of(parts, named)
-            if not explains(models.ladder):
+            if not (explains(models.ladder) and models.is_felt):
                 along = {part.finding.name for part in parts if part.finding.added}
                 doubted = fitting.rejected(parts, named, along - faint)
         if doubted is None:
@@ -230,11 +230,13 @@ class _Fitting:
         """
         without = self._without(part, parts, named)
         is_missed = leaves(before := without.ladder[-1].gap)
-        if not part.in_kernel or (len(parts) == 1 and not is_missed):
-            return True
-        if is_missed and without.gained(part) > SURE:
+        if not part.in_kernel:
             return True
         found = self._fitted(named, parts)
+        if found.is_lost:
+            return False
+        if without.gained(part) > SURE if is_missed else len(parts) == 1:
+            return True
         after = found.ladder[-1].gap
         if is_missed and (not leaves(after) or halves(after, before)):
             return True

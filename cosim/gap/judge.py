@@ -14,11 +14,11 @@
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
- 8. A finding below e^500, or beside a greater one, or that does not explain the runs, goes, and the
-    rows are not asked for it again, where the simulated runs are not e^6 times as probable with it,
-    or, below e^500, it takes neither all nor half of what they miss without it, at last or before
-    friction may scatter; `none` is no finding left, and every run at 1.1 at most; without any held
-    out nothing tells.
+ 8. A finding below e^500, or beside a greater one, or that does not explain the runs or takes
+    nothing of the gap by itself, goes, and the rows are not asked for it again, where the simulated
+    runs are not e^6 times as probable with it, or, below e^500, it takes neither all nor half of
+    what they miss without it, at last or before friction may scatter; `none` is no finding left,
+    and every run at 1.1 at most; without any held out nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
     where they are better but stay above that, and most of the misfit is gone, half by findings.
 10. Everything else is `unknown`.

@@ -76,7 +76,7 @@ class Models:
         step()
         models._add_parts()
         step()
-        if models.ladder[-1].gap.fit > LOST * models.ladder[0].gap.fit:
+        if models.is_lost:
             return models  # no contact makes up for that
         models._try_contact()
         step()
@@ -117,6 +117,17 @@ class Models:
             sticks = 100.0 * self.fits[-1].stick_scatter
             text += f", from stick to stick by {sticks:.2g} %"
             self.ladder[-1] = replace(self.ladder[-1], text=text)
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether the findings make it much worse."""
+        return self.ladder[-1].gap.fit > LOST * self.ladder[0].gap.fit
+
+    @property
+    def is_felt(self) -> bool:
+        """Whether the findings take anything of the gap by themselves."""
+        before, after = self.ladder[0].gap.fit, self.ladder[len(self.parts)].gap.fit
+        return before**2 - after**2 > FELT_PART * max(before**2 - 1.0, 0.0)
 
     @property
     def unscattered(self) -> Score:

@@ -9,7 +9,7 @@ import pytest
 from cosim.gap import find
 from cosim.gap.extended import Part
 from cosim.gap.judge import SURE
-from cosim.gap.models import _same
+from cosim.gap.models import Models, _same
 from cosim.gap.naming import Named
 from cosim.gap.result import Doubt, Rejected, Score
 from cosim.gap.weak_form.added import Added
@@ -37,11 +37,11 @@ class Rows:
         return SimpleNamespace(findings=found, ladder=ladder, system=None, rung=None)
 
 
-def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0)):
+def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0), felt=True, lost=False):
     """Findings and what was pretended; gained : name -> what simulated runs gain by it.
 
     reached : gap at the end of ladders, of all findings where two; halved : what the contact
-    leaves, without and with
+    leaves, without and with; felt, lost : what findings do by themselves
     """
     monkeypatch.setattr(find.Naming, "of", lambda campaign: rows)
     monkeypatch.setattr(
@@ -51,6 +51,7 @@ def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0)):
     class Models:
         def __init__(self, parts):
             whole = len(parts) == len(rows.findings)
+            self.is_felt, self.is_lost = felt, lost and bool(parts)
             ends = np.broadcast_to(reached, 2)[int(whole)]
             self.ladder = [SimpleNamespace(name="user's model", gap=Score(ends, ends))]
             left = halved[whole]
@@ -161,6 +162,18 @@ def test_a_lone_finding_takes_what_is_missing(monkeypatch, reached, gained, name
     assert len(found) == names
 
 
+@pytest.mark.parametrize("felt", [True, False])
+def test_what_takes_nothing_of_the_gap_is_asked_of_the_runs_however_sure(monkeypatch, felt):
+    rows = Rows(finding("speed_ripple", 2400.0))
+    found, _ = agreed(monkeypatch, rows, {"speed_ripple": 5.0}, felt=felt)
+    assert len(found) == felt
+
+
+def test_what_makes_the_model_much_worse_is_none(monkeypatch):
+    rows = Rows(finding("static_strengthening", 11.0))
+    assert agreed(monkeypatch, rows, {"static_strengthening": 20.0}, lost=True)[0] == []
+
+
 def test_what_scatter_takes_up_is_asked_before_friction_may_scatter(monkeypatch):
     rows = Rows(finding("load_dependence", 30.0))
     gained, same = {"load_dependence": 30.0}, (1.17, 1.17)
@@ -196,7 +209,7 @@ def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):
     )
     fitting = find._Fitting(None, lambda: None, 1)
     noise = SimpleNamespace(name="user's model", gap=Score(1.0, 1.0))
-    models = SimpleNamespace(ladder=[noise], gained=lambda part: -906.0)
+    models = SimpleNamespace(ladder=[noise], gained=lambda part: -906.0, is_felt=True)
     monkeypatch.setattr(fitting, "_fitted", lambda named, parts: models)
     assert find._agreed(None, fitting).rejected == (Rejected("spring_hardening", 205.0, -906.0),)
 
@@ -233,3 +246,14 @@ def test_what_noise_does_not_explain_counts_as_noise():
     """A likelihood ratio, priors of the numbers included; in units of what the better one leaves"""
     assert fitted(1.0, 10.0).gain_over(fitted(1.0, 30.0)) == 10.0
     assert fitted(2.0, 10.0).gain_over(fitted(3.0, 30.0)) == 2.5
+
+
+@pytest.mark.parametrize(
+    ("after", "felt", "lost"),
+    [(1.983, True, False), (1.987, False, False), (2.9, False, False), (3.1, False, True)],
+)
+def test_what_findings_do_to_the_gap_by_themselves(after, felt, lost):
+    """3 beyond noise, of which 2 % is felt; half as much more is lost."""
+    models = Models(None, None, {}, [None], 1)
+    models.ladder = [SimpleNamespace(gap=Score(gap, None)) for gap in (2.0, after)]
+    assert (models.is_felt, models.is_lost) == (felt, lost)
