@@ -261,20 +261,19 @@ class _Fitting:
         if not (rivals := rivals_of(finding)):
             return named
         others = dict(finding.others)
+        own = without.gained(parts[0]) - price_of(finding.name)
         for name in rivals:
             rival = self._in_place(named, name)
             if rival.in_kernel:
-                more = without.gained(rival) - without.gained(parts[0])
-                more -= price_of(name) - price_of(finding.name)
+                more = without.gained(rival) - price_of(name) - own
                 others[name] = told_by_both(others[name], more)
         return replace(named, findings=(replace(finding, others=others),))
 
     def _in_place(self, named: Named, name: str) -> Part:
         """What another explanation would put into the model."""
         added = named.ladder.first_offers[name][1]
-        gain = named.ladder.first_offers[name][0] - named.ladder.system.rung().evidence
         rows = named.system.rung(added)
-        return part_of(self.campaign, named.system, rows, Finding(name, added, gain))
+        return part_of(self.campaign, named.system, rows, Finding(name, added, 0.0))
 
     def _fitted(self, named: Named, parts: Sequence[Part]) -> Models:
         for models in self.known:

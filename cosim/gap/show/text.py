@@ -45,12 +45,12 @@ def gap_line(gap: Gap) -> str:
 
 
 def noise_of(gap: Gap) -> str:
-    """`0.3 mm in x, 2 mrad in φ`."""
-    units = {"x": "mm", "y": "mm", "phi": "mrad", "force": "mN"}
-    return ", ".join(
-        f"{1e3 * value:.3g} {units[channel]} in {channel.replace('phi', 'φ')}"
-        for channel, value in gap.campaign.noise.items()
-    )
+    """`x: 0.3 mm, φ: 2 mrad`."""
+    return ", ".join(_noise(*each) for each in gap.campaign.noise.items())
+
+
+def _noise(channel: str, value: float) -> str:
+    return NOISE_OF[channel].format(value, 1e3 * value)
 
 
 def what_is_left(gap: Gap) -> str:
@@ -131,7 +131,7 @@ def assumptions(gap: Gap) -> list[str]:
         f"stiffness of the springs, as stated within {100.0 * errors.stiffness:.3g} %",
         f"surface speeds, as stated within {100.0 * errors.surface_speed:.3g} %",
         *(
-            f"noise of {NOISE_OF[channel].format(value, 1e3 * value)}, "
+            f"noise of {_noise(channel, value)}, "
             f"{'from the data' if channel in estimated else 'as stated'}"
             for channel, value in campaign.noise.items()
         ),
