@@ -70,14 +70,11 @@ def _guarded(argv: Sequence[str]) -> int:
 
             arguments = parser(argv).parse_args(argv)
             command = command_module(arguments.command)
-            refused = command.refused()
-        how_much = saying(arguments.quiet, arguments.verbose)
-        with how_much, warnings_in_one_line(), refusing(*refused):
+            getattr(command, "prepare", lambda: None)()
+        with saying(arguments.quiet, arguments.verbose), warnings_in_one_line():
             done: int = command.execute(arguments)
         sys.stdout.flush()
         return done
-    except BadInput as error:
-        return _give_up(error, BAD_INPUT, debug)
     except KeyboardInterrupt as error:
         return _give_up(error, FAILED, debug, "interrupted before there was a result")
     except BrokenPipeError:
@@ -86,8 +83,9 @@ def _guarded(argv: Sequence[str]) -> int:
     except (OutputError, Failed) as error:
         return _give_up(error, FAILED, debug)
     except Exception as error:
-        if _is_bad_input(error):
-            return _give_up(error, BAD_INPUT, debug)
+        said = " ".join(str(error).split()) or type(error).__name__
+        if is_bad_input(error) or _lacks_something(error):
+            return _give_up(error, BAD_INPUT, debug, said)
         if isinstance(error, OSError) and error.errno == ENAMETOOLONG:  # of whoever gave the name
             text = f"{error.filename}: is too long for a file's name, allowed is a shorter one"
             return _give_up(error, BAD_INPUT, debug, text)
@@ -95,18 +93,22 @@ def _guarded(argv: Sequence[str]) -> int:
             text = f"standard output: {error.strerror}; files that were written are whole"
             _silence(sys.stdout)
             return _give_up(error, FAILED, debug, text)
-        said = " ".join(str(error).split()) or type(error).__name__
         return _give_up(error, FAILED, debug, f"{said} (--debug shows where)")
 
 
-def _is_bad_input(error: Exception) -> bool:
+def is_bad_input(error: BaseException | None) -> bool:
+    """Whether an error is about what was given: those are the product's own kinds of ValueError."""
+    own = type(error).__module__.startswith(("cosim.", "stickslip.", "thermal."))
+    return own and isinstance(error, ValueError) and not isinstance(error, OutputError)
+
+
+def _lacks_something(error: Exception) -> bool:
     """Whether an effect's file is none, or there is no compiler for what has to be compiled:
     nothing was computed."""
     from stickslip.generation.compiler import CompilerError
     from stickslip.plugins.errors import PluginError
 
-    kinds = (CompilerError, PluginError)
-    return isinstance(error, kinds) or isinstance(error.__cause__, kinds)
+    return isinstance(error.__cause__, (CompilerError, PluginError))
 
 
 def _silence(stream: TextIO) -> None:
@@ -121,15 +123,6 @@ def _give_up(error: BaseException, status: int, debug: bool, message: str = "") 
         traceback.print_exception(error)
     print(f"error: {message or error}", file=sys.stderr)
     return status
-
-
-@contextmanager
-def refusing(*kinds: type[Exception]) -> Iterator[None]:
-    """Turn errors of these kinds into BadInput."""
-    try:
-        yield
-    except kinds as error:
-        raise BadInput(" ".join(str(error).split())) from error
 
 
 @contextmanager

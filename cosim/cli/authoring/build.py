@@ -64,13 +64,6 @@ def _platforms(name: str) -> Sequence[Platform]:
     raise ArgumentTypeError(unknown_name("platform", name, [each.name for each in PLATFORMS]))
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    from cosim.files import OutputRefused
-
-    return (OutputRefused,)
-
-
 def execute(arguments: Namespace) -> int:
     """Build the units afresh and say where they are, and for which platforms."""
     from stickslip.catalogue import default_catalogue

@@ -28,13 +28,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    from cosim.files import OutputRefused
-
-    return (OutputRefused,)
-
-
 def execute(arguments: Namespace) -> int:
     """Print the script; 0."""
     import shtab

@@ -32,11 +32,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    return (BadInput,)
-
-
 def execute(arguments: Namespace) -> int:
     """Find it, or build it; say where it is, open it."""
     page = built() if arguments.build else found() or built()

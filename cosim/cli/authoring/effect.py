@@ -44,11 +44,6 @@ def _file(name: str) -> Path:
     return path
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    return (OutputRefused,)
-
-
 def execute(arguments: Namespace) -> int:
     """Write the file and say what can be done with it."""
     from stickslip.effects import EFFECTS

@@ -28,14 +28,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_force(parser)
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    from cosim.files import OutputRefused
-    from cosim.scenario import ScenarioError
-
-    return (ScenarioError, OutputRefused)
-
-
 def execute(arguments: Namespace) -> int:
     """Print the keys; 0."""
     from cosim.names import unknown_name

@@ -24,14 +24,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument("--force", action="store_true", help="overwrite NAME.toml")
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    from cosim.files import OutputRefused
-    from cosim.scenario import ScenarioError
-
-    return (ScenarioError, OutputRefused)
-
-
 def execute(arguments: Namespace) -> int:
     """Write the file and say how it is run; 0."""
     from cosim.scenario.json_schema import SCENARIO_FILE

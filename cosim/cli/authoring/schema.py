@@ -34,13 +34,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    from cosim.files import OutputRefused
-
-    return (OutputRefused,)
-
-
 def execute(arguments: Namespace) -> int:
     """Print or write the schema; 0."""
     from cosim.files import writable, write_text

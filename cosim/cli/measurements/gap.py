@@ -14,7 +14,7 @@ from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import numbers_asked
-from cosim.files import OutputRefused, writable
+from cosim.files import writable
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, require_own, results_in
 
@@ -76,11 +76,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    from cosim.gap import CampaignError
-
-    return (CampaignError, OutputRefused)
+def prepare() -> None:
+    """Import what the command computes with."""
+    import cosim.gap  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from cosim.cli import DONE
 from cosim.cli.arguments import add_force, add_json, add_output
-from cosim.files import OutputRefused, writable, write_bytes, write_text
+from cosim.files import writable, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
@@ -44,13 +44,10 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_force(parser)
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    import cosim.cli.runs.running  # noqa: F401  the model, imported where Ctrl-C waits
-    from cosim.report.compare import NotAResult
-    from cosim.scenario import ScenarioError
-
-    return (NotAResult, ScenarioError, OutputRefused)
+def prepare() -> None:
+    """Import what the command computes with."""
+    import cosim.cli.runs.running
+    import cosim.report.compare  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from cosim.cli import DONE, FAILED, BadInput, Failed
+from cosim.cli import DONE, FAILED, BadInput, Failed, is_bad_input
 from cosim.cli.arguments import add_force, add_json, add_output, add_set, add_shown, shown
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.interrupts import Patience, patient_interrupts
@@ -51,17 +51,10 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_force(parser, ", and begin anew where an unfinished run could be resumed")
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input, as opposed to a run that fails."""
+def prepare() -> None:
+    """Import what the command computes with."""
     import cosim.cli.runs.run_io
-    import cosim.systems.show  # noqa: F401  imported where Ctrl-C waits
-    from cosim.coupling import CouplingError, FmuError
-    from cosim.coupling.record import CheckpointError
-    from cosim.files import OutputRefused
-    from cosim.scenario import ScenarioError
-    from cosim.systems import SystemFault
-
-    return (SystemFault, ScenarioError, OutputRefused, CouplingError, FmuError, CheckpointError)
+    import cosim.systems.show  # noqa: F401
 
 
 class Job(NamedTuple):
@@ -242,7 +235,7 @@ def _with_bar(job: Job, patience: Patience, **said: Any) -> SystemRun:
         try:
             return run_system(job.specification, progress, job.folder, **said)
         except ParticipantError as error:
-            if isinstance(error.__cause__, refused()):
+            if is_bad_input(error.__cause__):
                 cause = " ".join(str(error.__cause__).split())
                 named = cause if ".fmu" in cause else f"{error.participant}: {cause}"
                 raise BadInput(named) from error

@@ -37,16 +37,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    from stickslip.generation.compiler import CompilerError
-
-    from cosim.files import OutputRefused
-    from cosim.scenario import ScenarioError
-
-    return (ScenarioError, OutputRefused, CompilerError)
-
-
 def execute(arguments: Namespace) -> int:
     """Write the page, say where it is, open it."""
     from cosim.explore.explorer import explorer_page

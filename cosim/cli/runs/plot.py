@@ -23,14 +23,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_force(parser)
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    from cosim.files import OutputRefused
-    from cosim.report.compare.one_result import NotAResult
-
-    return (NotAResult, OutputRefused)
-
-
 def execute(arguments: Namespace) -> int:
     """Draw into the folder of the result; say which files."""
     from cosim.files import writable

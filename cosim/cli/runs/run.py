@@ -9,7 +9,7 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from cosim.cli import DONE, FAILED, BadInput, Failed
+from cosim.cli import DONE, FAILED, BadInput, Failed, is_bad_input
 from cosim.cli.arguments import add_run_arguments, shown
 
 if TYPE_CHECKING:
@@ -60,20 +60,10 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input, as opposed to a run that fails."""
+def prepare() -> None:
+    """Import what the command computes with."""
     import cosim.cli.runs.running
-    import cosim.coupling.case  # noqa: F401  the models, imported where Ctrl-C waits
-    from cosim.coupling import CouplingError, FmuError
-    from cosim.coupling.record import CheckpointError
-    from cosim.files import OutputRefused
-    from cosim.scenario import ScenarioError
-    from thermal import ParameterError
-
-    return (
-        *(ScenarioError, OutputRefused, CouplingError, FmuError, ParameterError),
-        CheckpointError,
-    )
+    import cosim.coupling.case  # noqa: F401
 
 
 class Job(NamedTuple):
@@ -270,6 +260,6 @@ def _coupled(scenario: Scenario, **arguments: Any) -> CoupledRun:
     try:
         return run_scenario(scenario, **arguments)
     except ParticipantError as error:
-        if isinstance(error.__cause__, refused()):
+        if is_bad_input(error.__cause__):
             raise BadInput(" ".join(str(error.__cause__).split())) from error
         raise Failed(" ".join(str(error).split())) from error

@@ -24,13 +24,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_run_arguments(parser)
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    import cosim.cli.runs.running  # noqa: F401  the model, imported where Ctrl-C waits
-    from cosim.files import OutputRefused
-    from cosim.scenario import ScenarioError
-
-    return (ScenarioError, OutputRefused)
+def prepare() -> None:
+    """Import what the command computes with."""
+    import cosim.cli.runs.running  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

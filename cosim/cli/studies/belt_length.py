@@ -18,11 +18,10 @@ from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import OutputRefused, writable, write_atomically, write_bytes, write_text
+from cosim.files import writable, write_atomically, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 from cosim.report.page import Picture
 from cosim.scenario import Scenario
-from cosim.scenario.validation import ScenarioError
 from cosim.studies.belt_length import (
     AIR,
     CAMERA,
@@ -47,9 +46,6 @@ from cosim.studies.belt_length.lengths import rounded_up
 from cosim.studies.belt_length.show.page import page
 from cosim.studies.belt_length.show.wording import two_digits
 from cosim.studies.belt_length.study import check_case, check_options
-from thermal import MeshError, ParameterError
-from thermal.belt.air import NotLaminar
-from thermal.steady_state import NoSteadyState
 
 EXAMPLE = "stickslip belt-length --length 1 2 4 --speed 0.15 0.82 -o results/belt"
 RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
@@ -214,19 +210,6 @@ def _own(case: Case, field: str) -> float | str:
 
 def _shown(value: float | str) -> str:
     return value if isinstance(value, str) else f"{value:g}"
-
-
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    return (
-        StudyError,
-        ScenarioError,
-        ParameterError,
-        MeshError,
-        NoSteadyState,
-        NotLaminar,
-        OutputRefused,
-    )
 
 
 def execute(arguments: Namespace) -> int:

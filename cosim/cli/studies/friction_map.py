@@ -18,7 +18,7 @@ from cosim.cli.arguments import add_force, add_json, add_output, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import OutputRefused, writable, write_atomically, write_bytes, write_text
+from cosim.files import writable, write_atomically, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
@@ -75,13 +75,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_force(parser)
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    from cosim.coupling import CouplingError
-    from cosim.scenario import ScenarioError
-    from cosim.studies.friction_map import NotSteady
-
-    return (NotSteady, ScenarioError, OutputRefused, CouplingError)
+def prepare() -> None:
+    """Import what the command computes with."""
+    import cosim.studies.friction_map  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

@@ -13,7 +13,7 @@ from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_force, add_json, add_output
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
-from cosim.files import OutputRefused, writable, write_bytes, write_text
+from cosim.files import writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, require_own, results_in
 
@@ -37,12 +37,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_force(parser)
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    import cosim.studies.reproduction.claims  # noqa: F401  imported where Ctrl-C waits
-    from cosim.studies.reproduction import UnknownClaim
-
-    return (UnknownClaim, OutputRefused)
+def prepare() -> None:
+    """Import what the command computes with."""
+    import cosim.studies.reproduction.claims  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

@@ -16,7 +16,7 @@ from cosim.cli.arguments import add_force, add_json, add_output, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import OutputRefused, writable, write_bytes, write_text
+from cosim.files import writable, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
@@ -63,12 +63,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_force(parser)
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    from cosim.scenario import ScenarioError
-    from cosim.studies.stability import NotAMotion
-
-    return (NotAMotion, ScenarioError, OutputRefused)
+def prepare() -> None:
+    """Import what the command computes with."""
+    import cosim.studies.stability  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

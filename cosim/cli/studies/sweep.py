@@ -19,7 +19,6 @@ from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import (
     OutputError,
-    OutputRefused,
     not_taken,
     write_bytes,
     write_text,
@@ -102,13 +101,9 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_force(parser)
 
 
-def refused() -> tuple[type[Exception], ...]:
-    """What is bad input."""
-    import cosim.studies.sweep.figure  # noqa: F401  imported where Ctrl-C waits
-    from cosim.scenario import ScenarioError
-    from cosim.studies.sweep import SweepError
-
-    return (SweepError, ScenarioError, OutputRefused)
+def prepare() -> None:
+    """Import what the command computes with."""
+    import cosim.studies.sweep.figure  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

@@ -134,13 +134,12 @@ def test_our_warnings_are_one_line_each_and_come_once(capsys):
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_command_has_the_same_shape(name):
-    """Arguments, what it refuses, what it does, and an example that its own arguments allow."""
+    """Arguments, what it does, and an example that its own arguments allow."""
     module = command_module(name)
     words = shlex.split(module.EXAMPLE)
     assert words[:2] == ["stickslip", name]
     assert parser(words).parse_args(words[1:]).command == name
     module.add_arguments(Parser())
-    assert module.refused() and all(issubclass(kind, ValueError) for kind in module.refused())
     assert callable(module.execute)
 
 
