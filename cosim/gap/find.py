@@ -257,10 +257,10 @@ class _Fitting:
         """
         if len(parts) != 1 or not (parts[0].in_kernel and parts[0].finding.added):
             return named
-        (finding,), without = named.findings, self._fitted(named, [])
+        (finding,) = named.findings
         if not (rivals := rivals_of(finding)):
             return named
-        others = dict(finding.others)
+        others, without = dict(finding.others), self._fitted(named, [])
         own = without.gained(parts[0]) - price_of(finding.name)
         for name in rivals:
             rival = self._in_place(named, name)

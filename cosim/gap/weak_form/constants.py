@@ -24,6 +24,9 @@ VELOCITY_SIGMAS = 3.0
 #: In a slip the surface gets ahead of the block by more than so many standard deviations of a
 #: sample: some 2000 samples of noise alone do not.
 SLIP_SIGMAS = 8.0
+#: In a stick it gets ahead by no more than so many, which smoothed noise does not reach, and this
+#: part of its way: the last of a slip that is counted with it, creep, a set-point that is off.
+STICK_SIGMAS, STICK_AHEAD = 4.0, 0.15
 
 #: Swings faster than stated by this factor are those of other springs: noise and rubbing do not
 #: make them so, and their noise is weighed as that of the springs that are there.

@@ -131,7 +131,7 @@ def with_corners(rows: RunRows) -> RunRows:
     shape = (len(rowed), 3, track.time.size)
     force, bend, line = np.reshape([each.weights for each in rowed], shape).swapaxes(0, 1)
     places = bend - bend.sum(axis=1, keepdims=True) * line + run.total_stiffness * force
-    samples = places if track.samples is None else (track.samples.T @ places.T).T
+    samples = places if track.errors is None else (track.errors.T @ places.T).T
     shared = run.noise["x"] * _along(rows, samples)
     own = run.noise["x"] ** 2 * samples @ samples.T
     left = own - shared @ shared.T + FLOOR * np.diag(np.diag(own))
@@ -172,7 +172,7 @@ def _swinging(track: SmoothTrack, corners: tuple[Corner, ...]) -> SmoothTrack:
 
 def _along(rows: RunRows, samples: np.ndarray) -> np.ndarray:
     """(c, rows) products of weights of the samples (c, m) with those of slips and sticks."""
-    matrix = rows.track.samples
+    matrix = rows.track.errors
     gridded = samples.T if matrix is None else matrix @ samples.T
     products = np.zeros((rows.values.size, samples.shape[0]))
     for kind, block in ((SLIP, rows.slip), (STICK, rows.stick)) if samples.size else ():

@@ -92,20 +92,25 @@ class Search:
         self.near, self.barred = near, barred
 
     def offers(self, rung: Rung, without: Sequence[str] = ()) -> dict[str, Offer]:
-        """name -> the best that each argument offers on a rung."""
+        """name -> the best that each argument offers on a rung; each is worked out once."""
+        known = self._known(rung)
         found: dict[str, Offer] = {}
         for name, variants in self.unknowns.items():
             if name not in without and not (name in ALONE and rung.added):
-                evidence, added = rung.offered(variants)
-                found[name] = (evidence - price_of(name), (added,))
+                if name not in known:
+                    evidence, added = rung.offered(variants)
+                    known[name] = (evidence - price_of(name), (added,))
+                found[name] = known[name]
         best = max((offer[0] for offer in found.values()), default=-inf)
         for kind in self.waves:
             if kind.name in without:
                 continue
-            offer = periodic.offered(rung, kind, best - NEARLY_ALIKE)
+            offer = known.get(kind.key) or periodic.offered(rung, kind, best - NEARLY_ALIKE)
             # of two that tell no difference the first: time is simpler than travel
-            if offer and (kind.name not in found or offer[0] > found[kind.name][0] + ALIKE):
-                found[kind.name] = offer
+            if offer:
+                known[kind.key] = offer
+                if kind.name not in found or offer[0] > found[kind.name][0] + ALIKE:
+                    found[kind.name] = offer
         return self._by_direction(rung, found)
 
     def _by_direction(self, rung: Rung, offers: dict[str, Offer]) -> dict[str, Offer]:
@@ -131,22 +136,30 @@ class Search:
             if not offers:
                 break
             name = max(offers, key=lambda each: offers[each][0])
-            offers[name] = self._finer(rung, offers[name])
+            offers[name] = self._finer(rung, name, offers[name])
             more = self._rung([*found, (name, offers[name][1])])
-            if offers[name][0] - rung.evidence < _least(found) or not self._is_missed(rung, more):
+            if offers[name][0] - rung.evidence < LEAST_GAIN or not self._is_missed(rung, more):
                 break
             found = self._exchanged([*found, (name, offers[name][1])])
         found = self._without_idle(found)
         return self._ladder(found, first)
 
-    def _finer(self, rung: Rung, offer: Offer) -> Offer:
+    def _finer(self, rung: Rung, name: str, offer: Offer) -> Offer:
         """The best of an argument's settings, also between those that were tried."""
-        best = (rung.system.rung([*rung.added, *offer[1]]).evidence, offer[1])
-        for unknown in self.near(offer[1][0].unknown):
-            _, added = rung.offered([unknown])
-            value = rung.system.rung([*rung.added, added]).evidence
-            best = max(best, (value, (added,)), key=lambda pair: pair[0])
-        return offer[0], best[1]
+        known = self._known(rung)
+        if f"{name}, finer" not in known:
+            best = (rung.system.rung([*rung.added, *offer[1]]).evidence, offer[1])
+            for unknown in self.near(offer[1][0].unknown):
+                _, added = rung.offered([unknown])
+                value = rung.system.rung([*rung.added, added]).evidence
+                best = max(best, (value, (added,)), key=lambda pair: pair[0])
+            known[f"{name}, finer"] = (offer[0], best[1])
+        return known[f"{name}, finer"]
+
+    def _known(self, rung: Rung) -> dict[str, Offer]:
+        """What has been worked out beside what a rung has: kept with the rows, for all searches."""
+        _, known = self.system.offers.setdefault(tuple(map(id, rung.added)), (rung.added, {}))
+        return known
 
     def _rung(self, found: Sequence[tuple[str, tuple[Added, ...]]]) -> Rung:
         return self.system.rung([added for _, group in found for added in group])
@@ -157,7 +170,7 @@ class Search:
 
     def _is_missed(self, without: Rung, rung: Rung) -> bool:
         """Whether rows miss a finding; beside others, by more than a small part of all misfit."""
-        if rung.evidence - without.evidence <= _least(without.added):
+        if rung.evidence - without.evidence <= LEAST_GAIN:
             return False
         part = without.misfit - rung.misfit > LEAST_PART**2 * self._misfit_at_first
         return part or not without.added
@@ -209,11 +222,3 @@ class Search:
 def price_of(name: str) -> float:
     """ln of how much less probable beforehand it is than an effect."""
     return FAULT_PRICE if name.startswith("measurement.") else 0.0
-
-
-def _least(found: Sequence) -> float:
-    """ln of how much more probable a finding must make the rows; less of the first of all.
-
-    Simulated runs are asked for that, too (`judge`).
-    """
-    return LEAST_GAIN if found else ALIKE

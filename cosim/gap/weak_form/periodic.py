@@ -55,6 +55,11 @@ class Periodic:
     effect: Effect
     unit: str
 
+    @property
+    def key(self) -> str:
+        """Name and variant."""
+        return f"{self.name} {self.variant}"
+
 
 def kinds(level_of_friction: float) -> tuple[Periodic, ...]:
     """Friction over the place, the surface's speed over time or travel, friction over time."""
@@ -164,12 +169,12 @@ def _turned(at: np.ndarray, wavenumbers: np.ndarray) -> np.ndarray:
 def _scan(rung: Rung, kind: Periodic) -> tuple[np.ndarray, np.ndarray]:
     """(w,) wavenumbers, and what waves of free phases and sizes take of all runs' squares."""
     system = rung.system
-    if kind not in system.waves:
+    if kind.key not in system.waves:
         wavenumbers = wavenumbers_of(system.fitted, kind)
         made = partial(_Waves.of, kind=kind, wavenumbers=wavenumbers)
         runs = list(THREADS.map(made, system.fitted))
-        system.waves[kind] = (wavenumbers, runs)
-    wavenumbers, runs = system.waves[kind]
+        system.waves[kind.key] = (wavenumbers, runs)
+    wavenumbers, runs = system.waves[kind.key]
     gains = np.zeros(wavenumbers.size)
     for run, waves in zip(system.fitted, runs, strict=True):
         gains += waves.fitted(rung.left(run))[0]

@@ -217,7 +217,7 @@ def _block(
     shape = (begin.size, track.time.size)
     rows = [sparse.csr_array((np.tile(w, begin.size), at), shape=shape) for w in weights]
     force, place, inertia, noisy = rows
-    noisy = noisy if track.samples is None else noisy @ track.samples
+    noisy = noisy if track.errors is None else noisy @ track.errors
     return _Block(force, place, inertia, _factor(noise**2 * (noisy @ noisy.T)))
 
 

@@ -75,6 +75,8 @@ class System:
                         for number, run in enumerate(self.fitted)}  # fmt: skip
         #: What scans for waves have made of the runs (see `periodic`).
         self.waves: dict[Any, Any] = {}
+        #: ids of what is added -> that, and name -> what an argument offers beside it (`ladder`).
+        self.offers: dict[tuple[int, ...], tuple[tuple[Added, ...], dict[str, Any]]] = {}
 
     def columns(self, unknown: Unknown) -> np.ndarray:
         """(rows, unknowns) of the fitted runs; made once."""

@@ -27,6 +27,8 @@ from cosim.gap.weak_form.constants import (
     SLIP_PERCENTILE,
     SLIP_SIGMAS,
     SLOW_PART,
+    STICK_AHEAD,
+    STICK_SIGMAS,
     VELOCITY_SIGMAS,
 )
 
@@ -38,7 +40,8 @@ class SmoothTrack:
     Attributes
     ----------
     time, interval : (n,) s, and its step, s
-    samples : (n, m) sparse: grid values from the m samples of the file; None: they are the grid
+    errors : (n, m) sparse, in units of the noise: of the values on the grid by the samples' own and
+        by interpolation's; None: the samples are the grid
     x, y, phi : (n,) values on the grid (m, m, rad), not smoothed; None where not measured
     place, velocity, acceleration : (n,) of x, smoothed by local polynomials
     place_y, velocity_y : (n,) of y; zeros where it was not measured
@@ -53,7 +56,7 @@ class SmoothTrack:
     run: MeasuredRun
     time: np.ndarray
     interval: float
-    samples: sparse.csr_array | None
+    errors: sparse.csr_array | None
     x: np.ndarray
     y: np.ndarray | None
     phi: np.ndarray | None
@@ -110,7 +113,7 @@ def smooth(
     """
     track = run.motion
     present = np.isfinite(track.x)
-    time, samples, seen = _grid(track.time[present])
+    time, samples, remainder, seen = _grid(track.time[present])
     interval = time[1] - time[0]
 
     def values(channel: str) -> np.ndarray | None:
@@ -123,6 +126,10 @@ def smooth(
     x, y, phi = values("x"), values("y"), values("phi")
     assert x is not None  # every track has it
     omega = _frequency(x, interval, run)
+    errors = None
+    if samples is not None:
+        off = omega**4 * float(np.std(x)) / run.noise["x"] * remainder
+        errors = sparse.hstack([samples, sparse.diags_array(off)], format="csr")
     rough = derivatives(x, interval, CUBIC_REACH / omega, 3)
     threshold = max(_sliding_threshold(run, interval, rough[1]), band * abs(run.surface_speed))
     surface = np.full(time.size, run.surface_speed)
@@ -137,10 +144,13 @@ def smooth(
         if abs(np.sum(sliding[first:last])) * interval > SLIP_SIGMAS * run.noise["x"]
     )  # fmt: skip
     margin = round(KNOTS / omega / interval)
+    ahead = np.cumsum(sliding) * interval
+    most = max(band, STICK_AHEAD) * abs(run.surface_speed) * interval
     sticks = tuple(
         (first + margin, last - margin)
         for first, last in _stretches(seen & ~mask(slips, time.size))
         if last - first > 2 * margin
+        and np.ptp(ahead[first:last]) < STICK_SIGMAS * run.noise["x"] + most * (last - first)
     )
     fine = rough.copy()
     for first, last in slips:
@@ -150,18 +160,23 @@ def smooth(
     if y is not None:
         across = derivatives(y, interval, QUINTIC_REACH / omega, 5)
     return SmoothTrack(
-        run, time, interval, samples, x, y, phi, fine[0], fine[1], fine[2], across[0], across[1],
+        run, time, interval, errors, x, y, phi, fine[0], fine[1], fine[2], across[0], across[1],
         surface, surface - fine[1], seen, slips, sticks, run.mass * omega**2,
     )  # fmt: skip
 
 
-def _grid(time: np.ndarray) -> tuple[np.ndarray, sparse.csr_array | None, np.ndarray]:
-    """An even grid, the cubic interpolation to it from the samples, and where samples are near."""
+def _grid(
+    time: np.ndarray,
+) -> tuple[np.ndarray, sparse.csr_array | None, np.ndarray, np.ndarray]:
+    """An even grid, the cubic interpolation to it from the samples, and where samples are near.
+
+    Third: (n,) what the interpolation is off by for each m/s4 of the fourth derivative, s4.
+    """
     interval = float(np.median(np.diff(time)))
     count = round((time[-1] - time[0]) / interval) + 1
     grid = time[0] + interval * np.arange(count)
     if count == time.size and np.max(np.abs(grid - time)) < EVEN * interval:
-        return grid, None, np.ones(count, dtype=bool)
+        return grid, None, np.zeros(count), np.ones(count, dtype=bool)
     nodes = np.clip(np.searchsorted(time, grid) - 2, 0, time.size - 4)[:, None] + np.arange(4)
     near = time[nodes]
     weights = np.ones((count, 4))  # Lagrange's
@@ -169,7 +184,8 @@ def _grid(time: np.ndarray) -> tuple[np.ndarray, sparse.csr_array | None, np.nda
         weights[:, a] *= (grid - near[:, b]) / (near[:, a] - near[:, b])
     rows = np.repeat(np.arange(count), 4)
     samples = sparse.csr_array((weights.ravel(), (rows, nodes.ravel())), shape=(count, time.size))
-    return grid, samples, near[:, 2] - near[:, 1] < HOLE * interval
+    remainder = np.prod(np.abs(grid[:, None] - near), axis=1) / 24.0
+    return grid, samples, remainder, near[:, 2] - near[:, 1] < HOLE * interval
 
 
 def _window(reach: float, interval: float) -> int:

@@ -16,7 +16,7 @@ from cosim.gap.weak_form.constants import SCATTER_RANGE
 from cosim.gap.weak_form.evidence import posterior
 from cosim.gap.weak_form.ladder import Search
 from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
-from cosim.gap.weak_form.rows import rows_of
+from cosim.gap.weak_form.rows import STICK, rows_of
 from cosim.gap.weak_form.surface import tracks_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth
@@ -140,6 +140,39 @@ def test_rows_of_noise_have_unit_variance_and_are_independent(swinging):
     np.testing.assert_allclose(np.diag(correlated), 1.0, atol=5.0 * np.sqrt(2.0 / 2000))
     off = correlated - np.diag(np.diag(correlated))
     assert np.max(np.abs(off)) < 5.5 / np.sqrt(2000)
+
+
+@pytest.mark.parametrize("apart", [0.2, 0.35])
+def test_holes_leave_rows_at_noise_where_every_sample_has_a_row(tmp_path, apart):
+    """What a cubic puts into a hole is no sample more, and is off by its remainder."""
+    omega, noise = np.sqrt(STIFFNESS / MASS), 2e-5
+    time = np.arange(400) * apart / omega
+    x = 0.02 * np.cos(omega * time) + noise * np.random.default_rng(0).standard_normal(time.size)
+    kept = ~np.isin(np.arange(400), [50, 120, 200, 300])
+    columns = {"t": time[kept], "x": x[kept]}
+    path = write_campaign(
+        tmp_path, [{"surface_speed": 1.0, "columns": columns}], noise={"x": noise}
+    )
+    campaign = read_campaign(path)
+    rows = rows_of(smooth(campaign.runs[0]), campaign.rig)
+    assert rows.track.errors is not None and len(rows) > 390
+    assert abs(np.sqrt(np.mean(rows.values**2)) - 1.0) < 3.0 / np.sqrt(2 * len(rows))
+
+
+@pytest.mark.parametrize(("noise", "sticks"), [(4e-4, 10), (2e-4, 39)])
+def test_what_noise_hides_of_a_slip_is_no_stick(tmp_path, noise, sticks):
+    """Slips of 2.5 mm at most: with noise of 0.4 mm most of their speeds are below what is seen."""
+    moved = motion(0.02, MASS, duration=20.0, mu_s=0.08, mu_k=0.05)
+    x = moved["x"] + noise * np.random.default_rng(1).standard_normal(moved["x"].size)
+    columns = {"t": moved.time, "x": x}
+    path = write_campaign(
+        tmp_path, [{"surface_speed": 0.02, "columns": columns}], noise={"x": noise}
+    )
+    campaign = read_campaign(path)
+    rows = rows_of(smooth(campaign.runs[0]), campaign.rig)
+    left = rows.values[rows.kinds == STICK]
+    assert len(rows.track.sticks) <= sticks
+    assert np.sqrt(np.mean(left**2)) < 1.0 + 3.0 / np.sqrt(2 * left.size)
 
 
 def test_evidence_is_the_density_of_the_rows():
