@@ -1,10 +1,10 @@
 """The units' libraries for Windows, in the host written in C, under wine.
 
-The libraries are those that an installed package brings, or that zig makes; the host is compiled
-for Windows by MinGW, or by zig.
+Host and libraries are compiled by MinGW, the libraries as the package compiles them. Those that an
+installed package brings, or that zig makes, are for `pytest -m slow`: zig first compiles a runtime
+of its own, for more than a minute. (Where the tests run on Windows they are what all tests load.)
 """
 
-import importlib.util
 import os
 import shutil
 import subprocess
@@ -18,31 +18,24 @@ import pytest
 from native_unit import references
 from plain_start import PLAIN
 from stickslip import Parameters, simulate
+from stickslip.generation.compiler import OPTIONS
 from stickslip.generation.platforms import PLATFORMS, this_platform
 
 from cosim.fmu import native
-from cosim.fmu.build import THERMAL, FmuBuildError, build_fmu
+from cosim.fmu.build import NATIVE, THERMAL, FmuBuildError, build_fmu
 from cosim.fmu.thermal import native_unit
 from cosim.fmu.thermal.variables import reduced
 
 HOST = Path(__file__).with_name("host.c")
 (WINDOWS,) = (each for each in PLATFORMS if each.suffix == ".dll")
+MINGW = "x86_64-w64-mingw32-gcc"
 # exact in binary, so that host and simulation speak of the same instants
 STEP, STEPS = 0.0078125, 640
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="for wine on Linux")
-
-
-def windows_compiler():
-    """Command of a compiler for Windows; where there is none, the test is skipped.
-
-    MinGW's comes with its runtime; zig first compiles that, which takes it a minute.
-    """
-    if mingw := shutil.which("x86_64-w64-mingw32-gcc"):
-        return [mingw]
-    if importlib.util.find_spec("ziglang"):
-        return [sys.executable, "-m", "ziglang", "cc", "-target", WINDOWS.target]
-    return pytest.skip("needs a compiler for Windows: x86_64-w64-mingw32-gcc, or ziglang")
+pytestmark = [
+    pytest.mark.skipif(sys.platform != "linux", reason="for wine on Linux"),
+    pytest.mark.skipif(shutil.which(MINGW) is None, reason=f"needs {MINGW}"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -69,69 +62,88 @@ def environment(tmp_path_factory):
     return {"PATH": os.environ["PATH"]} | own
 
 
-@pytest.fixture(scope="module")
-def host(wine, tmp_path_factory):
-    """The host as a program for Windows; not compiled where there is no wine to run it."""
-    program = tmp_path_factory.mktemp("windows") / "host.exe"
-    headers = f"-I{native.native_folder() / 'headers'}"
-    # as the library is compiled, so that zig needs no second runtime
-    options = ["-std=c99", "-O2", "-s", "-Wall", "-Wextra", "-Werror", "-static", headers]
-    command = [*windows_compiler(), *options, HOST, "-o", program, "-lpthread"]
+def compiled(made, *arguments):
+    command = [MINGW, "-std=c99", "-O2", "-s", "-static", *arguments, "-o", made]
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    return program
+    return made
 
 
-class Windows:
-    """A unit's library in the host under wine; called with what the host wants to know."""
+@pytest.fixture(scope="module")
+def host(wine, environment, tmp_path_factory):
+    """Folder and library -> the host with it; not compiled where there is no wine to run it."""
+    program = tmp_path_factory.mktemp("windows") / "host.exe"
+    headers = f"-I{native.native_folder() / 'headers'}"
+    compiled(program, "-Wall", "-Wextra", "-Werror", headers, HOST, "-lpthread")
 
-    def __init__(self, program, environment, folder, made_by, places):
-        library = folder / "binaries" / WINDOWS.fmi2 / f"{made_by.NAME}.dll"
-        self.command = [*program, library, made_by.guid()]
-        resources = f"file:///Z:{folder / 'resources'}"
-        self.environment, self.places = environment | {"RESOURCES": resources}, places
+    def run(library, made_by, resources, places):
+        """Called with what the host wants to know."""
 
-    def __call__(self, output, steps, step, instances=1, threads=1, **values):
-        numbers = [steps, step, self.places[output], instances, threads]
-        numbers += [f"{self.places[name]}={value!r}" for name, value in values.items()]
-        done = subprocess.run(
-            list(map(str, [*self.command, *numbers])),
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=120,
-            env=self.environment,
-        )
-        assert done.returncode == 0, done.stderr
-        return [float.fromhex(line) for line in done.stdout.split()]
+        def called(output, steps, step, instances=1, threads=1, **values):
+            numbers = [steps, step, places[output], instances, threads]
+            numbers += [f"{places[name]}={value!r}" for name, value in values.items()]
+            done = subprocess.run(
+                list(map(str, [wine, program, library, made_by.guid(), *numbers])),
+                capture_output=True,
+                text=True,
+                check=False,
+                timeout=120,
+                env=environment | {"RESOURCES": f"file:///Z:{resources}"},
+            )
+            assert done.returncode == 0, done.stderr
+            return [float.fromhex(line) for line in done.stdout.split()]
+
+        return called
+
+    return run
 
 
-def unit_for(platforms, folder, *name):
-    """A unit with libraries for platforms, and the folder into which it is unpacked."""
+def by_mingw(name, made_by, folder):
+    """The unit for this machine, and a library of its sources for Windows."""
+    fmu = build_fmu(folder, name, platforms=[this_platform()])
+    sources = folder / "compiled"
+    sources.mkdir()
+    for file, content in made_by.sources().items():
+        (sources / file).write_bytes(content)
+    library = sources / f"{made_by.NAME}.dll"
+    return fmu, compiled(library, *OPTIONS, "-shared", *sorted(sources.glob("*.c")))
+
+
+def as_delivered(name, made_by, folder):
+    """The unit with both libraries."""
     try:
-        fmu = build_fmu(folder, *name, platforms=platforms)
+        fmu = build_fmu(folder, name, platforms=[this_platform(), WINDOWS])
     except FmuBuildError as error:
         pytest.skip(str(error))
+    library = f"binaries/{WINDOWS.fmi2}/{made_by.NAME}.dll"
     with zipfile.ZipFile(fmu) as archive:
-        archive.extractall(folder)
-    if not [*folder.glob("binaries/*/*.dll")]:
-        pytest.skip("needs the libraries of an installed package, or ziglang")
-    return fmu
+        if library not in archive.namelist():
+            pytest.skip("needs the libraries of an installed package, or ziglang")
+        return fmu, Path(archive.extract(library, folder))
+
+
+@pytest.fixture(
+    scope="module", params=[by_mingw, pytest.param(as_delivered, marks=pytest.mark.slow)]
+)
+def made(request):
+    return request.param
 
 
 @pytest.fixture(scope="module")
-def block(wine, host, environment, tmp_path_factory):
+def block(host, made, tmp_path_factory):
     folder = tmp_path_factory.mktemp("block")
-    unit_for([WINDOWS], folder)
-    return Windows([wine, host], environment, folder, native, references())
+    _, library = made(NATIVE, native, folder)
+    return host(library, native, folder, references())
 
 
 @pytest.fixture(scope="module")
-def heat(wine, host, environment, tmp_path_factory):
+def heat(host, made, tmp_path_factory):
     """The heat's unit as a file, and its library for Windows."""
     folder = tmp_path_factory.mktemp("heat")
-    fmu = unit_for([this_platform(), WINDOWS], folder, THERMAL)
-    return fmu, Windows([wine, host], environment, folder, native_unit, references(reduced()))
+    fmu, library = made(THERMAL, native_unit, folder)
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(folder, [n for n in archive.namelist() if n.startswith("resources/")])
+    return fmu, host(library, native_unit, folder / "resources", references(reduced()))
 
 
 PLANAR = {"lateral_friction": {"ratio": 1.0}, "initial": {"phi": 0.05}}
