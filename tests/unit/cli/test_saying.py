@@ -12,7 +12,7 @@ from stickslip import Parameters, compiled, machine_code, simulate
 from stickslip.catalogue import CATALOGUE
 
 from cosim.cli import main
-from cosim.cli.arguments import COMMANDS, parser
+from cosim.cli.arguments import parser
 from cosim.cli.bar import Bar
 from cosim.cli.console import note, saying
 from cosim.cli.runs import run_io
@@ -27,24 +27,6 @@ pytestmark = pytest.mark.usefixtures("elsewhere")
 def case(tmp_path):
     (tmp_path / "case.toml").write_text(SHORT)
     return "case.toml"
-
-
-@pytest.mark.parametrize("name", COMMANDS)
-def test_every_command_can_say_less_and_more(name, capsys):
-    with pytest.raises(SystemExit):
-        main([name, "--help"])
-    shown = capsys.readouterr().out
-    assert "-q, --quiet" in shown and "-v, --verbose" in shown
-
-
-NO_FIGURES = {"build", "completion", "docs", "effect", "explore", "new", "plot", "schema"}
-
-
-@pytest.mark.parametrize("name", sorted({*COMMANDS} - NO_FIGURES))
-def test_every_command_with_figures_gives_them_as_json(name, capsys):
-    with pytest.raises(SystemExit):
-        main([name, "--help"])
-    assert "--json [FILE]" in capsys.readouterr().out
 
 
 def test_quiet_leaves_results_and_warnings(case, capsys):
