@@ -12,7 +12,6 @@ import pytest
 from c_units import made
 
 from cosim.coupling import (
-    Connection,
     CoupledSystem,
     CouplingError,
     FmuError,
@@ -84,18 +83,6 @@ def test_it_does_what_it_does_here(path, place):
         here.load_state(there.save_state())
         there.load_state(here.save_state())
     assert is_gone(pid) and there.pid is None
-
-
-def test_it_takes_part_in_a_run(path):
-    def coupled(first, second):
-        with CoupledSystem([first, second], [Connection("unit.n", "other.k")]) as system:
-            result = run(system, GaussSeidel(("unit", "other")), stop=1.0, macro_step=0.25)
-        assert result.status == "complete"
-        return {name: values.tolist() for name, values in result.values.items()}
-
-    other = FmuParticipant(path, "other")
-    here = coupled(FmuParticipant(path, "unit", inputs={"u": 1.0, "k": 2}), other)
-    assert coupled(isolated(path, inputs={"u": 1.0, "k": 2}), other) == here
 
 
 def test_states_stay_there(path, place):

@@ -6,7 +6,6 @@ import tempfile
 import zipfile
 from pathlib import Path
 
-import fmpy
 import pytest
 
 from cosim.coupling import (
@@ -29,17 +28,6 @@ def alone(participant, **arguments):
             GaussSeidel((participant.name,)),
             **{"stop": 1.0, "macro_step": 0.01} | arguments,
         )
-
-
-def test_ports_and_units_come_from_the_fmu(fmu):
-    ports = FmuParticipant(fmu).ports
-    assert str(ports["surface_speed"].causality) == "input"
-    assert str(ports["heat"].causality) == "output"
-    assert [ports[name].unit for name in ("heat", "interface_temperature", "mode")] == [
-        "J",
-        "degC",
-        "1",
-    ]
 
 
 @pytest.mark.parametrize(
@@ -80,23 +68,6 @@ def test_a_file_that_is_no_fmu_is_refused_in_one_line(fmu, tmp_path):
         FmuParticipant(broken)
 
 
-def test_a_run_is_that_of_fmpy_and_can_be_repeated(fmu):
-    block = FmuParticipant(fmu, "block", inputs=HELD)
-    first, second = alone(block), alone(block)
-    reference = fmpy.simulate_fmu(
-        str(fmu), stop_time=1.0, output_interval=0.01, start_values=HELD, output=["x"]
-    )
-    assert first.status == "complete"
-    assert first["block.x"].tolist() == second["block.x"].tolist() == reference["x"].tolist()
-
-
-def test_parameters_reach_the_model(fmu):
-    light = alone(FmuParticipant(fmu, "block", inputs=HELD, parameters={"rig.mass": 0.3}))
-    heavy = alone(FmuParticipant(fmu, "block", inputs=HELD, parameters={"rig.mass": 0.6}))
-    force = "block.friction_force_x"
-    assert heavy[force][0] == pytest.approx(2 * light[force][0], rel=1e-12)
-
-
 def test_what_the_fmu_logs_reaches_the_exception(unit):
     """mass = 0 lies on the declared limit; the FMU itself knows that it is excluded."""
     block = FmuParticipant(unit, "block", inputs=HELD, parameters={"rig.mass": 0.0})
@@ -104,14 +75,6 @@ def test_what_the_fmu_logs_reaches_the_exception(unit):
     with pytest.raises(ParticipantError, match=says) as caught:
         alone(block)
     assert "\n" not in str(caught.value) and str(caught.value).count("rig.mass") == 1
-
-
-def test_what_parameters_contradict_in_reaches_the_exception(unit):
-    moving = {"rig.free_y": 0, "initial.vy": 0.1}
-    block = FmuParticipant(unit, "block", inputs=HELD, parameters=moving)
-    with pytest.raises(ParticipantError, match="block: .*guided in y .*: a guided direction") as no:
-        alone(block)
-    assert "\n" not in str(no.value) and str(no.value).count("initial.vy") == 1
 
 
 def test_an_input_that_is_refused_in_the_run_says_so(unit):
@@ -122,15 +85,6 @@ def test_an_input_that_is_refused_in_the_run_says_so(unit):
         block.step(0.0, 0.1)
         with pytest.raises(FmuCallError, match="^surface_speed = nan: must be a finite number"):
             block.write({"surface_speed": float("nan")})
-
-
-@pytest.mark.parametrize("name", ["p (old)", "R&D", "ü", "a#b", "50%", "a+b", "two  spaces"])
-def test_the_folder_that_it_is_unpacked_in_may_have_any_name(fmu, tmp_path, monkeypatch, name):
-    """As the native unit needs no resources; pythonfmu's library reads of a URL's escapes %20."""
-    (tmp_path / name).mkdir()
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path / name))
-    result = alone(FmuParticipant(fmu, "block", inputs=HELD), stop=0.1)
-    assert result.status == "complete" and result["block.x"][-1] > 0.0
 
 
 def test_a_refused_step_is_a_failed_run_that_keeps_what_it_had(unit):
@@ -156,21 +110,6 @@ def test_ctrl_c_ends_the_run_between_two_steps(fmu, ctrl_c):
         result = run(system, GaussSeidel(("block",)), stop=1e3, macro_step=0.01)
         assert result.status == "interrupted" and 0.5 < result.time[-1] < 0.53
         step(result.time[-1], 0.01)
-
-
-def test_state_goes_back_and_on(unit):
-    with FmuParticipant(unit, "block", inputs=HELD) as block:
-        assert block.can_restore
-        block.enter_initialisation(0.0, 1.0)
-        block.exit_initialisation()
-        block.step(0.0, 0.5)
-        state = block.get_state()
-        block.step(0.5, 0.5)
-        ahead = block.read()
-        block.set_state(state)
-        block.step(0.5, 0.5)
-        assert block.read() == ahead
-        block.free_state(state)
 
 
 def test_nothing_is_left_behind(fmu, tmp_path, monkeypatch):

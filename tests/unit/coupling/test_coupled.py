@@ -247,13 +247,6 @@ def test_a_participant_saved_goes_on_in_another_bit_for_bit(warm):
     assert other.save_state() == part.save_state()
 
 
-def test_a_state_of_another_mesh_is_refused():
-    saved = started(model()).save_state()
-    finer = BeltIceModel(case(belt__cell_length=4e-3).thermal)
-    with pytest.raises(ValueError, match="saved with another mesh"):
-        started(finer).load_state(saved)
-
-
 def test_a_state_that_is_taken_back_is_in_no_picture():
     pictures = Snapshots(0.1)
     part = ThermalParticipant(model(), observer=pictures)

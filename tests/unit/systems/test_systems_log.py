@@ -101,12 +101,6 @@ def test_a_log_of_somebody_else_is_left_alone(system, tmp_path, capsys):
     assert (folder / "messages.log").read_text() == "of somebody else"
 
 
-def test_a_name_that_is_taken_is_refused_first(system, tmp_path, capsys):
-    (tmp_path / "out" / "messages.log").mkdir(parents=True)
-    assert main(["couple", system(0), "-o", str(tmp_path / "out")]) == 2
-    assert "messages.log: is a folder, allowed is a file or nothing" in capsys.readouterr().err
-
-
 def test_what_an_isolated_unit_writes_is_in_it(system, tmp_path, capfd):
     alone = ("[units.loud]\n", "[units.loud]\nisolate = true\n")
     folder = tmp_path / "out"
@@ -116,12 +110,6 @@ def test_what_an_isolated_unit_writes_is_in_it(system, tmp_path, capfd):
         ("loud", "output", "", "another"),
     }
     assert capfd.readouterr().err == ""  # lines are no warnings
-
-
-def test_messages_of_an_isolated_unit_are_those_of_one_that_is_not(system, tmp_path):
-    alone = ("[units.loud]\n", "[units.loud]\nisolate = true\n")
-    main(["couple", system(LOGS, alone=alone), "-o", str(tmp_path / "out")])
-    assert rows(tmp_path / "out") == WARNINGS
 
 
 def test_a_run_that_fails_says_it_in_its_one_line(system, tmp_path, capsys):

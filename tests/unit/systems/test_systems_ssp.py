@@ -196,12 +196,6 @@ def test_units_are_converted_unless_that_is_suppressed(write):
     np.testing.assert_array_equal(result["b.u"][1:], result["a.y"][1:])
 
 
-def test_conversion_comes_before_the_transformation(write):
-    doubled = connection("a.y", "b.u", '<ssc:LinearTransformation factor="2"/>')
-    result = run(write(structure(system(BOTH, doubled)), (("", "degC"), ("K", "")))).result
-    np.testing.assert_allclose(result["b.u"][1:], 2.0 * (result["a.y"][1:] + 273.15), rtol=1e-14)
-
-
 def test_units_of_the_file_count_where_the_fmus_have_none(write):
     units = """<ssd:Units><ssc:Unit name="km"><ssc:BaseUnit m="1" factor="1000"/></ssc:Unit>
       <ssc:Unit name="m"><ssc:BaseUnit m="1"/></ssc:Unit></ssd:Units>"""
@@ -401,11 +395,6 @@ def test_a_connection_that_cannot_be_is_refused_by_name(write, case):
     with pytest.raises((SystemFault, CouplingError)) as refusal:
         run(write(structure(system(BOTH, ends))))
     assert message in str(refusal.value)
-
-
-def test_units_of_two_dimensions_are_refused(write):
-    with pytest.raises(CouplingError, match=r"a\.y -> b\.u: J .* does not fit K"):
-        run(write(structure(system(BOTH, CHAIN)), (("", "J"), ("K", ""))))
 
 
 @pytest.mark.parametrize(

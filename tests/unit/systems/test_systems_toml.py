@@ -9,7 +9,7 @@ import time
 import numpy as np
 import pytest
 import xarray as xr
-from lag_unit import UNITS, lag_unit
+from lag_unit import lag_unit
 
 import cosim.files
 from cosim.cli import main
@@ -172,20 +172,6 @@ def test_what_makes_no_sense_is_refused_in_one_line(chain, capsys, old, new, mes
     assert main(["couple", str(path), "-o", str(path.parent / "out")]) == 2
     said = capsys.readouterr().err
     assert said.startswith("error: ") and said.count("\n") == 1
-
-
-def test_units_of_two_dimensions_are_refused_by_name(chain):
-    lag_unit(chain().parent / "second.fmu", u_unit="N")
-    with pytest.raises(
-        CouplingError, match=r"first\.y -> second\.u: m \(m\) does not fit N \(kg m"
-    ):
-        result_of(chain())
-
-
-def test_one_spelling_for_two_units_is_refused(chain):
-    lag_unit(chain().parent / "second.fmu", u_unit="m", units={**UNITS, "m": 'm="1" factor="2"'})
-    with pytest.raises(CouplingError, match="both are in m, which they define differently"):
-        result_of(chain())
 
 
 def test_the_command_leaves_what_run_leaves(chain, tmp_path, capsys):
