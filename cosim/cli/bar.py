@@ -13,7 +13,7 @@ from cosim.cli.console import is_quiet
 MINUTE = 60.0
 
 
-class Bar(tqdm):
+class Bar(tqdm):  # type: ignore[type-arg]  # tqdm takes none when it runs
     """A bar on stderr, or where that is no terminal a line a minute; none with `-q`."""
 
     def __init__(self, *given: Any, **further: Any) -> None:

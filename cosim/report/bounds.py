@@ -70,7 +70,7 @@ def contact_share(y: float, radius: float, width: float) -> float:
     def below(edge: float) -> float:
         """Part of a disc of radius 1 that lies below an edge."""
         e = float(np.clip(edge, -1.0, 1.0))
-        return (np.arcsin(e) + e * np.sqrt(1.0 - e * e)) / np.pi
+        return float((np.arcsin(e) + e * np.sqrt(1.0 - e * e)) / np.pi)
 
     half, y = 0.5 * width / radius, y / radius
     return float((below(half - y) - below(-half - y)) / (2.0 * below(half)))
@@ -84,7 +84,7 @@ def spring_lengths(parameters: Parameters, x: Array, y: Array, phi: Array) -> Ar
     c, s = np.cos(phi), np.sin(phi)
     along = x + np.outer(arms[:, 0], c) - np.outer(arms[:, 1], s) - anchors[:, :1]
     across = y + np.outer(arms[:, 0], s) + np.outer(arms[:, 1], c) - anchors[:, 1:]
-    return np.hypot(along, across)
+    return np.asarray(np.hypot(along, across))
 
 
 def _left_belt(dataset: Data, parameters: Parameters, time: Array, y: Array) -> dict[str, Quantity]:

@@ -82,7 +82,8 @@ def _entries(table: BaseModel) -> dict[str, dict[str, Any]]:
 
 def stored_tables(dataset: Data) -> Tables:
     """The tables of parameters that a dataset carries."""
-    return json.loads(dataset.attrs["parameters"])
+    tables: Tables = json.loads(dataset.attrs["parameters"])
+    return tables
 
 
 def value_of(dataset: Data, table: str, key: str) -> Any:
@@ -190,7 +191,7 @@ def break_aways(dataset: Data) -> Array:
     Without located events: those that `slip_count` has, to half an interval of the rows.
     """
     if has_events(dataset):
-        return dataset["event_time"].values[dataset["event_mode"].values == 1]
+        return np.asarray(dataset["event_time"].values[dataset["event_mode"].values == 1])
     return counted_break_aways(dataset["time"].values, dataset["slip_count"].values.astype(float))
 
 
@@ -204,7 +205,7 @@ def assessment_numbers(dataset: Data) -> dict[str, Any]:
     """Stability and regimes with units; nothing for a run that was not assessed."""
     if ATTRIBUTE not in dataset.attrs:
         return {}
-    found = json.loads(dataset.attrs[ATTRIBUTE])
+    found: dict[str, Any] = json.loads(dataset.attrs[ATTRIBUTE])
     return found | {
         "stability": _with_units(found["stability"], STABILITY_UNITS),
         "regimes": {

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import platform
 from collections.abc import Mapping
@@ -125,6 +126,15 @@ def no_formula(cell: Any) -> Any:
     except ValueError:
         return f"'{cell}"
     return cell
+
+
+def without_nan(tree: Any) -> Any:
+    """A tree of plain values with None for NaN and infinities, which are no JSON."""
+    if isinstance(tree, Mapping):
+        return {key: without_nan(one) for key, one in tree.items()}
+    if isinstance(tree, (list, tuple)):
+        return [without_nan(one) for one in tree]
+    return None if isinstance(tree, float) and not math.isfinite(tree) else tree
 
 
 def json_text(content: Mapping[str, Any]) -> str:

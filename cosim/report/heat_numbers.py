@@ -94,7 +94,7 @@ def other_heat(dataset: Data) -> dict[str, np.ndarray]:
 def all_other_heat(dataset: Data) -> np.ndarray:
     """What entered the belt beside the contact's heat, J: (times,)."""
     other = other_heat(dataset)
-    return other["railing"] + other["supports"]
+    return np.asarray(other["railing"] + other["supports"])
 
 
 def held(dataset: Data, name: str) -> np.ndarray:

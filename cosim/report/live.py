@@ -201,7 +201,7 @@ def on_one_axis(series: Sequence[Series]) -> tuple[Array, list[Curve]]:
 def _at(times: Array, one: Series) -> Array:
     values = np.asarray(one.curve.values, float)
     if not one.curve.dots:
-        return np.interp(times, one.time, values, left=np.nan, right=np.nan)
+        return np.asarray(np.interp(times, one.time, values, left=np.nan, right=np.nan), float)
     found = np.full(times.size, np.nan)
     found[np.searchsorted(times, one.time)] = values
     return found

@@ -271,7 +271,9 @@ def _valued(value: Any, unit: str) -> str:
     return digits(value) if isinstance(value, str) else with_unit(digits(value), spelled(unit))
 
 
-def _rows(numbers: Mapping[str, Any], path: str, entries: Mapping[str, Any]) -> list[tuple]:
+def _rows(
+    numbers: Mapping[str, Any], path: str, entries: Mapping[str, Any]
+) -> list[tuple[str, ...]]:
     shares = path == "heat_shares"
     return [(worded(key), _told(numbers, f"{path}.{key}", shares)) for key in entries]
 

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
+import textwrap
+from collections.abc import Callable, Sequence
 from functools import partial, wraps
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import matplotlib
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter, StrMethodFormatter
 from numpy.typing import NDArray
 from PIL import Image
 
-from .live import Live
+from .live import Live, Panel
 from .page import DPI, Picture
 
 if TYPE_CHECKING:
@@ -236,3 +240,109 @@ def at_least(axes: Axes, span: float) -> None:
 def line(axes: Axes, x: Array, y: Array, **options: Any) -> None:
     """A line; dots as well where there are too few points to see one."""
     axes.plot(x, y, marker="o" if np.size(x) < 3 else "", **options)
+
+
+#: Letters of a panel's title; a longer one has the unit's name on a line of its own.
+LONGEST_TITLE = 42
+#: Letters of a line below a figure.
+LONGEST_LINE = 130
+
+
+@styled
+def panels_over_time(
+    time: Array, shown: Sequence[Panel], note: str = "", columns: int = 1
+) -> Figure:
+    """Panels over one time (n,), s, each below its label, and a line of text below all."""
+    rows = -(-len(shown) // columns)
+    figure, axes = panels(rows, columns, height=1.9, width=10.5, sharex=True)
+    for place, ax in enumerate(axes.flat):
+        if place >= len(shown):
+            ax.set_visible(False)
+            continue
+        panel = shown[place]
+        plain_ticks(ax)
+        draw_panel(ax, time, panel)
+        is_long = len(panel.label) > LONGEST_TITLE
+        title = panel.label.replace(".", ".\n", 1) if is_long else panel.label
+        ax.set_title(title, fontsize=9)
+        if place + columns >= len(shown):
+            ax.set_xlabel("time [s]")
+            ax.tick_params(labelbottom=True)
+    if handles := curve_handles(shown):
+        figure.legend(handles=handles, loc="outside lower center", ncols=2)
+    if note:
+        figure.supxlabel(textwrap.fill(note, LONGEST_LINE), x=0.008, ha="left", fontsize=9)
+    return figure
+
+
+def draw_panel(axes: Axes, time: Array, panel: Panel) -> None:
+    """The curves and levels of a panel over time (n,), s, to its scale."""
+    below = np.zeros(time.size)
+    for curve in panel.curves:
+        if curve.fill:
+            top = below + np.nan_to_num(curve.values) if panel.stacked else curve.values
+            axes.fill_between(time, below, top, color=curve.colour, linewidth=0.0)
+            below = top if panel.stacked else below
+            continue
+        line(
+            axes,
+            time,
+            curve.values,
+            color=curve.colour,
+            linewidth=curve.width,
+            linestyle="--" if curve.dash else "-",
+            drawstyle="steps-pre" if curve.steps else "default",
+        )
+    at_least(axes, panel.span)
+    _draw_levels(axes, panel.levels)
+    if panel.logarithmic:
+        axes.set_yscale("log")
+    if panel.from_zero:
+        axes.set_ylim(bottom=0.0)
+    if panel.top is not None:
+        axes.set_ylim(top=panel.top)
+
+
+def _draw_levels(axes: Axes, levels: Sequence[tuple[float, str]]) -> None:
+    """Broken lines, named behind the right edge."""
+    for height, text in levels:
+        axes.axhline(height, color=GREY, linewidth=0.9, linestyle="--", zorder=1)
+        axes.annotate(
+            text,
+            (1.0, height),
+            xycoords=("axes fraction", "data"),
+            xytext=(3, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=9,
+            color=INK,
+        )
+
+
+def fit_to_part(axes: Axes, time: Array, panel: Panel) -> None:
+    """The scale of an enlarged part from what is seen in it."""
+    low, high = axes.get_xlim()
+    seen = (time >= low) & (time <= high)
+    values = np.concatenate([curve.values[seen] for curve in panel.curves])
+    values = values[np.isfinite(values)]
+    if values.size:
+        bottom, top = float(values.min()), float(values.max())
+        margin = max(0.05 * (top - bottom), 0.5 * panel.span, 1e-9 * abs(top)) or 0.5
+        axes.set_ylim(0.0 if panel.from_zero else bottom - margin, top + margin)
+
+
+def curve_handles(shown: Sequence[Panel]) -> list[Artist]:
+    """For a legend: curves by name, each once, of the panels that have several."""
+    curves = {
+        curve.label: curve
+        for panel in reversed(shown)
+        for curve in reversed(panel.curves if len(panel.curves) > 1 else ())
+    }
+    return [
+        Patch(facecolor=curve.colour, label=curve.label)
+        if curve.fill
+        else Line2D(
+            [], [], color=curve.colour, label=curve.label, dashes=(3, 2) if curve.dash else (1, 0)
+        )
+        for curve in reversed(curves.values())
+    ]

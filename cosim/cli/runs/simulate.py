@@ -93,4 +93,5 @@ def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
             if not patience.holding:
                 raise
             # what was computed until then is on the exception, of whatever kind it is
-            return stop.trajectory  # type: ignore[attr-defined]
+            kept: Trajectory = stop.trajectory  # type: ignore[attr-defined]
+            return kept

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import os
 import sys
 import time
@@ -20,6 +19,7 @@ from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import writable, write_atomically, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
+from cosim.report.files import without_nan
 from cosim.report.page import Picture
 from cosim.scenario import Scenario
 from cosim.studies.belt_length import (
@@ -28,6 +28,7 @@ from cosim.studies.belt_length import (
     Case,
     DriftMap,
     Options,
+    Protocol,
     Study,
     StudyError,
     answer_all,
@@ -202,9 +203,9 @@ def number_or_air(text: str) -> float | str:
 
 def _own(case: Case, field: str) -> float | str:
     """What a case has where it is not told otherwise."""
-    value = getattr(case, field)
+    value: float | None = getattr(case, field)
     if value is None and field in _FROM_RIG:
-        return getattr(getattr(case.rig, _FROM_RIG[field]), field)
+        value = getattr(getattr(case.rig, _FROM_RIG[field]), field)
     return AIR if value is None else value
 
 
@@ -305,7 +306,7 @@ def _from_file(arguments: Namespace) -> Case:
         raise StudyError(f"{arguments.scenario}: {error}") from None
 
 
-def _protocol(base: Case, arguments: Namespace):
+def _protocol(base: Case, arguments: Namespace) -> Protocol:
     """The base's, with what the options say."""
     said = {
         name: getattr(arguments, name)
@@ -321,11 +322,8 @@ def _write(study: Study, grid: DriftMap | None, folder: Path) -> None:
         numbers["map"] = {
             "lengths": grid.lengths.tolist(),
             "speeds": grid.speeds.tolist(),
-            # JSON has no NaN; where a stopped map did not come is null
-            "drift": [
-                [value if math.isfinite(value) else None for value in row]
-                for row in grid.drift.tolist()
-            ],
+            # where a stopped map did not come is null
+            "drift": without_nan(grid.drift.tolist()),
         }
     write_text(json.dumps(numbers, indent=1), folder / RESULT)
     for name, table in ((TABLE, study.table()), (CHANGES, study.changes()), (DOUBT, study.doubt())):

@@ -231,16 +231,11 @@ def _write(datasets: dict[str, xr.Dataset], folder: Path, asked: list[str], comm
 
 def _as_json(datasets: dict[str, xr.Dataset]) -> str:
     """Every run, NaN as null."""
+    from cosim.report.files import without_nan
     from cosim.studies.sweep.page import records
 
-    found = {
-        group or "runs": [
-            {key: None if value != value else value for key, value in row.items()}
-            for row in records(dataset)
-        ]
-        for group, dataset in datasets.items()
-    }
-    return json.dumps(found, indent=1)
+    found = {group or "runs": records(dataset) for group, dataset in datasets.items()}
+    return json.dumps(without_nan(found), indent=1)
 
 
 def _status(datasets: dict[str, xr.Dataset]) -> int:

@@ -13,11 +13,19 @@ from numpy.typing import NDArray
 
 from cosim.report.contents import break_aways
 from cosim.report.figures.events import through_events
-from cosim.report.live import Curve, Live, Panel, on_one_axis, over_time
+from cosim.report.live import Curve, Panel, on_one_axis, over_time
 from cosim.report.live import Series as CurveInTime
 from cosim.report.page import Picture
 from cosim.report.quantities import ROUNDING
-from cosim.report.style import BLUE, ORANGE, panels, picture, readable
+from cosim.report.style import (
+    BLUE,
+    ORANGE,
+    draw_panel,
+    fit_to_part,
+    panels,
+    picture,
+    readable,
+)
 
 from .compare import Comparison
 from .series import Series
@@ -127,32 +135,38 @@ def _window(both: Comparison) -> tuple[float, float]:
 
 def overlay(both: Comparison) -> Picture:
     """Drawn, and alive: where both have other times, each on the straight lines of its rows."""
-    window, finer = _window(both), _with_events(both)
+    window = _window(both)
+    times, shown = _described(_with_events(both))
+    part = (*window, "the last cycles that both have")
     return replace(
-        _overlay(finer, window),
+        _overlay(both, times, shown, window),
         alt="Both runs over time, one over the other.",
-        live=_live(finer, window),
+        live=over_time(times, shown, part=part),
     )
 
 
-def _live(both: Comparison, window: tuple[float, float]) -> Live:
+def _described(both: Comparison) -> tuple[Array, list[Panel]]:
+    """All times of both, and a panel for each channel that moves."""
     labels = (f"A: {both.a.label}", f"B: {both.b.label}")
-    names, series = [], []
+    series, shown = [], []
     for channel, both_values in moving(both):
         scale = readable(_all_values(both_values), channel.unit)
-        for one, values, label, (colour, width) in zip(
-            _sets(both), both_values, labels, STROKES, strict=True
-        ):
-            if values is not None:
-                curve = Curve(label, scale(values), colour, width=width)
-                series.append(CurveInTime(one["time"].values, curve))
-                names.append(f"{channel.says} [{scale.unit}]")
+        own = [
+            CurveInTime(one["time"].values, Curve(label, scale(values), colour, width=width))
+            for one, values, label, (colour, width) in zip(
+                _sets(both), both_values, labels, STROKES, strict=True
+            )
+            if values is not None
+        ]
+        series += own
+        label, span = f"{channel.says} [{scale.unit}]", scale.factor * channel.nothing
+        shown.append(Panel(label, [one.curve for one in own], span=span))
     times, curves = on_one_axis(series)
-    panels = [
-        Panel(label, [curve for name, curve in zip(names, curves, strict=True) if name == label])
-        for label in dict.fromkeys(names)
+    ends = np.cumsum([len(panel.curves) for panel in shown])
+    return times, [
+        replace(panel, curves=curves[end - len(panel.curves) : end])
+        for panel, end in zip(shown, ends, strict=True)
     ]
-    return over_time(times, panels, part=(*window, "the last cycles that both have"))
 
 
 def _all_values(values: tuple[Array | None, ...]) -> Array:
@@ -176,16 +190,19 @@ def _with_events(both: Comparison) -> Comparison:
     " line is A, the thin, blue one B: where only blue is seen on orange they are the same. What is"
     " flat in both is left out; where there is one line only, the other has no such quantity.",
 )
-def _overlay(both: Comparison, window: tuple[float, float]) -> Figure:
+def _overlay(
+    both: Comparison, times: Array, shown: list[Panel], window: tuple[float, float]
+) -> Figure:
     """A row for each channel that moves, over all time and enlarged."""
-    channels = moving(both)
-    begin, end = window
-    figure, axes = panels(
-        max(len(channels), 1), 2, height=1.9, width=11.0, width_ratios=[1.6, 1.0], sharex="col"
-    )
-    for row, drawn in zip(axes, channels, strict=False):
-        _draw(row, both, drawn, begin, end)
-    axes[0, 1].set_xlim(begin, end)
+    rows = max(len(shown), 1)
+    ratios, size = [1.6, 1.0], {"height": 1.9, "width": 11.0}
+    figure, axes = panels(rows, 2, **size, width_ratios=ratios, sharex="col")
+    axes[0, 1].set_xlim(window)
+    for row, panel in zip(axes, shown, strict=False):
+        for ax in row:
+            draw_panel(ax, times, panel)
+        fit_to_part(row[1], times, panel)
+        _label(row[0], panel.label)
     for ax in axes[-1]:
         ax.set_xlabel("time [s]")
     handles = axes[0, 0].lines[:2]
@@ -195,30 +212,13 @@ def _overlay(both: Comparison, window: tuple[float, float]) -> Figure:
     return figure
 
 
-def _draw(row: NDArray, both: Comparison, drawn: Drawn, begin: float, end: float) -> None:
-    channel, series = drawn
-    scale = readable(_all_values(series), channel.unit)
-    seen = []
-    for one, values, (colour, width) in zip(_sets(both), series, STROKES, strict=True):
-        time = one["time"].values
-        shown = np.full(time.shape, np.nan) if values is None else scale(values)
-        for ax in row:
-            ax.plot(time, shown, color=colour, linewidth=width)
-        seen.append(shown[(time >= begin) & (time <= end)])
-    _label(row[0], channel.says, scale.unit)
-    inside = np.concatenate(seen)
-    inside = inside[np.isfinite(inside)]
-    if inside.size and np.ptp(inside) > np.ptp(scale(np.array([0.0, channel.nothing]))):
-        margin = 0.05 * float(np.ptp(inside))
-        row[1].set_ylim(inside.min() - margin, inside.max() + margin)
-
-
-def _label(ax: Axes, says: str, unit: str) -> None:
+def _label(ax: Axes, label: str) -> None:
     """A long name above the panel: beside it, it would run into its neighbours."""
+    says, _, unit = label.rpartition(" ")
     if len(says) <= LONG_NAME:
-        ax.set_ylabel(f"{says} [{unit}]")
+        ax.set_ylabel(label)
     else:
-        ax.set_ylabel(f"[{unit}]")
+        ax.set_ylabel(unit)
         ax.set_title(says, loc="left", fontsize="small")
 
 

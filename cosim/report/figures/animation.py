@@ -11,8 +11,10 @@ from typing import NamedTuple
 
 import matplotlib
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import QuadMesh
 from matplotlib.colors import Normalize, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.transforms import Affine2D
@@ -109,7 +111,9 @@ class _Picture:
         ice, belt = figure.subplots(2, 1, height_ratios=[1.6, 1.0])
         self._ice = self._mesh(ice, first.x, first.height, first.ice)
         self._belt = self._mesh(belt, first.offset, -first.depth, first.belt)
-        self._ways = [(mesh, Affine2D()) for mesh in (self._ice, self._belt)]
+        self._ways: list[tuple[Artist, Affine2D]] = [
+            (mesh, Affine2D()) for mesh in (self._ice, self._belt)
+        ]
         for (mesh, way), axes in zip(self._ways, (ice, belt), strict=True):
             mesh.set_transform(way + axes.transData)
         left = 1e3 * float(np.nanmin(moving.x, initial=0.0))
@@ -122,7 +126,7 @@ class _Picture:
         figure.colorbar(self._ice, ax=[ice, belt], label=f"rise over the air [{self._scaled.unit}]")
         self._title = figure.suptitle("", x=0.008, ha="left", color=INK)
 
-    def _mesh(self, axes: Axes, x: Array, z: Array, field: Array):
+    def _mesh(self, axes: Axes, x: Array, z: Array, field: Array) -> QuadMesh:
         return axes.pcolormesh(
             1e3 * x,
             1e3 * z,

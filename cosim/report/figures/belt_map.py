@@ -114,7 +114,7 @@ def _field(
 
     def behind(k: int) -> Array:
         """How far the surface must go from picture k on until the block has left each place."""
-        return (0.5 * touched - forwards * (place - (start - way_then[k]))) % length
+        return np.asarray((0.5 * touched - forwards * (place - (start - way_then[k]))) % length)
 
     field = np.empty((time.size, place.size))
     for row, (now, way) in enumerate(zip(time, way_at, strict=True)):

@@ -14,14 +14,22 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cosim.report.columns import Data
 from cosim.report.contents import break_aways, mechanics_of, ramp_end, slip_intervals
 from cosim.report.live import Live, Panel, over_time
-from cosim.report.style import GREY, INK, SLIP, at_least, in_full, line, plain_ticks, styled
+from cosim.report.style import (
+    INK,
+    SLIP,
+    curve_handles,
+    draw_panel,
+    fit_to_part,
+    in_full,
+    plain_ticks,
+    styled,
+)
 
 from .events import through_events
 
@@ -69,78 +77,20 @@ def _draw(dataset: Data, describe: Describe) -> Figure:
     figure, axes = time_panels(dataset, count, described.height, described.share_y)
     for panel, row in zip(described.panels, axes, strict=True):
         for column in row:
-            _draw_panel(column, rows["time"].values, panel)
+            for shading in () if panel.shaded else list(column.collections):
+                shading.remove()
+            draw_panel(column, rows["time"].values, panel)
         row[0].set_ylabel(panel.label)
         if panel.thermometer:
             _thermometer(row[-1], *panel.thermometer)
-    if not described.share_y:
-        _fit_to_part(axes, rows["time"].values, described)
+        if len(row) > 1 and not described.share_y:
+            fit_to_part(row[-1], rows["time"].values, panel)
     figure.align_ylabels(axes[:, 0])
     title(figure, described.title, dataset)
     if described.note:
         figure.supxlabel(described.note, x=0.008, ha="left", fontsize=9)
     _legend(figure, described)
     return figure
-
-
-def _draw_panel(axes: Axes, time: Array, panel: Panel) -> None:
-    if not panel.shaded:
-        for collection in list(axes.collections):
-            collection.remove()
-    below = np.zeros(time.size)
-    for curve in panel.curves:
-        if curve.fill:
-            top = below + np.nan_to_num(curve.values) if panel.stacked else curve.values
-            axes.fill_between(time, below, top, color=curve.colour, linewidth=0.0)
-            below = top if panel.stacked else below
-            continue
-        line(
-            axes,
-            time,
-            curve.values,
-            color=curve.colour,
-            linewidth=curve.width,
-            linestyle="--" if curve.dash else "-",
-            drawstyle="steps-pre" if curve.steps else "default",
-        )
-    at_least(axes, panel.span)
-    _draw_levels(axes, panel.levels)
-    if panel.logarithmic:
-        axes.set_yscale("log")
-    if panel.from_zero:
-        axes.set_ylim(bottom=0.0)
-    if panel.top is not None:
-        axes.set_ylim(top=panel.top)
-
-
-def _draw_levels(axes: Axes, levels: Sequence[tuple[float, str]]) -> None:
-    """Broken lines, named behind the right edge."""
-    for height, text in levels:
-        axes.axhline(height, color=GREY, linewidth=0.9, linestyle="--", zorder=1)
-        axes.annotate(
-            text,
-            (1.0, height),
-            xycoords=("axes fraction", "data"),
-            xytext=(3, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=9,
-            color=INK,
-        )
-
-
-def _fit_to_part(axes: NDArray[Any], time: Array, described: TimeFigure) -> None:
-    """The scale of an enlarged part from what is seen in it."""
-    for panel, row in zip(described.panels, axes, strict=True):
-        low, high = row[-1].get_xlim()
-        seen = (time >= low) & (time <= high)
-        values = np.concatenate([curve.values[seen] for curve in panel.curves])
-        values = values[np.isfinite(values)]
-        if len(row) == 1 or values.size == 0:
-            continue
-        bottom, top = float(values.min()), float(values.max())
-        margin = max(0.05 * (top - bottom), 0.5 * panel.span, 1e-9 * abs(top)) or 0.5
-        row[-1].set_ylim(0.0 if panel.from_zero else bottom - margin, top + margin)
 
 
 def _thermometer(axes: Axes, ambient: float, factor: float) -> None:
@@ -159,25 +109,7 @@ def _thermometer(axes: Axes, ambient: float, factor: float) -> None:
 
 def _legend(figure: Figure, described: TimeFigure) -> None:
     """Curves by name where a panel has several, and the shading."""
-    handles: list[Any] = []
-    named = set()
-    for panel in described.panels:
-        for curve in panel.curves if len(panel.curves) > 1 else ():
-            if curve.label in named:
-                continue
-            named.add(curve.label)
-            handles.append(
-                Patch(facecolor=curve.colour, label=curve.label)
-                if curve.fill
-                else Line2D(
-                    [],
-                    [],
-                    color=curve.colour,
-                    label=curve.label,
-                    dashes=(3, 2) if curve.dash else (1, 0),
-                )
-            )
-    handles.append(slip_patch())
+    handles = [*curve_handles(described.panels), slip_patch()]
     columns = min(len(handles), MOST_IN_A_ROW)
     if len(handles) < 3:
         figure.legend(handles=handles, loc="outside upper right", ncols=columns)

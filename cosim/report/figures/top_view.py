@@ -55,7 +55,7 @@ def attachments(parameters: Parameters, pose: Pose) -> Array:
     """Ends of the springs on the block (4, 2), m: (x, y) + R(phi) b_i."""
     arms = np.array(parameters.pack()[P_ATTACH : P_ATTACH + 8]).reshape(4, 2)
     c, s = np.cos(pose.phi), np.sin(pose.phi)
-    return np.array([pose.x, pose.y]) + arms @ np.array([[c, s], [-s, c]])
+    return np.asarray(np.array([pose.x, pose.y]) + arms @ np.array([[c, s], [-s, c]]))
 
 
 def coil(begin: Array, end: Array, turns: int = 9, width: float = 0.006) -> Array:
@@ -66,7 +66,7 @@ def coil(begin: Array, end: Array, turns: int = 9, width: float = 0.006) -> Arra
     stations = np.concatenate([[0.0], np.linspace(0.12, 0.88, 2 * turns + 2), [1.0]])
     swing = np.zeros(stations.size)
     swing[2:-2] = 0.5 * width * np.where(np.arange(stations.size - 4) % 2, 1.0, -1.0)
-    return begin + stations[:, None] * along + swing[:, None] * across
+    return np.asarray(begin + stations[:, None] * along + swing[:, None] * across)
 
 
 MARGIN = 0.03  # m around everything drawn
@@ -105,7 +105,8 @@ def draw_top_view(dataset: Data) -> Figure:
 
 def _is_known(dataset: Data) -> NDArray[np.bool_]:
     """In which rows the block's place is known."""
-    return np.all([np.isfinite(dataset[name].values) for name in ("x", "y", "phi")], axis=0)
+    known = [np.isfinite(dataset[name].values) for name in ("x", "y", "phi")]
+    return np.asarray(np.all(known, axis=0))
 
 
 def extreme_poses(dataset: Data) -> list[tuple[str, Pose]]:

@@ -6,6 +6,7 @@ import tomllib
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, field, fields
 from importlib.resources import files
+from typing import Any
 
 import pandas as pd
 
@@ -135,7 +136,7 @@ class Study:
         """One row a case and unknown: single changes beside Sobol indices."""
         return self._each(lambda row: [] if row.uncertainty is None else row.uncertainty.table())
 
-    def _each(self, of: Callable[[Row], list[dict]]) -> pd.DataFrame:
+    def _each(self, of: Callable[[Row], list[dict[str, object]]]) -> pd.DataFrame:
         rows = []
         for row in self.rows:
             case = {
@@ -195,7 +196,7 @@ def _of_answer(answer: Answer) -> Levels:
     }
 
 
-def _shared(rigs: list[dict]) -> dict[str, object]:
+def _shared(rigs: list[dict[str, Any]]) -> dict[str, object]:
     """What was used in all cases; None where that differs, and each case has its own."""
     found: dict[str, object] = {}
     for key, value in rigs[0].items():

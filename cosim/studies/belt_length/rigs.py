@@ -112,7 +112,7 @@ class Rigs:
 
     def drawn(self, count: int = DRAWN) -> Array:
         """Shares of the ranges, evenly spread: (count, unknowns); count: a power of two."""
-        return qmc.Sobol(len(self.unknowns), rng=2).random(count)
+        return np.asarray(qmc.Sobol(len(self.unknowns), rng=2).random(count))
 
     def melting(self, length: float) -> float:
         """Share of the rigs, on a belt of a length, m, in which the ice's face comes to melt."""

@@ -19,16 +19,18 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from importlib.resources import files
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from thermal import Belt, Layer
 from thermal.contact.footprint import Footprint
 
 from .case import Case
 
 Array = NDArray[np.float64]
+Material = TypeVar("Material", Belt, Layer)
 
 #: Rollers and railing where the rig names none: two with 0.1 m of belt each, and as long as the
 #: sample; on a short belt not more than these parts of it.
@@ -141,7 +143,7 @@ def weights(values: Mapping[str, Any]) -> list[Any]:
 
 def combined(parts: Array, values: Mapping[str, Any]) -> Array:
     """A rise, K, from its A to E (n, 5) and the other unknowns, each a number or (n,)."""
-    return sum(weight * parts[:, column] for column, weight in enumerate(weights(values)))
+    return np.asarray(sum(weight * parts[:, i] for i, weight in enumerate(weights(values))))
 
 
 def as_it_is(case: Case, key: str) -> dict[str, float]:
@@ -221,7 +223,7 @@ def _room_for_railing(case: Case) -> float:
 def _with_belt(case: Case, conductivity: float, heat_capacity: float) -> Case:
     """Factors on the belt's conductivity and heat capacity, on those of each of its layers."""
 
-    def scaled(material):
+    def scaled(material: Material) -> Material:
         factors = {"conductivity": conductivity, "heat_capacity": heat_capacity}
         return material.model_copy(
             update={name: factor * getattr(material, name) for name, factor in factors.items()}

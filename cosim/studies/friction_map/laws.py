@@ -47,7 +47,7 @@ def _static_at(found: FrictionMap, temperature: float) -> float:
     mechanics = found.scenario.mechanics
     law = mechanics.temperature_dependence
     fall = law.static_sensitivity * (temperature - law.reference_degC)
-    return mechanics.friction.mu_s * max(0.0, 1.0 - fall)
+    return float(mechanics.friction.mu_s * max(0.0, 1.0 - fall))
 
 
 def _asperities(found: FrictionMap) -> Iterator[Law]:
@@ -101,7 +101,7 @@ def conducted_share(found: FrictionMap, speed: float) -> float:
     radius = 0.5 * law.length
     conducted = 4.0 * conductivity * radius / (math.pi * radius**2)
     warmed = law.constant * law.effusivity * math.sqrt(speed / law.length)
-    return conducted / warmed
+    return float(conducted / warmed)
 
 
 def _film(found: FrictionMap) -> Iterator[Law]:

@@ -259,7 +259,9 @@ class FrictionMap:
         }
 
 
-def _extreme(slopes: list[DecadeSlope], choose: Callable) -> dict[str, float] | None:
+def _extreme(
+    slopes: list[DecadeSlope], choose: Callable[..., DecadeSlope]
+) -> dict[str, float] | None:
     return asdict(choose(slopes, key=lambda entry: entry.slope)) if slopes else None
 
 

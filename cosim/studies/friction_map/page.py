@@ -81,7 +81,7 @@ def _draw_ambient(
 
 
 def _local_slope(speed: np.ndarray, value: np.ndarray) -> np.ndarray:
-    return np.gradient(np.log(value), np.log(speed))
+    return np.asarray(np.gradient(np.log(value), np.log(speed)))
 
 
 def _name_regimes(ax: Axes, speed: np.ndarray, law: np.ndarray) -> None:

@@ -79,7 +79,7 @@ class Datasets:
             most=most,
             closest=_names(one.reading for one in self.outcomes if sum(one.met) == most),
         )
-        return written["found" if self.found else "none"].format(said=said)
+        return str(written["found" if self.found else "none"]).format(said=said)
 
     @property
     def bears(self) -> str:
@@ -88,7 +88,7 @@ class Datasets:
         turning = [one.without for one in every if one.rotates]
         others = _names(one.reading for one in every if not one.one_spring_explains)
         both = [one.reading for one in every if one.both]
-        return WRITTEN["datasets"]["bears"].format(
+        return str(WRITTEN["datasets"]["bears"]).format(
             all=len(every),
             turning=len(turning),
             ended=[sum(one[fault] < ROTATES for one in turning) for fault in ("F2", "F13")],

@@ -59,7 +59,7 @@ class Motion:
     @property
     def phi_deg(self) -> np.ndarray:
         """Rotation, deg: (n,)."""
-        return np.degrees(self.phi)
+        return np.asarray(np.degrees(self.phi))
 
     @property
     def rotation(self) -> float:
@@ -139,9 +139,9 @@ def upward_crossings(time: np.ndarray, x: np.ndarray, between_rows: bool = False
     seen = np.flatnonzero(side)
     after = seen[1:][(side[seen[1:]] == 1) & (side[seen[:-1]] == -1)]
     if not between_rows:
-        return time[after]
+        return np.asarray(time[after])
     share = (band - away[after - 1]) / (away[after] - away[after - 1])
-    return time[after - 1] + share * (time[after] - time[after - 1])
+    return np.asarray(time[after - 1] + share * (time[after] - time[after - 1]))
 
 
 def oscillation_rate(time: np.ndarray, x: np.ndarray) -> float:

@@ -136,7 +136,7 @@ def outcome(reading: Reading) -> Outcome:
 def _figure(reading: Reading, dataset: int, name: str) -> float:
     """Of a reading; an onset is the mean over seeds, NaN if one never turns."""
     if name != "onset":
-        return getattr(reading_figures(reading, dataset), name)
+        return float(getattr(reading_figures(reading, dataset), name))
     return float(np.mean([onset(reading.motion(dataset, s), SEEN) for s in reading.seeds]))
 
 

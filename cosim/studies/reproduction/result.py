@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import asdict
 from typing import Any
 
 from stickslip.reference.scheme_errors import DESCRIPTIONS
 
+from cosim.report.files import without_nan
 from cosim.report.page import render
 
 from .attributions import Datasets
@@ -25,7 +25,7 @@ def as_data(
     claims: list[Claim], wall_time: float | None = None, datasets: Datasets | None = None
 ) -> dict[str, Any]:
     """A tree of plain values; numbers that a model does not have are None."""
-    return _plain(
+    found: dict[str, Any] = without_nan(
         {
             "datasets": _datasets(datasets) if datasets else None,
             "referee": [_referee(one) for one in claims],
@@ -34,6 +34,7 @@ def as_data(
             "wall_time": wall_time,
         }
     )
+    return found
 
 
 def _named(one: object, *names: str) -> dict[str, Any]:
@@ -74,15 +75,6 @@ def _datasets(datasets: Datasets) -> dict[str, Any]:
             _named(one, *judged) | {"reading": one.reading.name} for one in datasets.attributions
         ],
     }
-
-
-def _plain(value: Any) -> Any:
-    """NaN and infinities are no JSON."""
-    if isinstance(value, dict):
-        return {key: _plain(one) for key, one in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(one) for one in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def page(claims: list[Claim], faults: dict[str, str], datasets: Datasets | None = None) -> str:

@@ -109,7 +109,9 @@ class Sheet:
         limit = written.get("limit", 0.0) if limit is None else limit
         compare, unit = COMPARED[written.get("so", "below")], written.get("unit", "1")
         self._said = said = said | {"limit": limit}
-        self._passes = lambda one: None if one is None else bool(compare(one, limit))
+        self._passes: Callable[[float | None], bool | None] = lambda one: (
+            None if one is None else bool(compare(one, limit))
+        )
         known = [one for one in (*ours, margin) if one is not None]
         shown = None
         if known:

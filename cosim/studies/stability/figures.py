@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP
 from stickslip.steady_motion.starts import RAMP, REST, RIDING
@@ -28,7 +29,7 @@ LOW, HIGH = 0.5, 2.0
     "there. Cross: the scenario. "
     "Grey: no motion that can be followed.",
 )
-def draw_pretension_map(found: PretensionMap, case: Case):
+def draw_pretension_map(found: PretensionMap, case: Case) -> Figure:
     """Growth as colour, its border as a line."""
     figure, axes = panels(1, 1, height=4.2, width=7.2)
     ax = axes[0, 0]
@@ -78,7 +79,7 @@ def _pretension(case: Case) -> float:
     "Dots: borders of the Coulomb oscillator in closed form, where the scenario is one. "
     "Cross: the scenario.",
 )
-def draw_regime_map(found: RegimeMap, case: Case):
+def draw_regime_map(found: RegimeMap, case: Case) -> Figure:
     """A panel for each start."""
     figure, axes = panels(1, len(MAPPED), height=3.6, width=11.0, sharey=True)
     kinds = list(KINDS)

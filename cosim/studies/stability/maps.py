@@ -24,6 +24,7 @@ from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP, regime_of
 from stickslip.steady_motion.stability import cycle_stability, guided
 from stickslip.steady_motion.starts import OWN, RAMP, REST, RIDING, STARTS, other_starts
 
+from cosim.report.files import without_nan
 from cosim.report.page import Picture, number, render
 from cosim.scenario import Scenario
 
@@ -286,8 +287,8 @@ def as_json(
         else {
             "pretensions": stretched.pretensions.tolist(),
             "speeds": stretched.speeds.tolist(),
-            "growth": _plain(stretched.growth),
-            "sticks": _plain(stretched.sticks),
+            "growth": without_nan(stretched.growth.tolist()),
+            "sticks": without_nan(stretched.sticks.tolist()),
         },
         "regime_map": None
         if regimes is None
@@ -334,8 +335,3 @@ def tiles(numbers: dict[str, Any]) -> list[tuple[str, str]]:
         ("of the time in slip", f"{number(100.0 * own['slip_share'], 3)} %"),
     ]
     return [(words, value) for words, value in there if value]
-
-
-def _plain(table: np.ndarray) -> list[list[float | None]]:
-    """JSON has no NaN."""
-    return [[value if math.isfinite(value) else None for value in row] for row in table.tolist()]

@@ -89,7 +89,11 @@ def axis(keys: str | Sequence[str], values: Sequence[Any], kind: type[Scenario] 
 
 
 def labelled_axis(
-    name: str, long_name: str, unit: str, labels: Sequence[Any], settings: Sequence[Mapping]
+    name: str,
+    long_name: str,
+    unit: str,
+    labels: Sequence[Any],
+    settings: Sequence[Mapping[str, Any]],
 ) -> Axis:
     """An axis with values of its own, that stand for some settings."""
     coordinate = (_column(labels), {"units": unit, "long_name": long_name})

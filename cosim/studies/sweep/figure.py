@@ -192,7 +192,7 @@ def _draw_spread(axes: Axes, places: Array, quantiles: Array, numeric: bool) -> 
     )
 
 
-def _colours(count: int) -> list:
+def _colours(count: int) -> list[Any]:
     return [BLUE] if count == 1 else [COLOURS(0.9 * i / (count - 1)) for i in range(count)]
 
 

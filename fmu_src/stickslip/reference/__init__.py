@@ -1,4 +1,4 @@
-"""Classic stick-slip models and the source study's scheme, for comparison with the kernel."""
+"""Oscillators in closed form and the source study's scheme, to compare the kernel with."""
 
 from importlib import resources
 

@@ -19,7 +19,9 @@ belt, which grows faster by v/t_r all the while: the sequence is worked off piec
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
@@ -118,12 +120,12 @@ class BeltStart:
         if math.isinf(begin):
             begin = self.run_up
 
-        def x(t):
+        def x(t: Any) -> Any:
             return o.centre + np.exp(-decay * t) * (
                 first * np.cos(rate * t) + second * np.sin(rate * t)
             )
 
-        def behind(t):
+        def behind(t: Any) -> Any:
             velocity = np.exp(-decay * t) * (
                 (second * rate - decay * first) * np.cos(rate * t)
                 - (first * rate + decay * second) * np.sin(rate * t)
@@ -138,7 +140,7 @@ class BeltStart:
         return None if end is None else (begin + end, float(x(end)))
 
 
-def _first_touch(behind, times: np.ndarray, touch: float) -> float | None:
+def _first_touch(behind: Callable[[Any], Any], times: np.ndarray, touch: float) -> float | None:
     """First time after the start at which ``behind`` is 0 or below."""
     values = behind(times)
     for i in range(1, times.size - 1):

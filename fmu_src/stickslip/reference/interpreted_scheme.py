@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.random import Generator
 from scipy import signal
 
 from .scheme import INTERVAL, STEPS
@@ -26,7 +27,9 @@ GRAVITY, LENGTH = 9.81, 0.20
 WHOLE_SLIP, WHOLE_SLIP_SAMPLES = 2.0, 200
 
 
-def load_strip_by_strip(samples: int, kinetic_force: float, scatter: float, rng) -> np.ndarray:
+def load_strip_by_strip(
+    samples: int, kinetic_force: float, scatter: float, rng: Generator
+) -> np.ndarray:
     """Force and moment (samples, 2), one strip after the other."""
     load = np.zeros((samples, 2))
     width = 2.0 * ATTACHMENT_RADIUS / STRIPS
@@ -43,7 +46,9 @@ def load_strip_by_strip(samples: int, kinetic_force: float, scatter: float, rng)
     return load
 
 
-def load_strips_together(samples: int, kinetic_force: float, scatter: float, rng) -> np.ndarray:
+def load_strips_together(
+    samples: int, kinetic_force: float, scatter: float, rng: Generator
+) -> np.ndarray:
     """Force and moment (samples, 2), all strips at once."""
     shares, middles = strips(ATTACHMENT_RADIUS)
     force = shares * (kinetic_force + scatter * rng.standard_normal((samples, STRIPS)))

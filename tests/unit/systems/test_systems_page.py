@@ -8,7 +8,7 @@ from lag_unit import lag_unit
 
 from cosim.cli import main
 from cosim.report.columns import Column, Columns
-from cosim.systems.show.figures import more_signals, signals
+from cosim.systems.show.figures import signals
 
 TIME = np.linspace(0.0, 1.0, 11)
 PAIR = """
@@ -39,8 +39,8 @@ def over_time(**outputs):
     return Columns(named, {"time": Column(("time",), TIME, {"units": "s"})})
 
 
-def labels(picture):
-    return [panel["label"] for panel in picture.live["panels"]]
+def labels(described):
+    return [panel.label for panel in described.panels]
 
 
 def test_rounding_is_not_drawn_and_said_to_be_left_out():
@@ -54,21 +54,21 @@ def test_rounding_is_not_drawn_and_said_to_be_left_out():
     )
     drawn = signals(columns)
     assert labels(drawn) == ["a.x [mm]", "a.small [nrad]"]
-    assert drawn.live["note"] == (
+    assert drawn.note == (
         "Not drawn, as they do not change: a.still 3. "
         "Not drawn, as they are 0 but for rounding: a.y, a.residual, a.turn."
     )
 
 
 def test_where_there_is_nothing_but_rounding_it_is_drawn_as_nothing():
-    (panel,) = signals(over_time(y=output(1e-17 * TIME))).live["panels"]
-    assert panel["label"] == "a.y [m]"
+    (panel,) = signals(over_time(y=output(1e-17 * TIME))).panels
+    assert panel.label == "a.y [m]"
 
 
 def test_the_first_figure_has_four_and_every_panel_names_quantity_and_unit():
     columns = over_time(**{f"p{k}": output((k + 1) * TIME, "N") for k in range(6)})
     assert labels(signals(columns)) == [f"a.p{k} [N]" for k in range(4)]
-    assert labels(more_signals(columns)) == ["a.p4 [N]", "a.p5 [N]"]
+    assert labels(signals(columns, more=True)) == ["a.p4 [N]", "a.p5 [N]"]
 
 
 @pytest.fixture

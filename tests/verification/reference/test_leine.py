@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from leine_disc import SLIP, STICK, LeineDisc
+from leine_oscillator import LeineOscillator
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
-from stickslip.reference.leine import LeineOscillator
-from stickslip.reference.leine_two import SLIP, STICK, LeineDisc
 
 #: m = 1 kg, k = 1 N/m, v = 0.2 m/s, F_s = 1 N, delta = 3 s/m; computed independently to 1e-13
 VELOCITY_WEAKENING = {

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -166,7 +167,7 @@ def _key(speeds: list[float], study: Study) -> list[Artist]:
     return handles
 
 
-def _plain_ticks(axis, places, low: float, high: float) -> None:
+def _plain_ticks(axis: Axis, places: Sequence[float], low: float, high: float) -> None:
     inside = [place for place in places if low <= place <= high]
     axis.set_ticks(inside, [f"{place:g}" for place in inside])
     axis.set_ticks([], minor=True)

@@ -8,7 +8,7 @@ from cosim.report.material import of_material
 
 from ..changes import NO_HELP
 from ..drift import CAMERA
-from ..lengths import LONGEST, metres, rounded_up
+from ..lengths import LONGEST, Levels, metres, rounded_up
 from ..result import Row, Study
 from ..uncertainty import Uncertainty
 from .answer import answered
@@ -110,7 +110,7 @@ def _doubted(study: Study) -> list[str]:
     for speed, rows in _by_speed(row for row in study.rows if row.uncertainty):
         found = [doubted[case] for case in dict.fromkeys(row.case.with_length(1.0) for row in rows)]
 
-        def words(rise: str, level: str, found=found) -> str:
+        def words(rise: str, level: str, found: list[Levels] = found) -> str:
             known = [one[rise][level] for one in found]
             return ", ".join(dict.fromkeys(one.in_words if one.says else "?" for one in known))
 

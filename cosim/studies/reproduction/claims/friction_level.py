@@ -49,7 +49,7 @@ def distances(values: Array) -> Array:
     """(5,) from the observations, in spreads; a figure that a model lacks is as far as zero."""
     # the rig is its own mirror image: which way y goes is a matter of chance
     values = np.nan_to_num(np.append(values[:-1], abs(values[-1])))
-    return np.abs(values - OBSERVED) / SPREADS
+    return np.asarray(np.abs(values - OBSERVED) / SPREADS)
 
 
 def misfit(values: Array, weights: Array | float = 1.0) -> float:

@@ -33,11 +33,11 @@ ALLOWED = 0.05
 
 def gaps(counts: Array) -> Array:
     """(..., 2): by how much 0.77 counts more than 0.5 and 1.0, of counts (..., 3)."""
-    return counts[..., 1:2] - counts[..., ::2]
+    return np.asarray(counts[..., 1:2] - counts[..., ::2])
 
 
 def _counts_more(counts: Array) -> Array:
-    return np.all((gaps(counts) >= MORE[0]) & (gaps(counts) <= MORE[1]), axis=-1)
+    return np.asarray(np.all((gaps(counts) >= MORE[0]) & (gaps(counts) <= MORE[1]), axis=-1))
 
 
 def _counts_29(counts: Array) -> Array:

@@ -35,7 +35,7 @@ def _run(case: Case, faults: Faults) -> SchemeRun:
 def _ends(case: Case, run: SchemeRun) -> np.ndarray:
     """When slips end in stick with a jump of the velocity, s."""
     slips = run.slip_phases
-    return slips[np.abs(slips[:, 4]) > _threshold(case), 1]
+    return np.asarray(slips[np.abs(slips[:, 4]) > _threshold(case), 1])
 
 
 @cache

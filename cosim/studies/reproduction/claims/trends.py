@@ -47,7 +47,7 @@ def straightness(x: Array, y: Array) -> float:
 
 def least_fall(values: Array) -> Array:
     """(..., n): the smallest step down along the last axis, as a part of the value before it."""
-    return np.min(-np.diff(values) / np.abs(values[..., :-1]), axis=-1)
+    return np.asarray(np.min(-np.diff(values) / np.abs(values[..., :-1]), axis=-1))
 
 
 def over_speeds(figure: str, case: Case, speeds: Sequence[float] | Array = SPEEDS) -> Array:

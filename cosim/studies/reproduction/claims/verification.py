@@ -80,7 +80,9 @@ def _growth(run: Run) -> float:
     return _travel(run, DURATION) / _travel(run, DURATION / 2)
 
 
-def _slides(case: Case, x0: float = 0.0, scatter: float = 0.0, duration: float = DURATION):
+def _slides(
+    case: Case, x0: float = 0.0, scatter: float = 0.0, duration: float = DURATION
+) -> list[Run]:
     """Slip alone, as printed and mended."""
     runs = [
         scheme(case, faults, scatter=scatter).slide(duration, x0=x0) for faults in (PRINTED, MENDED)

@@ -116,12 +116,12 @@ class Draws:
     @property
     def seeds(self) -> Array:
         """(d,) how often each was run."""
-        return np.isfinite(self.shown[:, :, 0]).sum(axis=1)
+        return np.asarray(np.isfinite(self.shown[:, :, 0]).sum(axis=1))
 
     @property
     def mean(self) -> Array:
         """(d, n) mean of each figure over the seeds."""
-        return np.nanmean(self.shown, axis=1)
+        return np.asarray(np.nanmean(self.shown, axis=1))
 
 
 @dataclass(frozen=True)
@@ -142,11 +142,11 @@ class Target:
 
     def distances(self, mean: Array) -> Array:
         """(..., n) of figures from the observed ones, in standard deviations."""
-        return (mean - self.sizes) / self.sds
+        return np.asarray((mean - self.sizes) / self.sds)
 
     def gap(self, mean: Array) -> Array:
         """(...) root mean square distance, in standard deviations."""
-        return np.sqrt(np.mean(self.distances(mean) ** 2, axis=-1))
+        return np.asarray(np.sqrt(np.mean(self.distances(mean) ** 2, axis=-1)))
 
 
 @dataclass(frozen=True)

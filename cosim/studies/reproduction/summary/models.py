@@ -79,7 +79,9 @@ def motion_of(campaign: Campaign, run: MeasuredRun, values: Values, seed: int | 
     return _exact_motion(known, values, seed)
 
 
-def _exact_motion(known: Mapping[str, Mapping], values: Values, seed: int | None) -> Motion:
+def _exact_motion(
+    known: Mapping[str, Mapping[str, Any]], values: Values, seed: int | None
+) -> Motion:
     """The last 20 s of a run of 30 s; one that the model gives up is taken as far as it came."""
     y, phi = 0.0, 0.0
     if seed is not None:
@@ -97,7 +99,7 @@ def _exact_motion(known: Mapping[str, Mapping], values: Values, seed: int | None
     return motion.between(min(SETTLING, 0.5 * float(motion.time[-1])))
 
 
-def _study_motion(known: Mapping[str, Mapping], values: Values, seed: int) -> Motion:
+def _study_motion(known: Mapping[str, Mapping[str, Any]], values: Values, seed: int) -> Motion:
     """The steady part of the study's run, from rest: of the rig what the scheme has a place for."""
     rig = {key: known["rig"][key] for key in ("mass", "spring_length", "attachment_radius")}
     numbers = dict(values) | {f"rig.{key}": value for key, value in rig.items()}

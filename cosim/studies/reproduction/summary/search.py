@@ -54,7 +54,7 @@ def near(bench: Bench, candidate: Candidate, good: Draws, count: int) -> Draws:
 
 def _inside(shares: Array) -> Array:
     """Shares that left their range, reflected into it."""
-    return 1.0 - np.abs(1.0 - np.abs(shares))
+    return np.asarray(1.0 - np.abs(1.0 - np.abs(shares)))
 
 
 def polished(bench: Bench, candidate: Candidate, start: Array) -> Draws:

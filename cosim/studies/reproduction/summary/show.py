@@ -22,7 +22,7 @@ from cosim.report.files import json_text
 from cosim.report.page import Picture, render
 from cosim.report.style import BLUE, GREY, INK, PALE_GREY, RED, panels, picture
 
-from .models import SETTLING, WINDOW
+from ..cases import SETTLING, WINDOW
 from .result import SummaryGap
 
 #: What is written as it stands in an answer.

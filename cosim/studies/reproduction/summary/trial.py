@@ -37,7 +37,7 @@ def scatter(draws: Draws, kin: Array | float = 0.0) -> Array:
 def scatter_of_kin(draws: Draws) -> Array:
     """(n,) typical scatter of a figure from seed to seed: median over the draws that tell it."""
     told = draws.take(draws.seeds >= ENOUGH_SEEDS)
-    return np.median(scatter(told), axis=0)
+    return np.asarray(np.median(scatter(told), axis=0))
 
 
 def spread(draws: Draws, kin: Array | float = 0.0) -> Array:
@@ -54,7 +54,7 @@ def misfit(draws: Draws, target: Target, kin: Array | float = 0.0) -> Array:
     """(d,) -2 log likelihood, less that of a draw that meets every figure without scatter."""
     wider = 1.0 + spread(draws, kin) / target.sds**2  # variance of the prediction, in sds squared
     terms = target.distances(draws.mean) ** 2 / wider + np.log(wider)
-    return terms.sum(axis=1) + draws.surprise
+    return np.asarray(terms.sum(axis=1) + draws.surprise)
 
 
 def ordered(draws: Draws, target: Target, kin: Array | float = 0.0) -> Draws:
