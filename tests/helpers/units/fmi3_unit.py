@@ -1,42 +1,21 @@
-"""The unit for FMI 3.0 as a host written in C meets it: its functions, through ctypes.
-
-What each function takes is read off the standard's header.
-"""
+"""The native unit for FMI 3.0 as a host written in C meets it, its variables by their names."""
 
 from __future__ import annotations
 
 import ctypes
-import re
 import zipfile
 from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_uint, c_void_p
 from pathlib import Path
 
+from c_instance import CInstance, declare
 from plain_start import PLAIN
 from stickslip.generation.platforms import this_platform
 
 from cosim.fmu.exchange import variables
-from cosim.fmu.native import NAME, built_guid, native_folder
+from cosim.fmu.native import NAME, built_guid
 from cosim.fmu.variables import by_array
 
-OK, WARNING, DISCARD, ERROR = range(4)
 LOGGER = ctypes.CFUNCTYPE(None, c_void_p, c_int, c_char_p, c_char_p)
-_KINDS = {
-    **{"fmi3Float64": c_double, "fmi3Boolean": c_bool, "fmi3Int32": c_int32, "size_t": c_size_t},
-    **{"fmi3ValueReference": c_uint, "fmi3String": c_char_p},
-}
-
-
-def _kind(argument: str):
-    if "*" in argument or "[" in argument:
-        return c_void_p
-    return _KINDS.get(argument.split()[-2], c_void_p)  # else a handle, or a function
-
-
-def functions() -> dict[str, list]:
-    """Name without "fmi3" -> types of its arguments, of each function that returns a status."""
-    header = (native_folder() / "headers" / "fmi3FunctionTypes.h").read_text()
-    found = re.findall(r"typedef fmi3Status +fmi3(\w+)TYPE *\(([^;]*)\);", header)
-    return {name: [_kind(each) for each in given.split(",")] for name, given in found}
 
 
 def references() -> dict[str, int]:
@@ -57,9 +36,7 @@ class Unit:
         with zipfile.ZipFile(fmu) as archive:
             self.library = ctypes.CDLL(archive.extract(path, folder))
         self.token = built_guid(fmu).encode()
-        for name, arguments in functions().items():
-            function = getattr(self.library, f"fmi3{name}")
-            function.argtypes, function.restype = arguments, c_int
+        declare(self.library, 3)
         self.references = references()
         self.integers = {each.name for each in variables() if each.is_integer}
         self.booleans = {each.name for each in variables() if each.is_boolean}
@@ -69,8 +46,8 @@ class Unit:
         return Instance(self, **how)
 
 
-class Instance:
-    """One instance. What is logged is in `messages`."""
+class Instance(CInstance):
+    version = 3
 
     def __init__(
         self,
@@ -82,8 +59,9 @@ class Instance:
         token: bytes | None = b"",
         required: int = 0,
     ) -> None:
-        self.unit, self.messages, self.time = unit, [], 0.0
-        self._log = LOGGER(lambda _, *said: self.messages.append(said))
+        super().__init__(unit)
+        self.time = 0.0
+        self._log = LOGGER(self._heard)
         token = unit.token if token == b"" else token
         first = (name, token, None, c_bool(False), c_bool(False))
         if exchanges:
@@ -94,29 +72,8 @@ class Instance:
         make.restype = c_void_p
         self.handle = make(*first, *given)
 
-    def __enter__(self) -> Instance:
-        return self
-
-    def __exit__(self, *_) -> None:
-        free = self.unit.library.fmi3FreeInstance
-        free.argtypes, free.restype = (c_void_p,), None
-        free(self.handle)
-
-    def call(self, function: str, *arguments) -> int:
-        return getattr(self.unit.library, f"fmi3{function}")(self.handle, *arguments)
-
-    def done(self, function: str, *arguments) -> None:
-        assert self.call(function, *arguments) == OK, self.messages
-
-    def reason(self, function: str, *arguments) -> str:
-        """Why a call is refused, as logged; it must be."""
-        self.messages.clear()
-        assert self.call(function, *arguments) == ERROR
-        ((status, category, text),) = self.messages
-        assert (status, category) == (ERROR, b"logStatusError")
-        return text.decode()
-
-    # --- with names ---
+    def _heard(self, _environment, status, category, text) -> None:
+        self.messages.append((status, category.decode(), text.decode()))
 
     def _values(self, name: str, given=()):
         size, (named, kind, exact) = self.unit.sizes.get(name, 1), ("Float64", c_double, float)
@@ -166,22 +123,3 @@ class Instance:
         assert not end.value
         self.time = reached.value
         return event.value, early.value
-
-    # --- states ---
-
-    def save(self) -> c_void_p:
-        state = c_void_p()
-        self.done("GetFMUState", byref(state))
-        return state
-
-    def as_bytes(self, state: c_void_p) -> bytes:
-        size = c_size_t()
-        self.done("SerializedFMUStateSize", state, byref(size))
-        room = ctypes.create_string_buffer(size.value)
-        self.done("SerializeFMUState", state, room, size.value)
-        return room.raw
-
-    def from_bytes(self, content: bytes) -> c_void_p:
-        state = c_void_p()
-        self.done("DeserializeFMUState", content, len(content), byref(state))
-        return state

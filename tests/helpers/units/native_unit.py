@@ -1,30 +1,22 @@
-"""The native unit as a host written in C meets it: the functions of its library, through ctypes.
-
-No tool in between puts an argument right, or turns a status into an exception.
-"""
+"""The native unit for FMI 2.0 as a host written in C meets it, its variables by their names."""
 
 from __future__ import annotations
 
 import ctypes
 import zipfile
 from collections.abc import Iterable, Sequence
-from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_size_t, c_uint, c_void_p
+from ctypes import byref, c_char_p, c_double, c_int, c_uint, c_void_p
 from pathlib import Path
-from types import TracebackType
 
+from c_instance import CInstance, declare
 from stickslip.generation.platforms import this_platform
 
 from cosim.fmu.native import NAME, built_guid
 from cosim.fmu.variables import Variable, variables
 
-OK, WARNING, DISCARD, ERROR = range(4)
 MODEL_EXCHANGE, CO_SIMULATION = 0, 1
 
 _LOGGER = ctypes.CFUNCTYPE(None, c_void_p, c_char_p, c_int, c_char_p, c_char_p)
-_REAL = (POINTER(c_uint), c_size_t, POINTER(c_double))
-_INTEGER = (POINTER(c_uint), c_size_t, POINTER(c_int))
-_NUMBERS = (POINTER(c_double), c_size_t)
-_TEXT = (POINTER(c_uint), c_size_t, POINTER(c_char_p))
 
 
 class EventInfo(ctypes.Structure):
@@ -38,58 +30,6 @@ class EventInfo(ctypes.Structure):
         ("has_next", c_int),
         ("next", c_double),
     ]
-
-
-#: What each function takes behind the instance.
-ARGUMENTS = {
-    "SetDebugLogging": (c_int, c_size_t, POINTER(c_char_p)),
-    "SetupExperiment": (c_int, c_double, c_double, c_int, c_double),
-    "EnterInitializationMode": (),
-    "ExitInitializationMode": (),
-    "Terminate": (),
-    "Reset": (),
-    "GetReal": _REAL,
-    "GetInteger": _INTEGER,
-    "GetBoolean": _INTEGER,
-    "GetString": _TEXT,
-    "SetReal": _REAL,
-    "SetInteger": _INTEGER,
-    "SetBoolean": _INTEGER,
-    "SetString": _TEXT,
-    "GetFMUstate": (POINTER(c_void_p),),
-    "SetFMUstate": (c_void_p,),
-    "FreeFMUstate": (POINTER(c_void_p),),
-    "SerializedFMUstateSize": (c_void_p, POINTER(c_size_t)),
-    "SerializeFMUstate": (c_void_p, c_char_p, c_size_t),
-    "DeSerializeFMUstate": (c_char_p, c_size_t, POINTER(c_void_p)),
-    "DoStep": (c_double, c_double, c_int),
-    "CancelStep": (),
-    "SetRealInputDerivatives": (POINTER(c_uint), c_size_t, POINTER(c_int), POINTER(c_double)),
-    "GetDirectionalDerivative": (
-        *(POINTER(c_uint), c_size_t),
-        *(POINTER(c_uint), c_size_t),
-        *(POINTER(c_double), POINTER(c_double)),
-    ),
-    "GetStatus": (c_int, POINTER(c_int)),
-    "GetRealStatus": (c_int, POINTER(c_double)),
-    "GetIntegerStatus": (c_int, POINTER(c_int)),
-    "GetBooleanStatus": (c_int, POINTER(c_int)),
-    "GetStringStatus": (c_int, POINTER(c_char_p)),
-    "EnterEventMode": (),
-    "NewDiscreteStates": (POINTER(EventInfo),),
-    "EnterContinuousTimeMode": (),
-    "CompletedIntegratorStep": (c_int, POINTER(c_int), POINTER(c_int)),
-    "SetTime": (c_double,),
-    "SetContinuousStates": _NUMBERS,
-    "GetContinuousStates": _NUMBERS,
-    "GetDerivatives": _NUMBERS,
-    "GetEventIndicators": _NUMBERS,
-    "GetNominalsOfContinuousStates": _NUMBERS,
-}
-
-
-#: Those of model exchange.
-OF_EXCHANGE = tuple(ARGUMENTS)[tuple(ARGUMENTS).index("EnterEventMode") :]
 
 
 class _Callbacks(ctypes.Structure):
@@ -117,10 +57,7 @@ def references(declared: Sequence[Variable] | None = None) -> dict[str, int]:
 
 
 class Unit:
-    """A library; `instance` makes instances, which are freed with it as a context.
-
-    name, declared: of another unit than the mechanical one; without: functions it has not.
-    """
+    """A library; `instance` makes instances. name, declared: of another unit than the block's."""
 
     def __init__(
         self,
@@ -128,18 +65,13 @@ class Unit:
         folder: Path,
         name: str = NAME,
         declared: Sequence[Variable] | None = None,
-        without: Iterable[str] = (),
     ) -> None:
         guid = built_guid(fmu)
         assert guid is not None
         self.guid = guid.encode()
         self.library = ctypes.CDLL(str(library_of(fmu, folder, name)))
         self.library.fmi2Instantiate.restype = c_void_p
-        for name, arguments in ARGUMENTS.items():
-            if name in without:
-                continue
-            function = getattr(self.library, f"fmi2{name}")
-            function.argtypes, function.restype = (c_void_p, *arguments), c_int
+        declare(self.library, 2)
         declared = variables() if declared is None else declared
         self.references = references(declared)
         self.integers = {variable.name for variable in declared if variable.is_integer}
@@ -149,8 +81,8 @@ class Unit:
         return Instance(self, logging, **changed)
 
 
-class Instance:
-    """One instance. A call's status is returned; what is logged is in `messages`."""
+class Instance(CInstance):
+    version, STATE, DESERIALIZE = 2, "FMUstate", "DeSerializeFMUstate"
 
     def __init__(
         self,
@@ -161,8 +93,7 @@ class Instance:
         guid: bytes | None = b"",
         resources: bytes | None = None,
     ) -> None:
-        self.unit = unit
-        self.messages: list[tuple[int, str, str]] = []
+        super().__init__(unit)
         self._callbacks = _Callbacks(logger=_LOGGER(self._log))
         self.handle = unit.library.fmi2Instantiate(
             name,
@@ -176,36 +107,6 @@ class Instance:
 
     def _log(self, _environment, _name, status, category, text) -> None:
         self.messages.append((status, category.decode(), text.decode() % ()))
-
-    def __enter__(self) -> Instance:
-        return self
-
-    def __exit__(self, *_: type[BaseException] | BaseException | TracebackType | None) -> None:
-        self.free()
-
-    def free(self) -> None:
-        free = self.unit.library.fmi2FreeInstance
-        free.argtypes, free.restype = (c_void_p,), None
-        free(self.handle)
-        self.handle = None
-
-    def call(self, function: str, *arguments) -> int:
-        """Status of a function, called by its name without "fmi2"."""
-        return getattr(self.unit.library, f"fmi2{function}")(self.handle, *arguments)
-
-    def done(self, function: str, *arguments) -> None:
-        """A call that must be taken."""
-        assert self.call(function, *arguments) == OK, self.messages
-
-    def reason(self, function: str, *arguments) -> str:
-        """Why a call is refused, as logged; it must be."""
-        self.messages.clear()
-        assert self.call(function, *arguments) == ERROR
-        ((status, category, text),) = self.messages
-        assert (status, category) == (ERROR, "logStatusError")
-        return text
-
-    # --- with names ---
 
     def set_arguments(self, name: str, value: float) -> tuple:
         """Function and arguments that set a variable."""
@@ -253,29 +154,3 @@ class Instance:
     def march(self, steps: Iterable[int], size: float, start: float = 0.0) -> None:
         for n in steps:
             self.done("DoStep", start + n * size, size, 1)
-
-    # --- states ---
-
-    def save(self) -> c_void_p:
-        state = c_void_p()
-        self.done("GetFMUstate", byref(state))
-        return state
-
-    def restore(self, state: c_void_p) -> None:
-        self.done("SetFMUstate", state)
-
-    def forget(self, state: c_void_p) -> None:
-        self.done("FreeFMUstate", byref(state))
-        assert state.value is None
-
-    def as_bytes(self, state: c_void_p) -> bytes:
-        size = c_size_t()
-        self.done("SerializedFMUstateSize", state, byref(size))
-        room = ctypes.create_string_buffer(size.value)
-        self.done("SerializeFMUstate", state, room, size.value)
-        return room.raw
-
-    def from_bytes(self, content: bytes) -> c_void_p:
-        state = c_void_p()
-        self.done("DeSerializeFMUstate", content, len(content), byref(state))
-        return state

@@ -82,7 +82,7 @@ def test_a_state_that_is_overwritten_is_the_later_one(unit):
         first = state.value
         block.march(range(100), 0.01)
         then = block.everything()
-        block.done("GetFMUstate", state)
+        block.done("GetFMUstate", byref(state))
         assert state.value == first
         block.march(range(100, 120), 0.01)
         block.restore(state)

@@ -10,9 +10,10 @@ from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_uint, c_void_p
 from pathlib import Path
 
 import pytest
+from c_instance import ERROR, OK
 from c_library import compiler
 from heat_instance import H
-from native_unit import ERROR, MODEL_EXCHANGE, OF_EXCHANGE, OK, Unit, references
+from native_unit import MODEL_EXCHANGE, Unit, references
 
 from cosim.fmu.native import native_folder
 from cosim.fmu.thermal import native_unit, resources
@@ -48,7 +49,7 @@ print(len(native_unit.sources()), native_unit.guid())
 
 @pytest.fixture(scope="module")
 def library(native, tmp_path_factory):
-    return Unit(native, tmp_path_factory.mktemp("library"), NAME, reduced(), OF_EXCHANGE)
+    return Unit(native, tmp_path_factory.mktemp("library"), NAME, reduced())
 
 
 @pytest.fixture
