@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cosim.coupling.participant import Capabilities, CouplingError, Participant, Port, capabilities
+from cosim.coupling.participant import Around, CouplingError, Participant
 from cosim.coupling.system import ENERGY_UNIT
 from cosim.coupling.waveform import Waveform
 
@@ -66,7 +65,7 @@ class Curve:
         return float(self._areas[place] + 0.5 * since * (self.values[place] + self.before(time)))
 
 
-class Driven:
+class Driven(Around):
     """Gives a participant its inputs over each step: `curves`, by the names of its ports.
 
     Who follows a waveform gets the curve's own line from the start of the step to its end, who does
@@ -75,33 +74,16 @@ class Driven:
     """
 
     def __init__(self, participant: Participant, curves: Mapping[str, Curve]):
-        self._inner: Any = participant
+        super().__init__(participant)
         self.curves = dict(curves)
         for port in curves:
             if participant.ports[port].causality != "input":
                 raise CouplingError(f"{participant.name}.{port} is no input, and is not driven")
 
-    @property
-    def name(self) -> str:
-        """That of the participant."""
-        found: str = self._inner.name
-        return found
-
-    @property
-    def ports(self) -> Mapping[str, Port]:
-        """Those of the participant."""
-        found: Mapping[str, Port] = self._inner.ports
-        return found
-
-    @property
-    def capabilities(self) -> Capabilities:
-        """Those of the participant."""
-        return capabilities(self._inner)
-
     def enter_initialisation(self, start: float, stop: float) -> None:
         """With the inputs as they are at the start, s."""
-        self._inner.enter_initialisation(start, stop)
-        self._inner.write({port: curve.at(start) for port, curve in self.curves.items()})
+        self.inner.enter_initialisation(start, stop)
+        self.inner.write({port: curve.at(start) for port, curve in self.curves.items()})
 
     def step(self, time: float, size: float) -> float | None:
         """A step along the curves."""
@@ -111,20 +93,14 @@ class Driven:
             for port, curve in self.curves.items():
                 first = curve.at(time)
                 waves[port] = Waveform((first, (curve.before(end) - first) / size), size)
-            self._inner.write_waveforms(waves)
+            self.inner.write_waveforms(waves)
         else:
-            self._inner.write(
+            totals = [port for port in self.curves if self.ports[port].unit == ENERGY_UNIT]
+            self.inner.write(
                 {
-                    port: curve.at(end) if self._is_total(port) else curve.mean(time, end)
+                    port: curve.at(end) if port in totals else curve.mean(time, end)
                     for port, curve in self.curves.items()
                 }
             )
-        found: float | None = self._inner.step(time, size)
+        found: float | None = self.inner.step(time, size)
         return found
-
-    def _is_total(self, port: str) -> bool:
-        return self.ports[port].unit == ENERGY_UNIT
-
-    def __getattr__(self, name: str) -> Any:
-        """All else is the participant's."""
-        return getattr(self._inner, name)

@@ -5,22 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
-from typing import Any
 
 from cosim.coupling.conversion import watts
 from cosim.coupling.participant import (
+    Around,
     Capabilities,
     Causality,
     CouplingError,
     Participant,
-    Port,
     capabilities,
 )
 from cosim.coupling.system import ENERGY_UNIT
 from cosim.coupling.waveform import Waveform
 
 
-class Subcycled:
+class Subcycled(Around):
     """Steps a participant `substeps` times in each macro step, along the waveforms of its inputs.
 
     Who cannot follow a waveform gets its mean over each substep, and joules handed over since the
@@ -32,22 +31,10 @@ class Subcycled:
     def __init__(self, participant: Participant, substeps: int):
         if substeps < 1:
             raise CouplingError(f"{participant.name}: substeps = {substeps}: must be at least 1")
-        self._inner: Any = participant
+        super().__init__(participant)
         self.substeps = substeps
         self._waves: dict[str, Waveform] = {}
         self._means: dict[str, float] = {}
-
-    @property
-    def name(self) -> str:
-        """That of the participant."""
-        found: str = self._inner.name
-        return found
-
-    @property
-    def ports(self) -> Mapping[str, Port]:
-        """Those of the participant."""
-        found: Mapping[str, Port] = self._inner.ports
-        return found
 
     @cached_property
     def _powers(self) -> tuple[str, ...]:
@@ -59,13 +46,13 @@ class Subcycled:
     @property
     def capabilities(self) -> Capabilities:
         """Those of the participant, and it follows waveforms."""
-        return replace(capabilities(self._inner), waveforms=True, input_order=None)
+        return replace(capabilities(self.inner), waveforms=True, input_order=None)
 
     def write(self, values: Mapping[str, float]) -> None:
         """Values that are held over the macro step."""
         for port in values:
             self._waves.pop(port, None)
-        self._inner.write(values)
+        self.inner.write(values)
 
     def write_waveforms(self, waveforms: Mapping[str, Waveform]) -> None:
         """Inputs over the macro step as functions of time."""
@@ -77,9 +64,9 @@ class Subcycled:
         for n in range(self.substeps):
             began, ended = (size * k / self.substeps for k in (n, n + 1))
             self._follow(began, ended - began)
-            reached = self._inner.step(time + began, ended - began)
+            reached = self.inner.step(time + began, ended - began)
             there = ended if reached is None else reached - time
-            values = self._inner.read() if sums else {}
+            values = self.inner.read() if sums else {}
             for name in sums:
                 sums[name] += values[name] * (there - began)
             if reached is not None:
@@ -89,24 +76,20 @@ class Subcycled:
 
     def read(self) -> dict[str, float]:
         """All outputs; of power the mean over the last macro step."""
-        return {**self._inner.read(), **self._means}
+        return {**self.inner.read(), **self._means}
 
     def _follow(self, began: float, size: float) -> None:
         """Inputs for the part of the macro step that begins at a time since its start (s)."""
         parts = {port: wave.after(began, size) for port, wave in self._waves.items()}
         if not parts:
             return
-        if capabilities(self._inner).waveforms:
-            self._inner.write_waveforms(parts)
+        if capabilities(self.inner).waveforms:
+            self.inner.write_waveforms(parts)
             return
-        ports = self._inner.ports
-        self._inner.write(
+        ports = self.inner.ports
+        self.inner.write(
             {
                 port: part.end if ports[port].unit == ENERGY_UNIT else part.mean
                 for port, part in parts.items()
             }
         )
-
-    def __getattr__(self, name: str) -> Any:
-        """All else is the participant's."""
-        return getattr(self._inner, name)

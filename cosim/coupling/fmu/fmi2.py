@@ -45,6 +45,12 @@ class Fmi2:
         self._fmu = FMU2Slave(**how.arguments())
         self._fmu.instantiate(callbacks=how.log.callbacks, loggingOn=True)
         self._component = self._fmu.component
+        self.enter_initialisation = self._fmu.enterInitializationMode
+        self.exit_initialisation = self._fmu.exitInitializationMode
+        self.get_state, self.set_state = self._fmu.getFMUstate, self._fmu.setFMUstate
+        self.as_bytes, self.from_bytes = self._fmu.serializeFMUstate, self._fmu.deSerializeFMUstate
+        self.free_state, self.terminate = self._fmu.freeFMUstate, self._fmu.terminate
+        self.free = self._fmu.freeInstance
         functions = {kind.function for kind in KINDS.values()}
         self._set = {name: getattr(self._fmu, f"fmi2Set{name}") for name in functions}
         self._rates: dict[tuple[int, ...], tuple[Any, Any, Any]] = {}
@@ -52,12 +58,6 @@ class Fmi2:
 
     def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
         self._fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)
-
-    def enter_initialisation(self) -> None:
-        self._fmu.enterInitializationMode()
-
-    def exit_initialisation(self) -> None:
-        self._fmu.exitInitializationMode()
 
     def write(self, groups: Sequence[Group]) -> None:
         for group in groups:
@@ -101,28 +101,6 @@ class Fmi2:
             if self._fmu.getBooleanStatus(fmi2Terminated):
                 why = "wants to end the simulation"
         return why + reached
-
-    def get_state(self) -> Any:
-        return self._fmu.getFMUstate()
-
-    def set_state(self, handle: Any) -> None:
-        self._fmu.setFMUstate(handle)
-
-    def free_state(self, handle: Any) -> None:
-        self._fmu.freeFMUstate(handle)
-
-    def as_bytes(self, handle: Any) -> bytes:
-        found: bytes = self._fmu.serializeFMUstate(handle)
-        return found
-
-    def from_bytes(self, saved: bytes) -> Any:
-        return self._fmu.deSerializeFMUstate(saved)
-
-    def terminate(self) -> None:
-        self._fmu.terminate()
-
-    def free(self) -> None:
-        self._fmu.freeInstance()
 
 
 def _orders(rates: Mapping[int, Sequence[float]]) -> tuple[Any, Any, Any]:

@@ -60,6 +60,10 @@ class Fmi3:
             how.log.take_errors()
             self._instantiate(how)
         self._component = self._fmu.component
+        self.get_state, self.set_state = self._fmu.getFMUState, self._fmu.setFMUState
+        self.as_bytes, self.from_bytes = self._fmu.serializeFMUState, self._fmu.deserializeFMUState
+        self.free_state, self.terminate = self._fmu.freeFMUState, self._fmu.terminate
+        self.free = self._fmu.freeInstance
         functions = {kind.function for kind in KINDS.values()}
         self._set = {name: getattr(self._fmu, f"fmi3Set{name}") for name in functions}
         self._get = {name: getattr(self._fmu, f"fmi3Get{name}") for name in functions}
@@ -159,25 +163,3 @@ class Fmi3:
                 self.memory["next_event"] = event_at if announced else None
                 return
         raise FmuCallError(f"its discrete states do not settle in {MOST_ROUNDS} rounds")
-
-    def get_state(self) -> Any:
-        return self._fmu.getFMUState()
-
-    def set_state(self, handle: Any) -> None:
-        self._fmu.setFMUState(handle)
-
-    def free_state(self, handle: Any) -> None:
-        self._fmu.freeFMUState(handle)
-
-    def as_bytes(self, handle: Any) -> bytes:
-        found: bytes = self._fmu.serializeFMUState(handle)
-        return found
-
-    def from_bytes(self, saved: bytes) -> Any:
-        return self._fmu.deserializeFMUState(saved)
-
-    def terminate(self) -> None:
-        self._fmu.terminate()
-
-    def free(self) -> None:
-        self._fmu.freeInstance()

@@ -11,7 +11,7 @@ from cosim.coupling.record.checkpoint import (
 from cosim.coupling.record.folder import RunFolder
 from cosim.coupling.record.keeper import Keep
 from cosim.coupling.record.log import LOG, MessageLog
-from cosim.coupling.record.table import GrowingTable, Place, read_columns, write_columns
+from cosim.coupling.record.table import GrowingTable, Place, write_columns
 
 __all__ = [
     "LOG",
@@ -24,7 +24,6 @@ __all__ = [
     "RunFolder",
     "differences",
     "load_checkpoint",
-    "read_columns",
     "require_same_setup",
     "save_checkpoint",
     "write_columns",

@@ -16,7 +16,8 @@ import struct
 import tempfile
 import time
 import weakref
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from io import FileIO
 from pathlib import Path
 from typing import NamedTuple, Self
@@ -173,26 +174,17 @@ class GrowingTable:
         """Let go of the file; arrays that `rows` gave stay good. May be called twice."""
         self._file.close()
 
-    def _refusing(self) -> _Refusing:
-        return _Refusing(self)
+    @contextmanager
+    def _refusing(self) -> Iterator[None]:
+        """Turns an OSError into an OutputError that names the table's file."""
+        try:
+            yield
+        except OSError as error:
+            raise self._refused(error) from error
 
     def _refused(self, error: OSError) -> OutputError:
         what = self.path or "a temporary file"
         return OutputError(f"{what}: cannot be written: {error.strerror or error}")
-
-
-class _Refusing:
-    """Turns an OSError into an OutputError that names the table's file."""
-
-    def __init__(self, table: GrowingTable):
-        self._table = table
-
-    def __enter__(self) -> None:
-        pass
-
-    def __exit__(self, kind: object, error: BaseException | None, trace: object) -> None:
-        if isinstance(error, OSError):
-            raise self._table._refused(error) from error
 
 
 def header(columns: int, single: bool = False) -> bytes:
@@ -231,9 +223,3 @@ def write_columns(path: Path, units: Mapping[str, str]) -> Path:
     """The JSON file that says what the columns of a table are: name -> unit, in their order."""
     columns = [{"name": name, "unit": unit} for name, unit in units.items()]
     return write_text(json.dumps({"columns": columns}, indent=1) + "\n", path)
-
-
-def read_columns(path: Path) -> dict[str, str]:
-    """Name -> unit of a table's columns, in their order, from what `write_columns` wrote."""
-    content = json.loads(path.read_text(encoding="utf-8"))
-    return {column["name"]: column["unit"] for column in content["columns"]}

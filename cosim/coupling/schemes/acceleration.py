@@ -37,8 +37,19 @@ class Acceleration(Protocol):
         """Go on from what `state` gave."""
 
 
+class Forgetful:
+    """Remembers nothing from step to step."""
+
+    def state(self) -> list[Any]:
+        """Nothing."""
+        return []
+
+    def restore(self, state: list[Any]) -> None:
+        """Nothing to go on from."""
+
+
 @dataclass
-class Relaxation:
+class Relaxation(Forgetful):
     """x + relaxation (h(x) - x): plain iteration for 1, damped below."""
 
     relaxation: float = 1.0
@@ -53,16 +64,9 @@ class Relaxation:
         """Part of the way."""
         return guess + self.relaxation * (found - guess)
 
-    def state(self) -> list[Any]:
-        """Nothing."""
-        return []
-
-    def restore(self, state: list[Any]) -> None:
-        """Nothing to go on from."""
-
 
 @dataclass
-class Aitken:
+class Aitken(Forgetful):
     """Relaxation by a factor that follows from the last two changes.
 
     Kuettler and Wall, "Fixed-point fluid-structure interaction solvers with dynamic relaxation",
@@ -90,13 +94,6 @@ class Aitken:
                 self._factor *= -float(self._before @ bend) / size
         self._before = change
         return guess + self._factor * change
-
-    def state(self) -> list[Any]:
-        """Nothing lasts from step to step."""
-        return []
-
-    def restore(self, state: list[Any]) -> None:
-        """Nothing to go on from."""
 
 
 @dataclass

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.participant import CouplingError
+from cosim.coupling.schemes.acceleration import Forgetful
 from cosim.coupling.schemes.iterated import Iterated
 from cosim.coupling.schemes.scheme import Scheme, sources
 from cosim.coupling.step_control.control import Stepper
@@ -40,17 +41,6 @@ class Estimate(Protocol):
 
     def restore(self, state: Any) -> None:
         """Go on from what `state` gave."""
-
-
-class Forgetful:
-    """Remembers nothing from step to step."""
-
-    def state(self) -> Any:
-        """Nothing."""
-        return None
-
-    def restore(self, state: Any) -> None:
-        """Nothing to go on from."""
 
 
 class OfOutputs(Forgetful):
