@@ -6,7 +6,7 @@ from argparse import Action, ArgumentParser, Namespace, _SubParsersAction
 from collections.abc import Iterator
 from typing import Any
 
-from cosim.cli import DONE
+from cosim.cli import DONE, BadInput
 from cosim.cli.arguments import COMMANDS
 
 EXAMPLE = "stickslip completion bash"
@@ -22,7 +22,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "shell",
         choices=SHELLS,
-        help="whose script is printed. bash: write it to "
+        help="whose script is printed (needs the extra stickslip[completion]). bash: write it to "
         "~/.local/share/bash-completion/completions/stickslip; zsh: to _stickslip in a folder of "
         "$fpath; fish: to ~/.config/fish/completions/stickslip.fish",
     )
@@ -30,8 +30,12 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(arguments: Namespace) -> int:
     """Print the script; 0."""
-    import shtab
-
+    try:
+        import shtab
+    except ImportError:
+        raise BadInput(
+            "completion: shtab is not installed, allowed after pip install 'stickslip[completion]'"
+        ) from None
     from cosim.cli.arguments import parser
     from cosim.scenario import packaged_scenarios
     from cosim.scenario.keys import all_keys
