@@ -22,7 +22,7 @@ from stickslip import Initial, LateralFriction, Parameters, Rig, Surface, simula
 from stickslip.catalogue import CATALOGUE
 from stickslip.compiled import Library
 
-SETS, STEPS = 10, 60
+SETS, STEPS = 4, 60
 FILM = 3e-6  # m of water, which mixed_lubrication feels
 
 
@@ -82,25 +82,25 @@ SLAB = Rig(surface="slab", spring_natural_length=0.17, slab_radius=-0.4)
 OFF_CENTRE = Initial(y=0.01, phi=0.2)
 #: Parameters, and the fewest events (break-away, re-stick) that the motion has to compare.
 RUNS = {
-    "along x": (Parameters(), 14),
+    "along x": (Parameters(), 7),
     "planar, speed ramp": (Parameters(lateral_friction=PLANAR, surface=Surface(run_up_time=2)), 1),
     "slab, sliding": (Parameters(rig=SLAB, lateral_friction=PLANAR, initial=OFF_CENTRE), 0),
     "slab, sticking and slipping": (
         Parameters(
             rig=SLAB, lateral_friction=PLANAR, initial=OFF_CENTRE, surface=Surface(speed=0.05)
         ),
-        13,
+        5,
     ),
     # a random rig that breaks away and sticks again several times
-    "drawn": (draw_parameters(BESIDE_CREEP, random.Random(82)), 7),
+    "drawn": (draw_parameters(BESIDE_CREEP, random.Random(82)), 5),
 }
 
 
 @pytest.mark.parametrize("run", RUNS)
 def test_whole_runs(run):
     parameters, events = RUNS[run]
-    compiled = simulate(parameters, 4.0, film_thickness=FILM)
-    interpreted = simulate(parameters, 4.0, film_thickness=FILM, interpreted=True)
+    compiled = simulate(parameters, 2.0, film_thickness=FILM)
+    interpreted = simulate(parameters, 2.0, film_thickness=FILM, interpreted=True)
     assert len(compiled.events) >= events
     np.testing.assert_array_equal(interpreted.events, compiled.events)
     for name in ("x", "y", "phi", "vx", "vy", "omega", "friction_force_x", "heat"):
