@@ -83,7 +83,7 @@ def test_two_instances_do_not_know_each_other(unit, tmp_path):
 
 def test_a_process_outlives_many_instances_and_their_files(unit, tmp_path):
     path = sys.path.copy()
-    for _ in range(100):
+    for _ in range(30):
         with instance(unit, tmp_path / "once") as one:
             one.initialise()
             one.march(0, 2, 0.01)

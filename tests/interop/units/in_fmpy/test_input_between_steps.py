@@ -11,70 +11,50 @@ Events that end a step early (FMI 3) leave that as it is, wherever in the step t
 import ctypes
 import math
 import random
+from functools import cache
 
 import fmpy
 import numpy as np
 import pytest
 from fmi3_unit import Unit
-from fmpy.fmi2 import FMU2Slave
-from fmpy_instance import SLIDING, instance
+from fmpy_instance import instance
 
 AMPLITUDE, FREQUENCY, SPEED, STOP, SHOWN = 0.3, 1.0, 0.15, 8.0, 0.04
 STEPS = (0.02, 0.01, 0.005, 0.0025, 0.00125)
 
 
-class Block:
-    """The unit on a belt whose speed is given from outside, or ripples by itself."""
-
-    def __init__(self, fmu, folder):
-        self.description = fmpy.read_model_description(fmu)
-        self.folder = folder
-        fmpy.extract(fmu, unzipdir=folder)
-        self.references = {v.name: v.valueReference for v in self.description.modelVariables}
-
-    def motion(self, size, hold=0, with_rate=False, inside=False):
-        """x every SHOWN seconds, the number of slips and the energy residual."""
-        slave = FMU2Slave(
-            guid=self.description.guid,
-            unzipDirectory=str(self.folder),
-            modelIdentifier=self.description.coSimulation.modelIdentifier,
-        )
-        slave.instantiate()
-        at = self.references
-        if inside:
-            names = [at["speed_ripple.amplitude"], at["speed_ripple.frequency"]]
-            slave.setReal(names, [AMPLITUDE, FREQUENCY])
-        slave.setInteger([at["input.hold"]], [hold])
-        slave.setReal([at[name] for name in SLIDING], [*SLIDING.values()])
-        slave.setupExperiment()
-        slave.enterInitializationMode()
-        slave.exitInitializationMode()
-        x, each = [], round(SHOWN / size)
-        for n in range(round(STOP / size)):
-            turn = 2.0 * math.pi * FREQUENCY * n * size
-            if not inside:
-                slave.setReal([at["surface_speed"]], [SPEED * (1 + AMPLITUDE * math.sin(turn))])
-            if with_rate:
-                rate = SPEED * AMPLITUDE * 2.0 * math.pi * FREQUENCY * math.cos(turn)
-                slave.setRealInputDerivatives([at["surface_speed"]], [1], [rate])
-            slave.doStep(n * size, size)
-            if (n + 1) % each == 0:
-                x += slave.getReal([at["x"]])
-        (slips,) = slave.getInteger([at["slip_count"]])
-        (residual,) = slave.getReal([at["energy_residual"]])
-        slave.terminate()
-        slave.freeInstance()
-        return np.array(x), slips, residual
+INSIDE = {"speed_ripple.amplitude": AMPLITUDE, "speed_ripple.frequency": FREQUENCY}
 
 
 @pytest.fixture(scope="module")
 def block(fmu, tmp_path_factory):
-    return Block(fmu, tmp_path_factory.mktemp("drive"))
+    with instance(fmu, tmp_path_factory.mktemp("drive")) as one:
+        yield one
+
+
+def driven(block, size, hold=0, with_rate=False, inside=False):
+    """x every SHOWN seconds, the number of slips and the energy residual on a belt whose speed is
+    given from outside, or ripples by itself."""
+    block.slave.reset()
+    block.initialise(**{"input.hold": hold}, **(INSIDE if inside else {}))
+    speed = [block.variables["surface_speed"].valueReference]
+    x, each = [], round(SHOWN / size)
+    for n in range(round(STOP / size)):
+        turn = 2.0 * math.pi * FREQUENCY * n * size
+        if not inside:
+            block.slave.setReal(speed, [SPEED * (1 + AMPLITUDE * math.sin(turn))])
+        if with_rate:
+            rate = SPEED * AMPLITUDE * 2.0 * math.pi * FREQUENCY * math.cos(turn)
+            block.slave.setRealInputDerivatives(speed, [1], [rate])
+        block.slave.doStep(n * size, size)
+        if (n + 1) % each == 0:
+            x.append(block.get("x"))
+    return np.array(x), block.get("slip_count"), block.get("energy_residual")
 
 
 @pytest.fixture(scope="module")
 def exact(block):
-    return block.motion(SHOWN, inside=True)
+    return driven(block, SHOWN, inside=True)
 
 
 @pytest.mark.parametrize(
@@ -88,7 +68,7 @@ def exact(block):
 def test_the_motion_converges_to_that_of_the_ripple_inside(block, exact, given, finest, orders):
     errors = []
     for size in STEPS:
-        x, slips, residual = block.motion(size, **given)
+        x, slips, residual = driven(block, size, **given)
         errors.append(np.abs(x - exact[0]).max())
         assert abs(residual) < 1e-11
         if size <= 0.01:
@@ -108,8 +88,9 @@ def test_a_derivative_of_another_order_is_refused(fmu, tmp_path):
 
 @pytest.mark.parametrize("hold", [0, 1])
 def test_the_unit_in_python_takes_them_the_same_way(block, python_fmu, tmp_path, hold):
-    x, slips, _ = block.motion(0.02, hold=hold)
-    again, slips_again, _ = Block(python_fmu, tmp_path).motion(0.02, hold=hold)
+    x, slips, _ = driven(block, 0.02, hold=hold)
+    with instance(python_fmu, tmp_path) as python:
+        again, slips_again, _ = driven(python, 0.02, hold=hold)
     assert slips == slips_again
     np.testing.assert_array_equal(x, again)
 
@@ -165,6 +146,23 @@ def unit(fmu3, tmp_path_factory):
     return Unit(fmu3, tmp_path_factory.mktemp("events"))
 
 
+@pytest.fixture(scope="module")
+def plain(unit):
+    """Case, hold and seed -> motion without early return, each computed once."""
+
+    @cache
+    def look_up(case, hold, seed):
+        return motion(unit, *drives(seed), 6.0, **CASES[case], **{"input.hold": hold})
+
+    return look_up
+
+
+@pytest.fixture(scope="module")
+def rippled(unit):
+    """The motion under the ripple inside."""
+    return motion(unit, lambda _: {"surface_speed": SPEED}, SHOWN, STOP, **INSIDE)[:2]
+
+
 def motion(unit, drive, size, stop, host=None, **values):
     """x every SHOWN seconds, the number of slips, and times of events; without a host, of a unit
     that does not return early."""
@@ -211,51 +209,45 @@ def drives(seed):
     return drive, size
 
 
-@pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("host", HOSTS)
-def test_inputs_that_go_on_are_the_same_with_and_without_early_return(unit, case, host):
+def assert_same(early, plain, case):
     """Of the integration of bristles a restart at an event is to be seen, at the tolerance 1e-9 of
     a motion of some 0.1 m; of all else, rounding."""
+    allowed = 1e-7 if case == "bristles" else 1e-12
+    np.testing.assert_allclose(early[0], plain[0], rtol=0, atol=allowed)
+    assert early[1] == plain[1]
+
+
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("host", HOSTS)
+def test_inputs_that_go_on_are_the_same_with_and_without_early_return(unit, plain, case, host):
     found = 0
     for seed in range(8):
-        drive, size = drives(seed)
-        given = CASES[case] | {"input.hold": 1}
-        plain = motion(unit, drive, size, 6.0, **given)
-        early = motion(unit, drive, size, 6.0, host, **given)
-        np.testing.assert_allclose(
-            early[0], plain[0], rtol=0, atol=1e-7 if case == "bristles" else 1e-12
-        )
-        assert early[1] == plain[1] and len(set(early[2])) == len(early[2])
+        early = motion(unit, *drives(seed), 6.0, host, **CASES[case], **{"input.hold": 1})
+        assert_same(early, plain(case, 1, seed), case)
+        assert len(set(early[2])) == len(early[2])
         found += len(early[2])
     assert found > 50
 
 
 @pytest.mark.parametrize("case", CASES)
-def test_inputs_that_are_held_are_not_taken_for_others_at_an_event(unit, case):
+def test_inputs_that_are_held_are_not_taken_for_others_at_an_event(unit, plain, case):
     """Also not on its way to where the surface's speed gets under a block that sticks."""
     for seed in range(8):
-        drive, size = drives(seed)
-        plain = motion(unit, drive, size, 6.0, **CASES[case])
-        early = motion(unit, drive, size, 6.0, "steps", **CASES[case])
-        assert early[1] == plain[1]
-        np.testing.assert_allclose(
-            early[0], plain[0], rtol=0, atol=1e-7 if case == "bristles" else 1e-12
-        )
+        early = motion(unit, *drives(seed), 6.0, "steps", **CASES[case])
+        assert_same(early, plain(case, 0, seed), case)
 
 
 @pytest.mark.parametrize("host", HOSTS)
 @pytest.mark.parametrize(("hold", "finest"), [(0, 6e-5), (1, 1e-5)])
 def test_with_early_return_the_motion_converges_to_that_of_the_ripple_inside(
-    unit, host, hold, finest
+    unit, rippled, host, hold, finest
 ):
-    inside = {"speed_ripple.amplitude": AMPLITUDE, "speed_ripple.frequency": FREQUENCY}
-    exact = motion(unit, lambda _: {"surface_speed": SPEED}, SHOWN, STOP, **inside)
     errors = []
     for size in STEPS:
         x, slips, _ = motion(unit, rippling, size, STOP, host, **{"input.hold": hold})
-        errors.append(np.abs(x - exact[0]).max())
+        errors.append(np.abs(x - rippled[0]).max())
         if size <= 0.01:
-            assert slips == exact[1]
+            assert slips == rippled[1]
     assert 0.8 < np.polyfit(np.log(STEPS), np.log(errors), 1)[0] < 1.8  # as above
     assert errors[-1] < finest
 
@@ -264,10 +256,9 @@ def test_with_early_return_the_motion_converges_to_that_of_the_ripple_inside(
 def test_a_host_that_asks_for_a_whole_step_behind_an_event_is_heard_there(unit, hold):
     """What it sets at the event is then all that is known of the step."""
     errors = []
-    inside = {"speed_ripple.amplitude": AMPLITUDE, "speed_ripple.frequency": FREQUENCY}
     for size in STEPS:
         ends = []
-        for drive, given in ((rippling, {"input.hold": hold}), (lambda _: {}, inside)):
+        for drive, given in ((rippling, {"input.hold": hold}), (lambda _: {}, INSIDE)):
             with unit.instance(events=True, early=True) as block:
                 block.begin(surface_speed=SPEED, **given)
                 block.done("EnterStepMode")
