@@ -174,12 +174,15 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
 
 @dataclass
 class _Fitting:
-    """Models of findings, fitted over the same windows. known : what was fitted already"""
+    """Models of findings, fitted over the same windows.
+
+    known : what was fitted already, and whether each finding by itself
+    """
 
     campaign: Campaign
     step: Callable[[], None]
     jobs: int
-    known: list[Models] = field(default_factory=list)
+    known: list[tuple[Models, bool]] = field(default_factory=list)
 
     def best_of(self, parts: list[Part], named: Named) -> tuple[list[Part], Models]:
         """With laws that follow the curves, or with the curves where the runs ask for them."""
@@ -211,7 +214,7 @@ class _Fitting:
         return None
 
     def _without(self, part: Part, parts: Sequence[Part], named: Named) -> Models:
-        return self._fitted(named, [other for other in parts if other is not part])
+        return self._fitted(named, [other for other in parts if other is not part], is_shown=False)
 
     def _is_asked_for(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
         """Whether the simulated runs are more probable with a finding beside the others."""
@@ -247,7 +250,7 @@ class _Fitting:
         """What the runs miss without any finding; None where the model with them is near enough."""
         if not parts or explains(models.ladder):
             return None
-        return self._fitted(named, []).ladder[-1].gap
+        return self._fitted(named, [], is_shown=False).ladder[-1].gap
 
     def told_apart(self, parts: Sequence[Part], named: Named) -> Named:
         """A lone finding, its rivals in the rows simulated as well.
@@ -260,7 +263,7 @@ class _Fitting:
         (finding,) = named.findings
         if not (rivals := rivals_of(finding)):
             return named
-        others, without = dict(finding.others), self._fitted(named, [])
+        others, without = dict(finding.others), self._fitted(named, [], is_shown=False)
         own = without.gained(parts[0]) - price_of(finding.name)
         for name in rivals:
             rival = self._in_place(named, name)
@@ -275,16 +278,18 @@ class _Fitting:
         rows = named.system.rung(added)
         return part_of(self.campaign, named.system, rows, Finding(name, added, 0.0))
 
-    def _fitted(self, named: Named, parts: Sequence[Part]) -> Models:
-        for models in self.known:
-            if list(map(id, models.parts)) == list(map(id, parts)):
+    def _fitted(self, named: Named, parts: Sequence[Part], is_shown: bool = True) -> Models:
+        for models, was_shown in self.known:
+            same = list(map(id, models.parts)) == list(map(id, parts))
+            if same and (was_shown or not is_shown):
                 return models
         added = [one for part in parts for one in part.finding.added]
-        self.known.append(Models.fitted(
+        models = Models.fitted(
             self.campaign, named.system, named.system.rung(added), parts, step=self.step,
-            jobs=self.jobs, others=self.known[0] if self.known else None,
-        ))  # fmt: skip
-        return self.known[-1]
+            jobs=self.jobs, others=self.known[0][0] if self.known else None, is_shown=is_shown,
+        )  # fmt: skip
+        self.known.append((models, is_shown))
+        return models
 
 
 def _unanswered(doubts: Sequence[Doubt], ladder: Sequence[Rung], found: bool) -> tuple[Doubt, ...]:

@@ -5,8 +5,9 @@
  2. What every rig has unknown is in the rows with its stated error: both coefficients, springs,
     zeros, set-points, the contact's own transition, friction that scatters from run to run.
  3. Whatever friction may depend on is an argument with one free curve; all have the same evidence.
- 4. An argument is a finding where the rows are e^6 times as probable with it, and it takes more
-    than a small part of what was missing at first; the best joins, all others are asked again.
+ 4. An argument is a finding where the rows are e^6 times as probable with it (e^3 the first), and
+    it takes more than a small part of what was missing at first; the best joins, all others are
+    asked again.
  5. Findings within e^3 of one another in the same place, and within e^6 in simulated runs, cannot
     be told apart: a class; so are two within e^12, the first below e^500, of which simulated runs
     prefer the second.

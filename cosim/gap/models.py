@@ -63,22 +63,26 @@ class Models:
     @classmethod
     def fitted(
         cls, campaign: Campaign, system: System, rows: Rows, parts: Sequence[Part], *,
-        step: Callable[[], None], jobs: int, others: Models | None = None,
+        step: Callable[[], None], jobs: int, others: Models | None = None, is_shown: bool = True,
     ) -> Models:  # fmt: skip
         """The user's model, then the findings, then contact and scatter where they are felt.
 
-        rows : with all findings; others : whose windows and fits these have as well
+        rows : with all findings; others : whose windows and fits these have as well; is_shown :
+        each finding by itself; else all of them and a contact in one rung
         """
         windows = others.windows if others else windows_of_campaign(campaign)
         models = cls(campaign, system, windows, parts, jobs, known=others.known if others else {})
         weak = system.rung(contact=False, scatter=False)
         models._add("user's model", "the model as stated", user_model(campaign), weak)
         step()
-        models._add_parts()
-        step()
-        if models.is_lost:
-            return models  # no contact makes up for that
-        models._try_contact()
+        if is_shown:
+            models._add_parts()
+            step()
+            if models.is_lost:
+                return models  # no contact makes up for that
+            models._try_contact()
+        else:
+            models._add_at_once()
         step()
         models._try_scatter(Scatter.of(rows))
         return models
@@ -96,15 +100,25 @@ class Models:
             rung = self.system.rung(added, contact=False, scatter=False)
             self._add(part.effect, text_of(part), more, rung)
 
+    def _add_at_once(self) -> None:
+        numbers, settings, _ = self.free[-1]
+        numbers = [*(number for part in self.parts for number in part.numbers), *numbers]
+        for part in self.parts:
+            settings = {**settings, **part.settings}
+        free = self._with_contact(numbers, settings)
+        self._add("contact", "", free, self.system.rung(self._added, scatter=False))
+
     def _try_contact(self) -> None:
+        numbers, settings, _ = self.free[-1]
+        rung = self.system.rung(self._added, scatter=False)
+        text = "the contact is not ideal: friction falls gradually, and it creeps under load"
+        self._try("contact", text, self._with_contact(numbers, settings), rung)
+
+    def _with_contact(self, numbers: Sequence[Number], settings: dict[str, float]) -> _Free:
         fastest = max(
             float(np.percentile(np.abs(run.track.sliding), 99)) for run in self.system.runs
         )
-        numbers, settings, _ = self.free[-1]
-        more = [*numbers, *contact_numbers(self.campaign, fastest)], settings
-        rung = self.system.rung(self._added, scatter=False)
-        text = "the contact is not ideal: friction falls gradually, and it creeps under load"
-        self._try("contact", text, more, rung)
+        return [*numbers, *contact_numbers(self.campaign, fastest)], settings
 
     def _try_scatter(self, scatter: Scatter) -> None:
         self.scatter = scatter.seen

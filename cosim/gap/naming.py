@@ -82,7 +82,7 @@ class Naming:
                  if wave.name not in without]  # fmt: skip
         ladder = Search(self.system, unknowns, waves, self.arguments.near, without).climb()
         rows = self.rows
-        if not (ladder.findings or self.planar.answer or SMOOTHING in without):
+        if not (self.planar.answer or SMOOTHING in without):
             rows, ladder, unknowns = self._at_corners(ladder, unknowns)
         self._follow_surface(ladder)
         fitted = System(self.campaign, rows)
@@ -103,18 +103,22 @@ class Naming:
     def _at_corners(
         self, ladder: Ladder, unknowns: Unknowns
     ) -> tuple[Sequence[RunRows], Ladder, Unknowns]:
-        """Whether a tracker smooths, asked of runs in which nothing else is missing.
+        """Whether a tracker smooths: where nothing else is missing, or where that explains more.
 
         A filter shows where break-aways and re-sticks are rounded, as what any other finding leaves
-        there would be.
+        there would be: of its rows it then takes more than that does of its own, and than any.
         """
         cornered = [with_corners(run) for run in self.rows]
         system = System(self.campaign, cornered, every=True)
         smoothing = {SMOOTHING: filters(system.rung())}
         if smoothing[SMOOTHING]:
             found = Search(system, smoothing, ()).climb()
-            if found.findings:
-                return cornered, found, {**unknowns, **smoothing}
+            gain = found.findings[0].gain if found.findings else 0.0
+            if gain > max((other.gain for other in ladder.findings), default=0.0):
+                rivals = unknowns if ladder.findings else {}
+                offers = Search(system, {**rivals, **smoothing}, ()).offers(system.rung())
+                if offers[SMOOTHING] == max(offers.values(), key=lambda offer: offer[0]):
+                    return cornered, found, {**unknowns, **smoothing}
         return self.rows, ladder, unknowns
 
     def _across(self) -> Iterator[Finding]:

@@ -21,7 +21,7 @@ from cosim.gap.scatter import Scatter
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.added import Added, factor_of, factors_of
 from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN, SCALES_ASKED
-from cosim.gap.weak_form.ladder import BY_SPEED, Finding, Ladder
+from cosim.gap.weak_form.ladder import BY_SPEED, Finding, Ladder, price_of
 from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.weak_form.unknowns import Unknown
@@ -57,6 +57,7 @@ def options_of(variants: Sequence[Unknown], runs: int) -> list[Option]:
     for unknown in variants:
         factors = tuple(factors_of(unknown, runs))
         price = float(np.log(len(variants) * len(factors) * len(SCALES_ASKED)))
+        price += price_of(unknown.name)
         found.append(Option((unknown,), factors, SCALES_ASKED, price))
     return found
 
@@ -67,7 +68,7 @@ def option_of_wave(
     """A wave at its wave length alone, with the price of the scan that finds it."""
     factor = block_diag(*(factor_of(each, len(system.fitted)) for each in added))
     count = periodic.wavenumbers_of(system.fitted, added[0].unknown.wave.kind).size
-    price = periodic.price_of_scan(count)
+    price = periodic.price_of_scan(count) + price_of(added[0].unknown.name)
     return Option(tuple(each.unknown for each in added), (factor,), scales, price)
 
 

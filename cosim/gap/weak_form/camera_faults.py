@@ -10,9 +10,10 @@ m x'' + K x = F in slip, x' = V in stick; x~ is what is written:
   2 b *on a surface slower by b*; without sticks springs alone, without slips a scale of -b.
 * **drift**, x~ = x + d(t): friction, static and kinetic, that changes by K d / (m g), by the same
   amount. Runs of other m / K tell, and the slopes of sticks (V + d').
-* **latency**, x~(t) = x(t + c x / 0.1 m) = x + c x x' / 0.1 m: sticks of the slope V (1 + c V / 0.1
-  m) and strokes that lean over. With one speed nearly a scale. A delay of all samples alike is not
-  seen by any data of one clock.
+* **latency**, x~(t) = x(t + c x~ / 0.1 m): sticks of the slope V (1 + c V / 0.1 m) and strokes that
+  lean over. With one speed nearly a scale. Not linear in c: what a delay of one of some sizes does
+  is asked for, by how much of it there is. A delay of all samples alike is not seen by any data of
+  one clock.
 * **smoothing**, x~ = x convolved with a kernel of the standard deviation w: inside slips and sticks
   that commutes with the equation of motion and is not seen. A corner, where x'' jumps by J, is
   rounded: a gap of w^2 J / 2 opens between line and curve (see `corners`), and about it stays
@@ -34,10 +35,11 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 from scipy.special import ndtr
 
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.constants import FAULT_SIZES, FILTER_WIDTHS
+from cosim.gap.weak_form.constants import FAULT_SIZES, FILTER_WIDTHS, LATENCIES, MOST_LEAN
 from cosim.gap.weak_form.corners import CornerResponse, CornerRows
 from cosim.gap.weak_form.rig_unknowns import Level
 from cosim.gap.weak_form.rows import Response, RunRows
@@ -72,7 +74,7 @@ def camera_faults(rung: Rung) -> dict[str, list[Unknown]]:
             for one in _among(rung, _fault("drift", drift(course), course, course=number),
                               course == "root")
         ],
-        "measurement.latency": _among(rung, _fault("latency", latency)),
+        "measurement.latency": latencies(rung),
         SMOOTHING: filters(rung),
         "measurement.zero": [replace(_fault("zero", zero, "each run"), per_run=True)],
     }  # fmt: skip
@@ -126,13 +128,37 @@ def drift(course: str) -> Respond:
     return respond
 
 
-def latency(run: RunRows) -> Response:
-    """x~(t) = x(t + c x / 0.1 m), by c, s."""
-    track = run.track
-    velocity = np.where(track.slips_mask, track.velocity, track.run.surface_speed)
-    later = track.place * velocity / ACROSS
-    static = -track.run.total_stiffness * _at_events(run, later)
-    return Response(place=column(later), static=static)
+def latencies(rung: Rung) -> list[Unknown]:
+    """Every delay in all runs; that which the rows prefer in some."""
+    forms = [_fault("latency", latency(delay)) for size in LATENCIES for delay in (size, -size)]
+    best = max(forms, key=lambda form: rung.offered([replace(form, per_run=True)])[0])
+    return [one for form in forms for one in _among(rung, form, in_some=form is best)]
+
+
+def latency(delay: float) -> Respond:
+    """x~(t) = x(t + c x~ / 0.1 m), by c, s, exact where c is the delay."""
+
+    def respond(run: RunRows) -> Response:
+        track = run.track
+        later = (track.place - leaning(track.time, track.place, delay)) / delay
+        static = -track.run.total_stiffness * _at_events(run, later)
+        return Response(place=column(later), static=static)
+
+    return respond
+
+
+def leaning(time: np.ndarray, x: np.ndarray, delay: float) -> np.ndarray:
+    """(n,) m: places x (n,) that are where they are later by a delay, s, for each 0.1 m of them.
+
+    What a camera of the delay c sees of a motion is this with -c, the motion from what it saw with
+    c. Where times would not grow, the delay is as long as they do.
+    """
+    lean = time + delay * x / ACROSS
+    steps = np.diff(time)
+    most = float(np.max(-np.diff(lean - time) / steps, initial=0.0))
+    if most > MOST_LEAN:
+        lean = time + MOST_LEAN / most * (lean - time)
+    return np.asarray(CubicSpline(lean, x)(time))
 
 
 def zero(run: RunRows) -> Response:

@@ -120,11 +120,12 @@ ALIGNED, SPEEDS_TRIED = 1.5, 12
 #: ln of how much more probable the rows must be with a finding: with some twenty that are tried,
 #: one in twenty campaigns without any would gain 6 by chance.
 LEAST_GAIN = 6.0
-#: ln by which a faulty camera is less probable beforehand than an effect: one campaign in twenty.
-FAULT_PRICE = 3.0
+#: ln by which a faulty camera, or what no effect stands for, is less probable beforehand than an
+#: effect: one campaign in twenty.
+PRICE = 3.0
 #: A further finding counts from this part of what is missing at first (root mean square): what is
 #: smaller may be what smoothed arguments and the nodes of the first one's curve leave.
-LEAST_PART = 0.12
+LEAST_PART = 0.08
 #: More findings than these are no explanation.
 MOST_FINDINGS = 3
 
@@ -193,6 +194,11 @@ FAULT_SIZES = {
 #: Standard deviations of filters that are tried, s: a third of a frame of 60 a second, which none
 #: sees, up to some frames of 30 a second; their squares lie apart by less than a scale asked for.
 FILTER_WIDTHS = (0.007, 0.012, 0.02, 0.035, 0.06)
+
+#: Delays over 0.1 m for which a slow chip is asked, s: a delay is off by a fifth of itself at most,
+#: and what it does beyond its own proportion by a fifth of that. The most by which it may bring
+#: samples together, a part of their interval.
+LATENCIES, MOST_LEAN = (0.01, 0.015, 0.023, 0.035, 0.053, 0.08), 0.9
 
 # What cannot be told apart.
 #: ln of a Bayes factor below which two explanations are not told apart: 20 to 1 (Kass & Raftery,

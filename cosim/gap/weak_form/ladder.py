@@ -16,11 +16,11 @@ from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import (
     ALIKE,
-    FAULT_PRICE,
     LEAST_GAIN,
     LEAST_PART,
     MOST_FINDINGS,
     NEARLY_ALIKE,
+    PRICE,
 )
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.weak_form.unknowns import Unknown
@@ -105,12 +105,13 @@ class Search:
         for kind in self.waves:
             if kind.name in without:
                 continue
-            offer = known.get(kind.key) or periodic.offered(rung, kind, best - NEARLY_ALIKE)
+            wave = None if kind.key in known else periodic.offered(rung, kind, best - NEARLY_ALIKE)
+            if wave:
+                known[kind.key] = (wave[0] - price_of(kind.name), wave[1])
+            offer = known.get(kind.key)
             # of two that tell no difference the first: time is simpler than travel
-            if offer:
-                known[kind.key] = offer
-                if kind.name not in found or offer[0] > found[kind.name][0] + ALIKE:
-                    found[kind.name] = offer
+            if offer and (kind.name not in found or offer[0] > found[kind.name][0] + ALIKE):
+                found[kind.name] = offer
         return self._by_direction(rung, found)
 
     def _by_direction(self, rung: Rung, offers: dict[str, Offer]) -> dict[str, Offer]:
@@ -138,7 +139,7 @@ class Search:
             name = max(offers, key=lambda each: offers[each][0])
             offers[name] = self._finer(rung, name, offers[name])
             more = self._rung([*found, (name, offers[name][1])])
-            if offers[name][0] - rung.evidence < LEAST_GAIN or not self._is_missed(rung, more):
+            if offers[name][0] - rung.evidence < _least(found) or not self._is_missed(rung, more):
                 break
             found = self._exchanged([*found, (name, offers[name][1])])
         found = self._without_idle(found)
@@ -170,7 +171,7 @@ class Search:
 
     def _is_missed(self, without: Rung, rung: Rung) -> bool:
         """Whether rows miss a finding; beside others, by more than a small part of all misfit."""
-        if rung.evidence - without.evidence <= LEAST_GAIN:
+        if rung.evidence - without.evidence <= _least(without.added):
             return False
         part = without.misfit - rung.misfit > LEAST_PART**2 * self._misfit_at_first
         return part or not without.added
@@ -221,4 +222,12 @@ class Search:
 
 def price_of(name: str) -> float:
     """ln of how much less probable beforehand it is than an effect."""
-    return FAULT_PRICE if name.startswith("measurement.") else 0.0
+    return PRICE if name.startswith(("measurement.", "other.")) else 0.0
+
+
+def _least(found: Sequence) -> float:
+    """ln of how much more probable a finding must make the rows; less of the first of all.
+
+    Simulated runs are asked for that, too (`judge`).
+    """
+    return LEAST_GAIN if found else ALIKE

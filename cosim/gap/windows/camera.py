@@ -2,7 +2,9 @@
 
 With the place r at the time s, the camera writes q at t:
 
-    t = (1 + clock) s,     q = R(rotation) (1 + scale) filter(r(s + latency x / 0.1 m)) + drift(s)
+    t = (1 + clock) s,     q = R(rotation) (1 + scale) filter(r(s + latency x~ / 0.1 m)) + drift(s)
+
+x~ is where the camera sees it.
 
 A fault acts in the runs whose ``measurement.<fault>_in`` is not 0; without that in all.
 """
@@ -17,7 +19,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.signal import lfilter
 
 from cosim.gap.data import Track
-from cosim.gap.weak_form.camera_faults import ACROSS, COURSES
+from cosim.gap.weak_form.camera_faults import COURSES, leaning
 
 #: Faults that can be undone; what a filter took away, or rounding, is gone.
 UNDONE = ("scale", "clock", "rotation", "drift", "latency")
@@ -41,7 +43,7 @@ def seen(places: np.ndarray, time: np.ndarray, values: Mapping[str, float]) -> n
     places = places.copy()
     latency = fault(values, "latency")
     if latency:
-        places[:, 0] += latency * places[:, 0] * np.gradient(places[:, 0], time) / ACROSS
+        places[:, 0] = leaning(time, places[:, 0], -latency)
     places = _filtered(places, time, values)
     places[:, :2] = (1.0 + fault(values, "scale")) * _turned(places[:, :2], values, 1.0)
     places[:, :2] += _drift(time, values)
@@ -57,8 +59,7 @@ def undone(track: Track, values: Mapping[str, float]) -> Track:
     latency = fault(values, "latency")
     if latency:
         there = np.isfinite(x)
-        rate = np.gradient(x[there], time[there])
-        x[there] -= latency * x[there] * rate / ACROSS
+        x[there] = leaning(time[there], x[there], latency)
     return replace(track, time=time, x=x, y=None if track.y is None else y)
 
 

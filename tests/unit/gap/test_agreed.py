@@ -61,7 +61,7 @@ def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0), felt=True,
             return gained[part.finding.name]
 
     fitting = find._Fitting(None, lambda: None, 1)
-    monkeypatch.setattr(fitting, "_fitted", lambda named, parts: Models(parts))
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts, is_shown=True: Models(parts))
     answer = find._agreed(None, fitting)
     rejected = tuple(one.effect for one in answer.rejected)
     return [part.finding.name for part in answer.parts], rejected
@@ -146,7 +146,7 @@ def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told
     fitting = find._Fitting(None, lambda: None, 1)
     gains = {"run_in": 20.0, "film_drag": gained}
     models = SimpleNamespace(gained=lambda part: gains[part.finding.name])
-    monkeypatch.setattr(fitting, "_fitted", lambda named, parts: models)
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts, is_shown=True: models)
     part = Part(one, None, (), (), {"on": 1.0})
     others = fitting.told_apart([part], named).findings[0].others
     assert others == pytest.approx({"film_drag": told, "other.order": -1.0})
@@ -210,7 +210,7 @@ def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):
     fitting = find._Fitting(None, lambda: None, 1)
     noise = SimpleNamespace(name="user's model", gap=Score(1.0, 1.0))
     models = SimpleNamespace(ladder=[noise], gained=lambda part: -906.0, is_felt=True)
-    monkeypatch.setattr(fitting, "_fitted", lambda named, parts: models)
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts, is_shown=True: models)
     assert find._agreed(None, fitting).rejected == (Rejected("spring_hardening", 205.0, -906.0),)
 
 

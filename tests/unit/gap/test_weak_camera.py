@@ -8,9 +8,16 @@ from gap_campaigns import RIG, motion, noisy, write_campaign
 
 from cosim.gap.data import read_campaign
 from cosim.gap.find import find_gap
+from cosim.gap.naming import Naming
 from cosim.gap.show.corrected import write_corrected
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.camera_faults import COURSES, camera_faults, smoothing
+from cosim.gap.weak_form.camera_faults import (
+    COURSES,
+    SMOOTHING,
+    camera_faults,
+    leaning,
+    smoothing,
+)
 from cosim.gap.weak_form.corners import CORNER, CornerRows, corner_contact, with_corners
 from cosim.gap.weak_form.rows import rows_of
 from cosim.gap.weak_form.system import System
@@ -214,3 +221,28 @@ def test_what_is_rounded_is_what_a_filter_leaves(tmp_path):
 def test_courses_begin_at_0_and_end_at_1(course):
     ends = COURSES[course](np.array([0.0, 1.0]))
     assert ends == pytest.approx([0.0, 1.0], abs=0.01)
+
+
+def test_a_long_delay_is_taken_whole(tmp_path):
+    """40 ms over 0.1 m: strokes of 0.2 m/s lean over by a twelfth, which is not linear in it."""
+    entries = []
+    for number, (speed, mass) in enumerate([(0.1, 0.87), (0.2, 0.87), (0.2, 1.6)]):
+        t, x = path(speed, mass)
+        late = leaning(t, x, -0.04)
+        np.testing.assert_allclose(leaning(t, late, 0.04)[50:-50], x[50:-50], atol=1e-6)
+        columns = {"t": t[::EVERY], "x": noisy(late[::EVERY], number, NOISE)}
+        entries.append({"surface_speed": speed, "mass": mass, "columns": columns})
+    campaign = read_campaign(write_campaign(tmp_path, entries, noise={"x": NOISE}))
+    made = System(campaign, [rows_of(smooth(run), campaign.rig) for run in campaign.runs])
+    rung = made.rung()
+    _, added = rung.offered(camera_faults(rung)["measurement.latency"])
+    assert size_of(made, added.unknown)[0] == pytest.approx(0.04, rel=0.03)
+    assert made.rung([added]).misfit < 0.01 * rung.misfit
+
+
+def test_a_filter_in_some_runs_is_told_where_rounded_swings_ask_for_something_else(tmp_path):
+    """A long filter reaches into the slips, where a clock of a run stands for some of it."""
+    naming = Naming.of(system(tmp_path, "smoothing", 0.04, among=(0, 3)).campaign)
+    assert SMOOTHING not in {each.name for each in naming.named([SMOOTHING]).findings} != set()
+    (finding,) = naming.named().findings
+    assert (finding.name, finding.variant) == (SMOOTHING, "Gaussian, 35 ms, in run01, run04")
