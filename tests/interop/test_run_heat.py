@@ -1,13 +1,12 @@
 """What `stickslip run` does with the heat: a sample from a mesh, an animation, melting away."""
 
 import json
-import subprocess
-import sys
 
 import meshio
 import numpy as np
 import pytest
 import xarray as xr
+from command_line import stickslip_here
 from PIL import Image
 from skfem import MeshTet
 
@@ -37,10 +36,7 @@ temperature_degC = -1e-6
 
 def run(folder, fmu, text, *arguments):
     (folder / "case.toml").write_text(text)
-    command = [sys.executable, "-m", "cosim", "run", "case.toml", "--fmu", str(fmu), "-o", "out"]
-    return subprocess.run(
-        [*command, *arguments], cwd=folder, capture_output=True, text=True, timeout=300
-    )
+    return stickslip_here(folder, "run", "case.toml", "--fmu", fmu, "-o", "out", *arguments)
 
 
 @pytest.fixture
