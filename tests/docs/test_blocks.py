@@ -10,6 +10,7 @@ import subprocess
 import sys
 import tomllib
 from configparser import ConfigParser
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -24,13 +25,16 @@ from cosim.gap import read_campaign
 
 HERE = Path(__file__).resolve().parent
 SITE = HERE / "site"
-PRINTED = [
-    (file, fence.info.strip(), fence.content)
-    for file in [test_readme.ROOT / "README.md", *sorted(SITE.rglob("*.md"))]
-    for fence in fences(file.read_text(encoding="utf-8"))
-]
+FILES = [test_readme.ROOT / "README.md", *sorted(SITE.rglob("*.md"))]
 #: Directives that print no code of their own.
 NO_CODE = ("{toctree}", "{include}", "{figure}", "{image}", "{note}", "{warning}")
+
+
+@cache
+def printed(file):
+    """Language and text of each block of a file."""
+    found = fences(file.read_text(encoding="utf-8"))
+    return [(fence.info.strip(), fence.content) for fence in found]
 
 
 def who_runs(file, language, text):
@@ -84,10 +88,10 @@ def named(file):
     return str(file.relative_to(SITE)) if SITE in file.parents else file.name
 
 
-@pytest.mark.parametrize("file", sorted({file for file, _, _ in PRINTED}), ids=named)
+@pytest.mark.parametrize("file", FILES, ids=named)
 def test_every_block_is_run_by_a_test_that_exists(file):
-    blocks = {block: who_runs(*block) for block in PRINTED if block[0] == file}
-    assert [block[1:] for block, runs in blocks.items() if runs is None] == []
+    blocks = {block: who_runs(file, *block) for block in printed(file)}
+    assert [block for block, runs in blocks.items() if runs is None] == []
     for path, test in set(blocks.values()):
         assert f"def {test}(" in (HERE / path).read_text(encoding="utf-8")
 
@@ -104,7 +108,7 @@ def test_what_nobody_runs_is_found_out():
 def test_the_campaign_with_a_table_is_one(tmp_path):
     """As the lines that state a law over the speed stand in a campaign."""
     page = SITE / "guide" / "gap.md"
-    (block,) = [text for file, _, text in PRINTED if file == page and "friction_table" in text]
+    (block,) = [text for _, text in printed(page) if "friction_table" in text]
     (tmp_path / "mu_v.csv").write_text("v,mu\n0,0.22\n0.4,0.17\n", encoding="utf-8")
     time = np.arange(40) * 0.01
     runs = [
@@ -120,7 +124,7 @@ def test_the_campaign_with_a_table_is_one(tmp_path):
 
 def test_the_block_of_steel_is_one(tmp_path):
     page = SITE / "guide" / "scenario.md"
-    (block,) = [text for file, _, text in PRINTED if file == page and "[block]" in text]
+    (block,) = [text for _, text in printed(page) if "[block]" in text]
     (tmp_path / "steel.toml").write_text(block + "[run]\nduration = 0.5\n", encoding="utf-8")
     scenario = read_scenario(tmp_path / "steel.toml")
     assert (scenario.block.material, scenario.ambient.temperature_degC) == ("steel", 20.0)
@@ -137,7 +141,7 @@ print(scenario.catalogue.effects[-1].id, scenario.flash_heating.fall)
 def test_the_entry_point_is_one(tmp_path):
     """The page's law in a package that says what the page says of it, as pip would install it."""
     page = PAGES / "add_an_effect.md"
-    (block,) = [text for file, kind, text in PRINTED if file == page and kind == "toml"]
+    (block,) = [text for kind, text in printed(page) if kind == "toml"]
     points = tomllib.loads(block)["project"]["entry-points"]
     ((name, value),) = points["stickslip.effects"].items()
     package, _, module = value.partition(":")[0].partition(".")

@@ -6,15 +6,13 @@ minute and more is run by `pytest -m slow`. That every block is run is seen to i
 """
 
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from command_line import stickslip, stickslip_here
 from sessions import timeless
 
 from cosim import read_scenario
-from cosim.cli import main
 from cosim.cli.arguments import COMMANDS
 from cosim.fmu.build import NATIVE, THERMAL, ensure_fmu
 from cosim.gap import read_campaign
@@ -103,8 +101,7 @@ def test_the_system_is_one(tmp_path):
 def test_what_is_typed_next_makes_a_rig_and_runs_it(tmp_path):
     """In the environment that runs the tests, in place of the one that the line before made."""
     for command in SHELL[2].splitlines()[1:]:
-        done = subprocess.run([sys.executable, "-m", "cosim", *command.split()[1:]],
-                              capture_output=True, text=True, cwd=tmp_path)  # fmt: skip
+        done = stickslip(tmp_path, *command.split()[1:])
         assert done.returncode == 0, done.stderr
     assert (tmp_path / "results" / "my_rig" / "report.html").exists()
 
@@ -115,20 +112,16 @@ def test_ci_runs_the_line_that_tests():
 
 @pytest.mark.parametrize(("command", "printed"), SESSIONS)
 def test_a_session_prints_what_is_shown(command, printed, at_home):
-    done = subprocess.run(
-        [sys.executable, "-m", "cosim", *command.split()], capture_output=True, text=True
-    )
+    done = stickslip_here(".", *command.split())
     assert done.returncode == 0, done.stderr
     said = set(timeless((done.stdout + done.stderr).splitlines()))
     assert said >= set(timeless(printed.splitlines()))
 
 
 @pytest.mark.parametrize("command", NAMED)
-def test_commands_have_the_options_that_are_named(command, capsys):
-    with pytest.raises(SystemExit) as end:
-        main([command, "--help"])
-    assert end.value.code == 0
-    assert NAMED[command] <= set(re.findall(r"--[a-z][a-z-]+", capsys.readouterr().out))
+def test_commands_have_the_options_that_are_named(command):
+    said = stickslip_here(".", command, "--help").stdout
+    assert NAMED[command] <= set(re.findall(r"--[a-z][a-z-]+", said))
 
 
 def test_every_command_is_in_the_readme():
