@@ -112,18 +112,6 @@ FOUND = 3
 FOUND_RISE = 2
 MINUS = str.maketrans("-", "−")
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-UNITS = {
-    "degC": "°C",
-    "deg": "°",
-    "N.m": "N m",
-    "kg.m2": "kg m²",
-    "m/s2": "m/s²",
-    "kg/m3": "kg/m³",
-    "J/(kg.K)": "J/(kg K)",
-    "W/(m.K)": "W/(m K)",
-    "W/(m2.K)": "W/(m² K)",
-    "1": "",
-}
 # units that are read more easily with a prefix than with a power of ten
 PREFIXED = {"m", "K", "W", "N", "s", "J"}
 
@@ -154,7 +142,7 @@ def worded(key: str) -> str:
 
 def spelled(unit: str) -> str:
     """A unit as it is printed."""
-    return UNITS[unit] if unit in UNITS else unit_text(unit)
+    return "" if unit == "1" else unit_text(unit)
 
 
 def told(

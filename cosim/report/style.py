@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from .live import Live, Panel
-from .page import DPI, Picture
+from .page import DPI, Picture, unit_text
 
 if TYPE_CHECKING:
     from matplotlib.typing import RcKeyType
@@ -82,7 +82,6 @@ RC: dict[RcKeyType, Any] = {
 }
 
 PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
-SPELLING = {"N.m": "N m", "1": "1", "degC": "°C"}
 
 
 def styled(draw: Callable[..., Figure]) -> Callable[..., Figure]:
@@ -186,7 +185,7 @@ def readable(values: Array, unit: str, floor: float = 0.0) -> Scaled:
 
     floor: magnitude (SI) below which values are nothing and choose no smaller prefix.
     """
-    spelled = SPELLING.get(unit, unit)
+    spelled = unit_text(unit)
     finite = np.abs(values[np.isfinite(values)])
     largest = max(float(finite.max(initial=0.0)), floor)
     if spelled in ("1", "°C", "°") or largest == 0.0:

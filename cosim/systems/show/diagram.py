@@ -14,6 +14,7 @@ from matplotlib.path import Path
 from cosim.coupling import Causality, Connection, CoupledSystem
 from cosim.coupling.conversion import NO_UNIT, watts
 from cosim.coupling.system import ENERGY_UNIT, find_port
+from cosim.report.page import unit_text
 from cosim.report.style import (
     GREY,
     INK,
@@ -21,7 +22,6 @@ from cosim.report.style import (
     PALE_GREY,
     RED,
     SERIES,
-    SPELLING,
     picture,
 )
 
@@ -285,7 +285,7 @@ def _draw_box(axes: Axes, system: CoupledSystem, box: Box) -> None:
     ):
         for port in ports:
             unit = system.participants[box.name].ports[port].unit
-            words = _short(port) + ("" if unit == NO_UNIT else f" [{SPELLING.get(unit, unit)}]")
+            words = _short(port) + ("" if unit == NO_UNIT else f" [{unit_text(unit)}]")
             axes.text(
                 x, box.places[port], words, ha=align, va="center", fontsize=8, color=INK, zorder=5,
             )  # fmt: skip

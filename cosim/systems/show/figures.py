@@ -15,13 +15,12 @@ from cosim.coupling.conversion import NO_UNIT
 from cosim.names import unknown_name
 from cosim.report.columns import Columns
 from cosim.report.live import Curve, Panel, over_time
-from cosim.report.page import Picture, number
+from cosim.report.page import Picture, number, unit_text
 from cosim.report.style import (
     BLUE,
     FAINT_BLUE,
     INK,
     SERIES,
-    SPELLING,
     Scaled,
     displayed,
     panels_over_time,
@@ -144,7 +143,7 @@ def _signal(columns: Columns, name: str) -> tuple[str, NDArray[np.float64], floa
         values = np.zeros_like(values)  # of a figure that has nothing else
     scaled = readable(values, unit) if unit in PREFIXED else Scaled(1.0, unit)
     least = NOTHING * scaled.factor * float(np.max(np.abs(values)))
-    told = SPELLING.get(scaled.unit, scaled.unit)
+    told = unit_text(scaled.unit)
     return name if told == NO_UNIT else f"{name} [{told}]", scaled(values), least
 
 
@@ -190,7 +189,7 @@ def _is_rounding(columns: Columns, name: str) -> bool:
 
 def _constant(columns: Columns, name: str) -> str:
     unit = columns[name].attrs["units"]
-    told = "" if unit == NO_UNIT else SPELLING.get(unit, unit)
+    told = "" if unit == NO_UNIT else unit_text(unit)
     return f"{name} {number(float(columns[name].values[-1]))} {told}".strip()
 
 

@@ -9,8 +9,7 @@ from typing import Any
 from cosim.coupling import Affine
 from cosim.coupling.conversion import NO_UNIT
 from cosim.report.coupling import doubts, step_rows
-from cosim.report.page import Picture, number, render
-from cosim.report.style import SPELLING
+from cosim.report.page import Picture, number, render, unit_text
 
 #: In the order of the page.
 PICTURES = ("signals", "system", "more_signals", "energy", "steps")
@@ -98,7 +97,7 @@ def _seconds(value: float | None, digits: int = 4) -> str:
 
 
 def _connection_row(each: Mapping[str, Any]) -> tuple[str, str, str, str]:
-    units = [SPELLING.get(each[key], each[key]) for key in ("unit", "to_unit")]
+    units = [unit_text(each[key]) for key in ("unit", "to_unit")]
     units = ["none" if unit == NO_UNIT else unit for unit in units]
     unit = units[0] if units[0] == units[1] else " to ".join(units)
     return each["from"], each["to"], unit, str(Affine(each["factor"], each["offset"]))
