@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from cosim.cli import DONE
 from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.cli.numbers import numbers_asked
 from cosim.files import writable, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 
@@ -55,6 +56,7 @@ def execute(arguments: Namespace) -> int:
     from cosim.report.compare import compare
     from cosim.report.files import json_text
 
+    numbers = numbers_asked(arguments, ("a", "b", "numbers"))
     both = compare(*_results(arguments))
     folder = Path(arguments.output or Path("results") / _named(both))
     writable(folder, (RESULT, PAGE))
@@ -66,7 +68,8 @@ def execute(arguments: Namespace) -> int:
         results.complete = True
     for remark in both.remarks:
         print(f"warning: {remark}", file=sys.stderr)
-    print(json_text(both.as_dict()) if arguments.json else _table(both, folder))
+    if not numbers.give(json_text(both.as_dict())):
+        print(_table(both, folder))
     return DONE
 
 

@@ -46,7 +46,7 @@ from cosim.studies.belt_length import (
 from cosim.studies.belt_length.lengths import rounded_up
 from cosim.studies.belt_length.show.page import page
 from cosim.studies.belt_length.show.wording import two_digits
-from cosim.studies.belt_length.study import check_case, check_options
+from cosim.studies.belt_length.study import BOUNDS, check_case, check_options
 
 EXAMPLE = "stickslip belt-length --length 1 2 4 --speed 0.15 0.82 -o results/belt"
 RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
@@ -66,29 +66,21 @@ LEGEND = (
 #: Of the shortest belts of an own rig.
 HEADINGS = ("as said", "5 %", "median", "95 %", "for ever")
 
-#: Choice -> field of a case, the study's values (None: the default case's), unit, what it is.
-CHOICES: dict[str, tuple[str, tuple[float, ...] | None, str, str]] = {
-    "length": ("length", (1.0, 2.0, 3.0, 4.0), "M", "lengths of the belt, m"),
-    "speed": ("speed", (0.15, 0.5, 0.82), "V", "speeds of the belt, m/s"),
-    "mass": ("mass", None, "M", "masses on the belt, kg"),
-    "h": (
-        "h",
-        None,
-        "H",
-        f"heat transfer to the air on each face of the belt, W/m2K; or {AIR}:"
-        " boundary layer, convection and radiation of a belt moving through still air",
-    ),
-    "conductivity": ("conductivity", None, "K", "conductivities of the belt, W/mK"),
-    "friction": ("friction", None, "MU", "kinetic friction coefficients"),
-    "ambient": (
-        "ambient_degC",
-        None,
-        "T",
-        "temperatures of the air, degC; the rises hardly depend on it",
-    ),
-    "conductance": ("conductance", None, "HC", "contact conductances, W/m2K"),
-    "thickness": ("thickness", None, "D", "thicknesses of the belt, m"),
+#: Choice -> what it is.
+CHOICES = {
+    "length": "lengths of the belt, m",
+    "speed": "speeds of the belt, m/s",
+    "mass": "masses on the belt, kg",
+    "h": f"heat transfer to the air on each face of the belt, W/m2K; or {AIR}: boundary layer,"
+    " convection and radiation of a belt moving through still air",
+    "conductivity": "conductivities of the belt, W/mK",
+    "friction": "kinetic friction coefficients",
+    "ambient": "temperatures of the air, degC; the rises hardly depend on it",
+    "conductance": "contact conductances, W/m2K",
+    "thickness": "thicknesses of the belt, m",
 }
+#: Choice -> the study's values; of the others it has the default case's.
+STUDIED = {"length": (1.0, 2.0, 3.0, 4.0), "speed": (0.15, 0.5, 0.82)}
 #: What a case takes from the thermal model where it says nothing itself.
 _FROM_RIG = {"conductivity": "belt", "thickness": "belt", "conductance": "contact"}
 
@@ -102,11 +94,11 @@ def add_arguments(parser: ArgumentParser) -> None:
         " ramp and run, in front of the options: how long its belt must be, and how sure that is;"
         " without one, the source study's rig and protocol, and whether 1 m does",
     )
-    for name, (field, values, metavar, text) in CHOICES.items():
-        shown = " ".join(_shown(value) for value in values or (_own(STUDY, field),))
+    for name, text in CHOICES.items():
+        values = STUDIED.get(name) or (_own(STUDY, BOUNDS[name][0]),)
+        shown = " ".join(_shown(value) for value in values)
         parser.add_argument(
             f"--{name}",
-            metavar=metavar,
             nargs="+",
             type=number_or_air if name == "h" else float,
             help=f"{text} (default: the scenario's, or {shown})",
@@ -269,9 +261,9 @@ def _asked(arguments: Namespace) -> tuple[list[Case], Options]:
     if arguments.map is None:
         arguments.map = 12 if given else 30
     choices = {}
-    for name, (field, values, _, _) in CHOICES.items():
+    for name, (field, *_) in BOUNDS.items():
         asked = getattr(arguments, name)
-        own = (getattr(base, field),) if given or values is None else values
+        own = (getattr(base, field),) if given or name not in STUDIED else STUDIED[name]
         # of a value that is given twice one case
         choices[field] = own if asked is None else tuple(dict.fromkeys(asked))
     wanted = cases(base, **choices)
