@@ -83,8 +83,9 @@ class RunFit:
         if id(at) not in self.known:
             self.known[id(at)] = (at, *self._derivatives(scaled, at))
         _, self.columns, self.response, derivatives = self.known[id(at)]
-        self.base = scaled[self.felt].copy()
-        self.tried = {self.base.tobytes(): at}
+        if self.base is None or (self.base != scaled[self.felt]).any():
+            self.base = scaled[self.felt].copy()
+            self.tried = {self.base.tobytes(): at}
         return derivatives
 
     def _derivatives(
