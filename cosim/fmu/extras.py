@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from importlib.metadata import distribution
 from importlib.resources import files
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Element, SubElement
 
+from cosim.fmu.description import written
 from cosim.fmu.libraries import FMI2, FMI3
 from cosim.fmu.variables import Variable
 
@@ -96,6 +97,4 @@ def terminals(variables: Iterable[Variable]) -> bytes:
                 memberName=member,
                 variableKind="signal",
             )
-    indent(root)
-    found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
-    return found
+    return written(root)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from xml.etree.ElementTree import Element, SubElement
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from stickslip.units import UNITS
 
@@ -79,6 +79,32 @@ class UnitFacts:
         return LICENSE
 
 
+def begun(facts: UnitFacts, version: str, token: str) -> Element:
+    """The root of a description in a version of FMI, in which the GUID is called ``token``."""
+    return Element(
+        "fmiModelDescription",
+        {
+            "fmiVersion": version,
+            "modelName": facts.name,
+            token: facts.guid,
+            "description": facts.description,
+            "author": AUTHOR,
+            "version": facts.version,
+            "copyright": COPYRIGHT,
+            "license": LICENSE,
+            "generationTool": facts.tool,
+            "variableNamingConvention": "structured",
+        },
+    )
+
+
+def written(root: Element) -> bytes:
+    """The file."""
+    indent(root)
+    found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
+    return found
+
+
 def add_units(root: Element, variables: Iterable[Variable], more: Iterable[str] = ()) -> None:
     """Those that the variables are in, and more, by their base units."""
     definitions = SubElement(root, "UnitDefinitions")
@@ -100,6 +126,17 @@ def add_common(root: Element) -> None:
 def xml(value: bool) -> str:
     """As XML has it."""
     return str(value).lower()
+
+
+def set_variability(element: Element, variable: Variable, otherwise: str | None) -> None:
+    """When a variable changes, and how it begins; otherwise: of an output that is not discrete."""
+    if variable.causality == "parameter":
+        element.set("variability", "tunable" if variable.is_tunable else "fixed")
+        element.set("initial", "exact")
+    elif variable.causality != "input":
+        if changes := "discrete" if variable.is_discrete else otherwise:
+            element.set("variability", changes)
+        element.set("initial", "calculated")
 
 
 #: Name of an unknown -> names of what it depends on; None: of all states and inputs.
@@ -152,3 +189,13 @@ def of_initial_unknowns(
         for variable in variables
         if variable.causality in ("output", "local")
     }
+
+
+def add_unknowns(
+    element: Element, kind: str, key: str, unknowns: Dependencies, references: Mapping[str, str]
+) -> None:
+    """What each depends on; key: by which attribute it is told, references: and as what."""
+    for name, sources in unknowns.items():
+        unknown = SubElement(element, kind, {key: references[name]})
+        if sources is not None:
+            unknown.set("dependencies", " ".join(references[source] for source in sources))

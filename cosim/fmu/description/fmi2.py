@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Element, SubElement
 
 from cosim.fmu.description import (
-    AUTHOR,
-    COPYRIGHT,
-    LICENSE,
-    Dependencies,
     UnitFacts,
     add_common,
     add_units,
+    add_unknowns,
+    begun,
     of_initial_unknowns,
     of_outputs,
     of_rates,
+    set_variability,
+    written,
     xml,
 )
 from cosim.fmu.variables import Variable
@@ -23,20 +23,8 @@ from cosim.fmu.variables import Variable
 
 def fmi2_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
     """The whole file; without a date, so that builds repeat."""
-    root = Element(
-        "fmiModelDescription",
-        fmiVersion="2.0",
-        modelName=facts.name,
-        guid=facts.guid,
-        description=facts.description,
-        author=AUTHOR,
-        version=facts.version,
-        copyright=COPYRIGHT,
-        license=LICENSE,
-        generationTool=facts.tool,
-        variableNamingConvention="structured",
-        numberOfEventIndicators=str(facts.indicators or 0),
-    )
+    root = begun(facts, "2.0", "guid")
+    root.set("numberOfEventIndicators", str(facts.indicators or 0))
     if facts.indicators is not None:
         _add_model_exchange(root, facts)
     _add_co_simulation(root, facts)
@@ -48,9 +36,7 @@ def fmi2_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
     for reference, variable in enumerate(variables):
         _add_variable(declared, reference, variable, index, exchange)
     _add_structure(root, variables, index, facts.starts)
-    indent(root)
-    found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
-    return found
+    return written(root)
 
 
 def _add_model_exchange(root: Element, facts: UnitFacts) -> None:
@@ -98,13 +84,7 @@ def _add_variable(
         declared, "ScalarVariable", name=variable.name, valueReference=str(reference)
     )
     scalar.set("causality", variable.causality)
-    if variable.causality == "parameter":
-        scalar.set("variability", "tunable" if variable.is_tunable else "fixed")
-        scalar.set("initial", "exact")
-    elif variable.causality != "input":
-        if variable.is_discrete:
-            scalar.set("variability", "discrete")
-        scalar.set("initial", "calculated")
+    set_variability(scalar, variable, None)
     scalar.set("description", variable.description)
     of_unit = "Integer" if variable.is_integer else "Real"
     kind = SubElement(scalar, "Boolean" if variable.is_boolean else of_unit)
@@ -125,15 +105,9 @@ def _add_structure(
     starts: Mapping[str, tuple[str, ...]],
 ) -> None:
     structure = SubElement(root, "ModelStructure")
-    _add_unknowns(SubElement(structure, "Outputs"), of_outputs(variables), index)
+    lists = {"Outputs": of_outputs(variables)}
     if any(variable.is_state for variable in variables):
-        _add_unknowns(SubElement(structure, "Derivatives"), of_rates(variables), index)
-    initial = SubElement(structure, "InitialUnknowns")
-    _add_unknowns(initial, of_initial_unknowns(variables, starts), index)
-
-
-def _add_unknowns(element: Element, unknowns: Dependencies, index: Mapping[str, str]) -> None:
-    for name, sources in unknowns.items():
-        unknown = SubElement(element, "Unknown", index=index[name])
-        if sources is not None:
-            unknown.set("dependencies", " ".join(index[source] for source in sources))
+        lists["Derivatives"] = of_rates(variables)
+    lists["InitialUnknowns"] = of_initial_unknowns(variables, starts)
+    for name, unknowns in lists.items():
+        add_unknowns(SubElement(structure, name), "Unknown", "index", unknowns, index)

@@ -7,19 +7,19 @@ stand the time and the event indicators, which FMI 3 has for variables.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from xml.etree.ElementTree import Element, SubElement
 
 from cosim.fmu.description import (
-    AUTHOR,
-    COPYRIGHT,
-    LICENSE,
-    Dependencies,
     UnitFacts,
     add_common,
     add_units,
+    add_unknowns,
+    begun,
     of_initial_unknowns,
     of_outputs,
     of_rates,
+    set_variability,
+    written,
 )
 from cosim.fmu.variables import Variable, by_array
 
@@ -34,19 +34,7 @@ INDICATORS = {
 
 def fmi3_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
     """The whole file; without a date, so that builds repeat."""
-    root = Element(
-        "fmiModelDescription",
-        fmiVersion="3.0",
-        modelName=facts.name,
-        instantiationToken=facts.guid,
-        description=facts.description,
-        author=AUTHOR,
-        version=facts.version,
-        copyright=COPYRIGHT,
-        license=LICENSE,
-        generationTool=facts.tool,
-        variableNamingConvention="structured",
-    )
+    root = begun(facts, "3.0", "instantiationToken")
     _add_interfaces(root, facts)
     add_units(root, variables, more=["s"])  # of the time
     add_common(root)
@@ -59,7 +47,7 @@ def fmi3_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
         _add_variable(declared, elements, references)
     _add_time_and_indicators(declared, references, indicators)
     _add_structure(root, variables, references, facts, indicators)
-    return _written(root)
+    return written(root)
 
 
 def build_description(facts: UnitFacts) -> bytes:
@@ -70,13 +58,7 @@ def build_description(facts: UnitFacts) -> bytes:
     for name in facts.sources:
         SubElement(files, "SourceFile", name=name)
     SubElement(built, "Library", name="m")
-    return _written(root)
-
-
-def _written(root: Element) -> bytes:
-    indent(root)
-    found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
-    return found
+    return written(root)
 
 
 def _add_interfaces(root: Element, facts: UnitFacts) -> None:
@@ -118,12 +100,7 @@ def _add_variable(
         valueReference=references[first.name],
         causality=first.causality,
     )
-    if first.causality == "parameter":
-        variable.set("variability", "tunable" if first.is_tunable else "fixed")
-        variable.set("initial", "exact")
-    elif first.causality != "input":
-        variable.set("variability", "discrete" if first.is_discrete else "continuous")
-        variable.set("initial", "calculated")
+    set_variability(variable, first, "continuous")
     variable.set("description", first.description)
     for key in ("unit", "min", "max"):
         value = getattr(first, key)
@@ -177,17 +154,10 @@ def _add_structure(
     indicators: Mapping[str, str],
 ) -> None:
     structure = SubElement(root, "ModelStructure")
-    _add_unknowns(structure, "Output", of_outputs(variables), references)
-    _add_unknowns(structure, "ContinuousStateDerivative", of_rates(variables), references)
-    unknowns = of_initial_unknowns(variables, facts.starts)
-    _add_unknowns(structure, "InitialUnknown", unknowns, references)
-    _add_unknowns(structure, "EventIndicator", dict.fromkeys(indicators), references)
-
-
-def _add_unknowns(
-    structure: Element, kind: str, unknowns: Dependencies, references: Mapping[str, str]
-) -> None:
-    for name, sources in unknowns.items():
-        unknown = SubElement(structure, kind, valueReference=references[name])
-        if sources is not None:
-            unknown.set("dependencies", " ".join(references[source] for source in sources))
+    for kind, unknowns in (
+        ("Output", of_outputs(variables)),
+        ("ContinuousStateDerivative", of_rates(variables)),
+        ("InitialUnknown", of_initial_unknowns(variables, facts.starts)),
+        ("EventIndicator", dict.fromkeys(indicators)),
+    ):
+        add_unknowns(structure, kind, "valueReference", unknowns, references)

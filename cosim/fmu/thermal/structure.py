@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from xml.etree.ElementTree import Element, SubElement, indent, register_namespace, tostring
+from xml.etree.ElementTree import Element, SubElement, register_namespace
 
 from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.generation.platforms import PLATFORMS, Platform
@@ -20,7 +20,7 @@ from stickslip.units import UNITS
 from cosim.files import write_bytes
 from cosim.fmu import exchange, native
 from cosim.fmu.archive import packed
-from cosim.fmu.description import STOP_TIME
+from cosim.fmu.description import STOP_TIME, written
 from cosim.fmu.thermal import native_unit
 from cosim.fmu.thermal.variables import reduced
 from cosim.fmu.variables import Variable
@@ -69,7 +69,7 @@ def values(catalogue: Catalogue) -> bytes:
     for prefix, space in _NAMES.items():
         register_namespace(prefix, space)
     known = {each.name: each for each in exchange.variables(catalogue)}
-    return _text(_parameter_set(known, _changed(known), f"{MECHANICS}."))
+    return written(_parameter_set(known, _changed(known), f"{MECHANICS}."))
 
 
 def _changed(known: Mapping[str, Variable]) -> dict[str, float]:
@@ -81,12 +81,6 @@ def _changed(known: Mapping[str, Variable]) -> dict[str, float]:
     return {
         key: value for key, value in given.items() if key in known and known[key].start != value
     }
-
-
-def _text(root: Element) -> bytes:
-    indent(root)
-    found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
-    return found
 
 
 def description(catalogue: Catalogue) -> bytes:
@@ -116,7 +110,7 @@ def description(catalogue: Catalogue) -> bytes:
         SubElement(connections, _of("ssd", "Connection"), dict(facts))
     _add_units(SubElement(root, _of("ssd", "Units")), used)
     SubElement(root, _of("ssd", "DefaultExperiment"), startTime="0", stopTime=STOP_TIME)
-    return _text(root)
+    return written(root)
 
 
 def _of(space: str, name: str) -> str:
