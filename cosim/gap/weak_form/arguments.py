@@ -1,8 +1,7 @@
 """What friction and springs may depend on: one unknown curve for every argument.
 
 The runs decide on the argument, by the same evidence for all; which law the curve follows is asked
-afterwards. `CATALOGUE` are arguments that an effect stands for; where one of the others wins, what
-is missing is not in the catalogue.
+afterwards. Where one called `other.` wins, what is missing is not in the catalogue.
 """
 
 from __future__ import annotations
@@ -36,12 +35,6 @@ from cosim.gap.weak_form.constants import (
 from cosim.gap.weak_form.rig_unknowns import Level
 from cosim.gap.weak_form.rows import Response, RunRows
 from cosim.gap.weak_form.unknowns import Curve, Unknown, column
-
-#: Effects that are laws of an argument.
-CATALOGUE = (
-    "velocity_weakening", "film_drag", "structural_damping", "spring_hardening", "run_in",
-    "thermal_weakening", "load_dependence", "static_strengthening",
-)  # fmt: skip
 
 
 class Arguments:
