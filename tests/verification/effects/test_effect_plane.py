@@ -22,6 +22,7 @@ def turned_anchors(angle_deg: float, offset: float) -> np.ndarray:
 # case -> (parameters, the other model's laws)
 CASES = {
     "plain": ({}, {}),
+    "friction along x alone": ({"lateral_friction": {"ratio": 0.0}}, {"ratio": 0.0}),
     "lateral_friction": ({"lateral_friction": {"ratio": 0.4}}, {"ratio": 0.4}),
     "turning_surface": ({"turning_surface": {"curvature": -2.5}}, {"curvature": -2.5}),
     "film_drag": ({"film_drag": {"coefficient": 1.5}}, {"film": 1.5}),
