@@ -1,4 +1,4 @@
-"""The text of a kernel as a library of C, and which compiler there is."""
+"""Which C compiler there is; the text of a kernel as a library, and a host of units, by it."""
 
 from __future__ import annotations
 
@@ -12,6 +12,11 @@ from pathlib import Path
 from stickslip.compiled import Library, code, sources
 from stickslip.generation.platforms import this_machine
 
+from cosim.fmu.native import native_folder
+
+#: A program that runs instances of a unit in threads, see its own heading.
+HOST = Path(__file__).parents[2] / "interop" / "units" / "c_host" / "host.c"
+SANITIZERS = ("-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 WARNINGS = "-std=c99 -O2 -Wall -Wextra -Wpedantic -Wconversion -fsyntax-only"
 
 
@@ -21,6 +26,20 @@ def compiler() -> list[str]:
         if shutil.which(name):
             return [name]
     return [sys.executable, "-m", "ziglang", "cc"] if importlib.util.find_spec("ziglang") else []
+
+
+def compiled(*arguments, folder: Path | None = None) -> None:
+    """The compiler does it, and has nothing to say."""
+    command = [*compiler(), *map(str, arguments)]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and done.stderr == "", done.stderr
+
+
+def host_in(folder: Path, *options: str) -> Path:
+    """The host, compiled into a folder."""
+    program, headers = folder / "host", f"-I{native_folder() / 'headers'}"
+    compiled("-O1", "-g", *options, headers, HOST, "-o", program, "-ldl", "-lpthread")
+    return program
 
 
 def library(text: str, folder: Path) -> Library:

@@ -145,11 +145,6 @@ def test_fmuloader(fmu, expected):
     same(x_by("in_fmuloader.py", fmu), expected)
 
 
-def test_cofmupy(without_integers, expected):
-    needs("cofmupy")
-    same(x_by("in_cofmupy.py", without_integers), expected)
-
-
 def test_pathsim(without_integers, expected):
     needs("pathsim_fmi")
     same(x_by("in_pathsim.py", without_integers), expected)

@@ -10,36 +10,21 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from c_library import compiler
+from c_library import SANITIZERS, compiled, compiler, host_in
 from native_unit import library_of, references
 from plain_start import PLAIN
 from stickslip import Parameters, simulate
 
-from cosim.fmu.native import NAME, built_guid, native_folder
+from cosim.fmu.native import NAME, built_guid
 
-HOST = Path(__file__).with_name("host.c")
 # exact in binary, so that host and simulation speak of the same instants
 STEP = 0.0078125
 PLANAR = {**PLAIN, "lateral_friction.ratio": 1.0, "initial.phi": 0.05}
-SANITIZERS = "-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 pytestmark = [
     pytest.mark.skipif(sys.platform != "linux", reason="the host is written for Linux"),
     pytest.mark.skipif(not compiler(), reason="needs a C compiler"),
 ]
-
-
-def compiled(arguments, folder):
-    command = [*compiler(), *map(str, arguments)]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, check=False)
-    assert done.returncode == 0 and done.stderr == "", done.stderr
-
-
-def host_in(folder, *options):
-    program = folder / "host"
-    headers = f"-I{native_folder() / 'headers'}"
-    compiled(["-O1", "-g", *options, headers, HOST, "-o", program, "-ldl", "-lpthread"], folder)
-    return program
 
 
 @pytest.fixture(scope="module")
@@ -139,16 +124,15 @@ def test_the_library_shows_functions_of_fmi_alone(run):
 
 def test_sources_have_no_undefined_behaviour(run, sources, tmp_path):
     """The sanitizers of gcc, which end the process at the first finding."""
-    options = SANITIZERS.split()
-    tried = [*compiler(), *options, "-x", "c", "-", "-o", str(tmp_path / "tried")]
+    tried = [*compiler(), *SANITIZERS, "-x", "c", "-", "-o", str(tmp_path / "tried")]
     if subprocess.run(tried, input=b"int main(void){return 0;}", capture_output=True).returncode:
         pytest.skip("needs a compiler with sanitizers")
     library = tmp_path / "unit.so"
     written = sorted(sources.glob("*.c"))
     strict = ["-std=c99", "-ffp-contract=off", "-fPIC", "-shared"]
-    compiled([*options, *strict, "-o", library, *written, "-lm"], sources)
+    compiled(*SANITIZERS, *strict, "-o", library, *written, "-lm", folder=sources)
     # the host, since a library that brings its own runtime must be the first that is loaded
-    checked = Host([host_in(tmp_path, *options)], library, run.guid)
+    checked = Host([host_in(tmp_path, *SANITIZERS)], library, run.guid)
     assert checked(2000, **PLANAR) == run(2000, **PLANAR)
     assert checked(20, 4, 8) == run(20, 4, 8)
 
@@ -156,7 +140,7 @@ def test_sources_have_no_undefined_behaviour(run, sources, tmp_path):
 def test_sources_compile_without_a_warning(sources, tmp_path):
     strict = ["-std=c99", "-O1", "-fPIC", "-shared", "-Wall", "-Wextra", "-Wpedantic", "-Werror"]
     made = tmp_path / f"{NAME}.so"
-    compiled([*strict, "-o", made, *sorted(sources.glob("*.c")), "-lm"], sources)
+    compiled(*strict, "-o", made, *sorted(sources.glob("*.c")), "-lm", folder=sources)
     # A plain name of another library, as the C library's `step`, would be called instead of ours.
     plain = [name for name in shown(made) if not name.startswith(("fmi2", "stickslip_"))]
     assert all(name.isupper() or name == "find_contradiction" for name in plain)

@@ -15,6 +15,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from c_library import HOST
 from native_unit import references
 from plain_start import PLAIN
 from stickslip import Parameters, simulate
@@ -26,7 +27,6 @@ from cosim.fmu.build import NATIVE, THERMAL, FmuBuildError, build_fmu
 from cosim.fmu.thermal import native_unit
 from cosim.fmu.thermal.variables import reduced
 
-HOST = Path(__file__).with_name("host.c")
 (WINDOWS,) = (each for each in PLATFORMS if each.suffix == ".dll")
 MINGW = "x86_64-w64-mingw32-gcc"
 # exact in binary, so that host and simulation speak of the same instants

@@ -7,20 +7,15 @@ import sys
 import urllib.parse
 import zipfile
 from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_uint, c_void_p
-from pathlib import Path
 
 import pytest
 from c_instance import ERROR, OK
-from c_library import compiler
+from c_library import SANITIZERS, compiled, compiler, host_in
 from heat_instance import H
 from native_unit import MODEL_EXCHANGE, Unit, references
 
-from cosim.fmu.native import native_folder
 from cosim.fmu.thermal import native_unit, resources
 from cosim.fmu.thermal.variables import NAME, reduced
-
-HOST = Path(__file__).parents[1] / "c_host" / "host.c"
-SANITIZERS = "-g -O1 -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 # --- the native unit's sources and resources ---
 
@@ -172,15 +167,13 @@ def test_a_state_of_other_bytes_is_refused(library, place):
 @pytest.mark.skipif(not compiler(), reason="needs a C compiler")
 def test_a_host_in_c_finds_no_fault(native, place, tmp_path):
     """Sanitizers over sources and host: two threads of two instances, melting, states."""
-    options = [*SANITIZERS.split(), "-std=c99", "-Wall", "-Wextra", "-Werror"]
+    options = [*SANITIZERS, "-std=c99", "-Wall", "-Wextra", "-Werror"]
     with zipfile.ZipFile(native) as archive:
         archive.extractall(tmp_path, [n for n in archive.namelist() if n.startswith("sources/")])
     sources = sorted((tmp_path / "sources").glob("*.c"))
     library = tmp_path / "unit.so"
-    compiled([*options, "-fPIC", "-shared", *sources, "-o", library, "-lm"])
-    host = tmp_path / "host"
-    headers = f"-I{native_folder() / 'headers'}"
-    compiled([*SANITIZERS.split(), headers, HOST, "-o", host, "-ldl", "-lpthread"])
+    compiled(*options, "-fPIC", "-shared", *sources, "-o", library, "-lm")
+    host = host_in(tmp_path, *SANITIZERS)
     places = references(reduced())
     values = {"heat_flow": 20.0, "surface_speed": 0.5, "ambient.temperature_degC": -0.05}
     guid = native_unit.guid()
@@ -195,9 +188,3 @@ def test_a_host_in_c_finds_no_fault(native, place, tmp_path):
     assert done.returncode == 0, done.stderr
     melted = {float.fromhex(line) for line in done.stdout.split()}
     assert len(melted) == 1 and melted.pop() > 1e-5
-
-
-def compiled(arguments):
-    command = [*compiler(), *map(str, arguments)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 0 and done.stderr == "", done.stderr
