@@ -127,11 +127,6 @@ class FieldSeries:
         """The collection, the one file to open."""
         return collection(self.folder, self.name)
 
-    @property
-    def stretched_path(self) -> Path:
-        """The collection of the stretched view; the true one where nothing is stretched."""
-        return collection(self.folder, list(self._views)[-1])
-
     def _point_data(self) -> dict[str, Array]:
         """Arrays over all points, by names with units."""
         ambient = self._model.parameters.ambient.temperature_degC

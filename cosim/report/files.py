@@ -103,13 +103,6 @@ def require_room(path: Path, size: int, variables: int) -> None:
         os.posix_fallocate(file.fileno(), 0, _OVERHEAD + size + _A_VARIABLE * variables)
 
 
-def write_csv(dataset: xr.Dataset, path: Path) -> Path:
-    """Everything over ``time`` as a table; numbers with the digits that restore them exactly."""
-    names = [name for name in dataset.data_vars if dataset[name].dims == ("time",)]
-    table = dataset[names].to_dataframe()
-    return write_table(table, path)
-
-
 def write_table(table: pd.DataFrame, path: Path, index: bool = True) -> Path:
     """A table as CSV, of which a spreadsheet takes no name and no text for a formula."""
     texts = table.select_dtypes(exclude="number").map(no_formula)

@@ -17,7 +17,6 @@ from .kernel.layout import (
     STICK,
     TIME,
     U_FILM,
-    U_FORCE_Y,
     U_SIZE,
     U_SPEED,
     U_TEMPERATURE,
@@ -30,13 +29,10 @@ from .status import WHY_NOT
 STATE = ("x", "y", "phi", "vx", "vy", "omega")
 
 
-def inputs(
-    speed: float, temperature: float, film_thickness: float = 0.0, aside: float = 0.0
-) -> np.ndarray:
-    """``u`` of a surface's speed (m/s), an interface (degC, m) and a force along y (N)."""
+def inputs(speed: float, temperature: float, film_thickness: float = 0.0) -> np.ndarray:
+    """``u`` of a surface's speed (m/s) and an interface (degC, m)."""
     u = np.zeros(U_SIZE)
-    u[U_SPEED], u[U_TEMPERATURE] = speed, temperature
-    u[U_FILM], u[U_FORCE_Y] = film_thickness, aside
+    u[U_SPEED], u[U_TEMPERATURE], u[U_FILM] = speed, temperature, film_thickness
     return u
 
 
@@ -102,13 +98,6 @@ class RunArrays:
     def time(self) -> float:
         """s"""
         return float(self.z[self.layout.SHOWN + TIME])
-
-    @property
-    def instant(self) -> list[float]:
-        """What the run shows: an instant of the motion, see `kernel.layout`."""
-        begin = self.layout.SHOWN
-        shown: list[float] = np.asarray(self.z[begin : begin + self.layout.INSTANT]).tolist()
-        return shown
 
     @property
     def sticks(self) -> bool:

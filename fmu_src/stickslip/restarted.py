@@ -18,13 +18,8 @@ from .kernel.layout import (
     P_MU_K,
     P_MU_S,
     P_MU_SCALE,
-    R_SIZE,
     TRACKED,
-    U_FORCE_X,
 )
-
-#: An instant of the model's motion (see `kernel.layout`) -> external force along x, N.
-Force = Callable[[Sequence[float]], float]
 
 
 class Restarts(NamedTuple):
@@ -72,21 +67,14 @@ def simulate_restarted(
     temperature: float,
     times: np.ndarray,
     restarts: Restarts,
-    force: Force | None = None,
-    aside: float = 0.0,
-    catalogue: Catalogue = CATALOGUE,
 ) -> np.ndarray:
     """Outputs at ``times`` (n,), s, increasing: (n, O_SIZE), columns as `ports.OUTPUTS` slots.
 
     p : kernel vector of `packing.pack`; speed, m/s and temperature, degC: the inputs, constant.
-    Rows are NaN from where the model gave up to the next restart. force : from the model's own
-    state, constant from one time to the next: extrapolated to the middle of the interval, so that
-    the error is of second order in it. aside : constant external force along y, N. catalogue : of
-    ``p``.
+    Rows are NaN from where the model gave up to the next restart.
     """
-    run = _begin(p, inputs(speed, temperature, aside=aside), times, catalogue)
-    kernel = run.kernel
-    return _simulated(run, times, restarts, force, kernel.record_restarted, kernel.record, O_SIZE)
+    run = _begin(p, speed, temperature, times)
+    return _simulated(run, times, restarts, run.kernel.record_restarted, O_SIZE)
 
 
 def track_restarted(
@@ -95,58 +83,33 @@ def track_restarted(
     temperature: float,
     times: np.ndarray,
     restarts: Restarts,
-    force: Force | None = None,
-    aside: float = 0.0,
     catalogue: Catalogue = CATALOGUE,
 ) -> np.ndarray:
-    """As `simulate_restarted`, but x, y and phi alone, (n, 3): in four fifths of the time."""
-    run = _begin(p, inputs(speed, temperature, aside=aside), times, catalogue)
-    kernel = run.kernel
-    return _simulated(run, times, restarts, force, kernel.track_restarted, kernel.track, TRACKED)
+    """As `simulate_restarted`, but x, y and phi alone, (n, 3): in four fifths of the time.
+
+    catalogue : of ``p``.
+    """
+    run = _begin(p, speed, temperature, times, catalogue)
+    return _simulated(run, times, restarts, run.kernel.track_restarted, TRACKED)
 
 
-def _begin(p: Sequence[float], u: np.ndarray, times: np.ndarray, catalogue: Catalogue) -> RunArrays:
-    return RunArrays.begin(p, u, start=float(times[0]), catalogue=catalogue)
+def _begin(
+    p: Sequence[float],
+    speed: float,
+    temperature: float,
+    times: np.ndarray,
+    catalogue: Catalogue = CATALOGUE,
+) -> RunArrays:
+    return RunArrays.begin(
+        p, inputs(speed, temperature), start=float(times[0]), catalogue=catalogue
+    )
 
 
 def _simulated(
-    run: RunArrays,
-    times: np.ndarray,
-    restarts: Restarts,
-    force: Force | None,
-    restarted: Callable[..., None],
-    record: Callable[..., int],
-    width: int,
+    run: RunArrays, times: np.ndarray, restarts: Restarts, write: Callable[..., None], width: int
 ) -> np.ndarray:
-    """Rows (n, width) as ``restarted`` of the kernel writes them, or ``record`` under a force."""
+    """Rows (n, width) as ``write`` of the kernel writes them."""
     times = np.ascontiguousarray(times, dtype=float)
     o, r = np.full(width * len(times), np.nan), restarts.flat(run.p)
-    if force is None:
-        restarted(*run.all, times, o, len(times), r, len(restarts.rows))
-        return o.reshape(-1, width)
-    ends = [*restarts.rows[1:].tolist(), len(times)]
-    for number, rows in enumerate(zip(restarts.rows.tolist(), ends, strict=True)):
-        run.kernel.restart(*run.all, times, r, number * R_SIZE)
-        _record_forced(run, record, times, o, rows, force)
+    write(*run.all, times, o, len(times), r, len(restarts.rows))
     return o.reshape(-1, width)
-
-
-def _record_forced(
-    run: RunArrays,
-    record: Callable[..., int],
-    times: np.ndarray,
-    o: np.ndarray,
-    rows: tuple[int, int],
-    force: Force,
-) -> None:
-    """Row by row, each under the force that the row before has set."""
-    before, mode = None, None
-    for row in range(*rows):
-        if record(*run.all, times, o, row, 1) != 1:
-            break
-        now = run.u[U_FORCE_X] = force(run.instant)
-        if before is not None and mode == run.sticks and row + 1 < len(times):
-            growth = (now - before) / (times[row] - times[row - 1])
-            run.u[U_FORCE_X] += 0.5 * growth * (times[row + 1] - times[row])
-        before, mode = now, run.sticks
-    run.u[U_FORCE_X] = 0.0

@@ -68,11 +68,6 @@ class CoulombOscillator:
         return self.slip_time / self.period
 
     @property
-    def slip_ends_at(self) -> float:
-        """F_k/k - a, m."""
-        return self.centre - self.excess
-
-    @property
     def amplitude(self) -> float:
         """sqrt(a^2 + v^2/omega^2), m: the extremes of x are `centre` -+ this."""
         return math.hypot(self.excess, self.belt_speed / self.omega)

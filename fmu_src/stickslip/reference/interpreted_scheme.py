@@ -1,4 +1,4 @@
-"""The study's scheme without a compiler: strips in Python or numpy, `scipy.signal.lsim` per block.
+"""The study's scheme without a compiler: strips in Python, `scipy.signal.lsim` per block.
 
 What the scheme costs when it is written as a script: the measure for run times. `updated` solves
 anew every 10 ms with a hundred samples of friction; a treatment with constant springs needs one
@@ -14,6 +14,7 @@ import numpy as np
 from numpy.random import Generator
 from scipy import signal
 
+from .linearised import GRAVITY, Scheme
 from .scheme import INTERVAL, STEPS
 from .spring_angles import (
     ATTACHMENT_ANGLES,
@@ -21,9 +22,8 @@ from .spring_angles import (
     fixed_angles,
     stiffness_matrix,
 )
-from .strip_friction import STRIPS, strips
+from .strip_friction import STRIPS
 
-GRAVITY, LENGTH = 9.81, 0.20
 WHOLE_SLIP, WHOLE_SLIP_SAMPLES = 2.0, 200
 
 
@@ -46,15 +46,6 @@ def load_strip_by_strip(
     return load
 
 
-def load_strips_together(
-    samples: int, kinetic_force: float, scatter: float, rng: Generator
-) -> np.ndarray:
-    """Force and moment (samples, 2), all strips at once."""
-    shares, middles = strips(ATTACHMENT_RADIUS)
-    force = shares * (kinetic_force + scatter * rng.standard_normal((samples, STRIPS)))
-    return np.stack([force.sum(axis=1), -force @ middles], axis=1)
-
-
 def linear_system(mass: float, stiffness: float, alpha: np.ndarray) -> signal.StateSpace:
     """State x, y, phi, x', y', phi'; inputs force and moment; outputs the state."""
     inertia = mass * ATTACHMENT_RADIUS**2
@@ -65,31 +56,14 @@ def linear_system(mass: float, stiffness: float, alpha: np.ndarray) -> signal.St
     return signal.StateSpace(a, b, np.eye(6), np.zeros((6, 2)))
 
 
-def interpreted_run(
-    duration: float,
-    *,
-    treatment: str = "updated",
-    together: bool = False,
-    mass: float = 0.67,
-    stiffness: float = 20.17,
-    speed: float = 0.15,
-    mu_s: float = 0.2815,
-    mu_k: float = 0.2086,
-    scatter: float = 0.0,
-    radius_in_rise: bool = True,
-    stick_springs: int = 4,
-    seed: int = 0,
-) -> np.ndarray:
-    """Time, x, y, phi at every block or sample, (n, 4); starts at rest on the surface.
-
-    together: the strips by numpy; scatter: of mu_k. radius_in_rise False is fault F2,
-    stick_springs 1 is fault F1.
-    """
-    load = load_strips_together if together else load_strip_by_strip
-    rng = np.random.default_rng(seed)
-    weight = mass * GRAVITY
-    limit = mu_s * weight / (stick_springs * stiffness)
-    reach = ATTACHMENT_RADIUS if radius_in_rise else 1.0
+def interpreted_run(duration: float, scheme: Scheme) -> np.ndarray:
+    """Time, x, y, phi at every block or sample, (n, 4); starts at rest on the surface."""
+    rng = np.random.default_rng(0)
+    weight = scheme.mass * GRAVITY
+    friction = scheme.mu_k * weight, scheme.scatter * weight
+    limit, speed = scheme.mu_s * weight / (4 * scheme.stiffness), scheme.speed
+    updated = scheme.treatment == "updated"
+    length, samples = (INTERVAL, STEPS + 1) if updated else (WHOLE_SLIP, WHOLE_SLIP_SAMPLES)
     state, time, rows, sticking = np.zeros(6), 0.0, [], True
     while time < duration:
         if sticking:
@@ -99,12 +73,10 @@ def interpreted_run(
             rows.append([time, *state[:3]])
             sticking = state[0] + speed * INTERVAL < limit
             continue
-        updated = treatment == "updated"
-        alpha = _alpha(state[2], reach) if updated else fixed_angles(treatment)
-        length, samples = (INTERVAL, STEPS + 1) if updated else (WHOLE_SLIP, WHOLE_SLIP_SAMPLES)
+        alpha = _alpha(state[2], scheme) if updated else fixed_angles(scheme.treatment)
         times = np.linspace(0.0, length, samples)
-        forces = load(samples, mu_k * weight, scatter * weight, rng)
-        system = linear_system(mass, stiffness, alpha)
+        forces = load_strip_by_strip(samples, *friction, rng)
+        system = linear_system(scheme.mass, scheme.stiffness, alpha)
         states = signal.lsim(system, forces, times, state)[2]
         last = samples - 1 if updated else _first_at(states[:, 3], speed)
         rows += (
@@ -117,9 +89,9 @@ def interpreted_run(
     return np.array(rows)
 
 
-def _alpha(phi: float, reach: float) -> np.ndarray:
-    rise = reach * (np.sin(ATTACHMENT_ANGLES + phi) - np.sin(ATTACHMENT_ANGLES))
-    return np.arctan2(rise, LENGTH)
+def _alpha(phi: float, scheme: Scheme) -> np.ndarray:
+    rise = np.sin(ATTACHMENT_ANGLES + phi) - np.sin(ATTACHMENT_ANGLES)
+    return np.arctan2(ATTACHMENT_RADIUS * rise, scheme.spring_length)
 
 
 def _first_at(speeds: np.ndarray, speed: float) -> int:

@@ -40,22 +40,9 @@ def test_one_restart_is_the_plain_simulation(parameters, p):
 def test_places_alone_are_those_of_the_outputs(p):
     times = np.linspace(0.0, 3.0, 301)
     start = Restarts.at([0, 150], [state(0.01), state(0.02)])
-
-    def pull(block):
-        return -0.5 * block[layout.VX]
-
-    for force in (None, pull):
-        outputs = simulate_restarted(p, SPEED, COLD, times, start, force)
-        places = track_restarted(p, SPEED, COLD, times, start, force)
-        assert np.array_equal(places, outputs[:, O_X : O_X + 3])
-
-
-def test_a_force_aside_accelerates_the_block_across(p):
-    """Free of the contact across, over so short a time that the springs hardly answer."""
-    times, force = np.linspace(0.0, 0.02, 21), 0.3
-    outputs = simulate_restarted(p, SPEED, COLD, times, FROM_REST, aside=force)
-    y = outputs[:, O_X + 1]
-    assert y[-1] == pytest.approx(0.5 * force / p[layout.P_MASS] * times[-1] ** 2, rel=0.01)
+    outputs = simulate_restarted(p, SPEED, COLD, times, start)
+    places = track_restarted(p, SPEED, COLD, times, start)
+    assert np.array_equal(places, outputs[:, O_X : O_X + 3])
 
 
 def test_restarts_with_the_model_s_own_states_change_nothing(p):
@@ -105,23 +92,6 @@ def test_a_window_in_slip_slips_however_slow(creeping):
     outputs = simulate_restarted(creeping, SPEED, COLD, times, slow)
     assert outputs[99, O_MODE] == 0.0 and outputs[100, O_MODE] == 1.0
     assert outputs[100, O_VX] == SPEED - 5e-4
-
-
-def test_a_force_acts_on_a_stick_that_creeps_too(creeping, parameters):
-    """Any force that pulls with the springs makes it lag further; none tears the stick."""
-    times = np.linspace(0.0, 0.4, 401)
-    free = simulate_restarted(creeping, SPEED, COLD, times, CARRIED)
-    stiffer = 12.0  # N/m
-    pulled = simulate_restarted(
-        creeping, SPEED, COLD, times, CARRIED, lambda block: -stiffer * block[layout.X]
-    )
-    assert not pulled[:, O_MODE].any() and not free[:, O_MODE].any()
-    k = 4.0 * parameters.springs.stiffness
-    limit = creeping[layout.P_PRESLIDING]  # x' = V - c (k + stiffer) x
-    rates = limit * np.array([k, k + stiffer])
-    exact = [SPEED / rate * -np.expm1(-rate * times) for rate in rates]
-    springs_are_linear = 1e-6
-    assert np.abs(pulled[:, O_X] - free[:, O_X] - (exact[1] - exact[0])).max() < springs_are_linear
 
 
 @pytest.fixture(scope="module")

@@ -9,6 +9,7 @@ from statistics import median
 from typing import Any
 
 from stickslip.reference.interpreted_scheme import interpreted_run
+from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme_errors import PRINTED
 
 from ..cases import DATASET_1, scheme
@@ -25,8 +26,9 @@ KINDS = ("updated", "zero")
 def measured() -> dict[str, list[float]]:
     """Seconds of a run with updated angles and with angle zero: as a script, and compiled."""
     schemes = [scheme(DATASET_1, PRINTED, treatment=kind) for kind in KINDS]
+    plain = [Scheme(scatter=0.0, treatment=kind) for kind in KINDS]
     calls: dict[str, list[Callable[[], Any]]] = {
-        "script": [partial(interpreted_run, DURATION, treatment=kind) for kind in KINDS],
+        "script": [partial(interpreted_run, DURATION, one) for one in plain],
         "compiled": [partial(one.run, duration=WHOLE) for one in schemes],
     }
     return {
