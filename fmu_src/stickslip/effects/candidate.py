@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-
-#: Free parameters of the tracker, not of the model: where its zero lies.
-OFFSETS = ("offset.x", "offset.y")
+from dataclasses import dataclass, field
 
 #: Parts of a second harmonic in phase with the first and a quarter of its own period ahead: unlike
 #: amplitude and phase, which they are fitted for, they have a meaning where there is none of it.
@@ -16,24 +13,19 @@ SECOND = ("second_in_phase", "second_ahead")
 #: Friction across the motion is part of what turning surfaces and crooked springs show.
 ACROSS = {"lateral_friction.ratio": 1.0}
 
-#: Part of its usual start that a faint effect has.
-_FAINT = 0.1
-
 
 @dataclass(frozen=True)
 class FreeParameter:
-    """A number to be fitted: a parameter of the model or of the tracker, with its range.
+    """A number to be fitted: a parameter of the model, with its range.
 
     Attributes
     ----------
-    key : `table.parameter` of the model, one of OFFSETS (m), or of the drive
+    key : `table.parameter` of the model, or of the drive
     start : first guess
     step : change that is felt but small: scale of the fit and of its differences
     low, high : bounds
     per_run : its own value in every run (a phase), else one for the campaign
-    prior : standard deviation about ``start`` that is known beforehand, or None
     log : fitted on a logarithmic scale; ``step`` is then relative
-    plain_below : at ``low``, and beyond it, what it belongs to is a plain number by another name
     """
 
     key: str
@@ -42,9 +34,7 @@ class FreeParameter:
     low: float = -math.inf
     high: float = math.inf
     per_run: bool = False
-    prior: float | None = None
     log: bool = False
-    plain_below: bool = False
 
     def inside(self, value: float) -> float:
         """The nearest allowed value to ``value``, on the scale of the fit."""
@@ -60,11 +50,6 @@ class FreeParameter:
     def value(self, scaled: float) -> float:
         """From the scale of the fit to the parameter."""
         return math.exp(scaled * self.step) if self.log else scaled * self.step
-
-    @property
-    def is_strength(self) -> bool:
-        """Whether it says how much of an effect there is: it may be nothing."""
-        return not (self.log or self.per_run) and self.low <= 0.0 <= self.high
 
 
 @dataclass(frozen=True)
@@ -101,7 +86,6 @@ class Candidate:
     settings : parameters of the model that are set, not fitted
     lateral : it moves the block across the surface, or turns it
     periodic : key of the free parameter that needs a scan before a fit can start, or ""
-    grows : what a usual hold adds to mu_s for each unit of the first free parameter; 0: nothing
     """
 
     effect: str
@@ -110,49 +94,8 @@ class Candidate:
     settings: Mapping[str, float] = field(default_factory=dict)
     lateral: bool = False
     periodic: str = ""
-    grows: float = 0.0
-
-    def at(self, period: float, amplitude: float, step: float) -> Candidate:
-        """A periodic candidate that starts at a frequency, or wavelength, and an amplitude.
-
-        step : of the period's free parameter; one of more than the data resolve leads to a
-            neighbouring one
-        """
-        changes: dict[str, dict[str, float]] = {
-            self.periodic: {"start": period, "step": step},
-            f"{self.effect}.amplitude": {"start": amplitude},
-        }
-        free = tuple(
-            replace(each, **changes.get(each.key, {}))  # type: ignore[arg-type]  # floats alone
-            for each in self.free_parameters
-        )
-        return replace(self, free_parameters=free)
 
     @property
     def has_second(self) -> bool:
         """Whether it is periodic, but no sine."""
         return any(each.key.endswith(SECOND) for each in self.free_parameters)
-
-    @property
-    def can_be_faint(self) -> bool:
-        """Whether it can be all but absent: a start from which no fit is thrown off course."""
-        return not self.periodic and self.faint() != self
-
-    def faint(self) -> Candidate:
-        """The same law, starting as next to nothing."""
-        return self.times(_FAINT)
-
-    def times(self, part: float) -> Candidate:
-        """The same law, starting so many times as strong, as far as it may be."""
-        free = tuple(
-            replace(each, start=min(max(part * each.start, each.low), each.high))
-            if each.is_strength
-            else each
-            for each in self.free_parameters
-        )
-        return replace(self, free_parameters=free, grows=0.0)
-
-    @property
-    def size(self) -> int:
-        """Parameters of the campaign that it adds."""
-        return sum(not each.per_run for each in self.free_parameters)

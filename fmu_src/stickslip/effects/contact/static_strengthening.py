@@ -74,10 +74,6 @@ def static_growth(
     return growth
 
 
-#: A usual hold, s.
-_HOLD = 0.5
-
-
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Logarithmic at once or after an onset, saturating, a power; each loses its age in slip."""
     # nobody knows beforehand over how much slip, and break-aways hang on it
@@ -88,7 +84,6 @@ def candidates(s: Scales) -> Iterator[Candidate]:
         "logarithmic",
         (rate, lost),
         {"static_strengthening.hold_time": 0.01},
-        grows=2.0,
     )
     for time in (0.03, 0.5):
         onset = FreeParameter("static_strengthening.hold_time", time, 0.5, 1e-4, 30.0, log=True)
@@ -96,7 +91,6 @@ def candidates(s: Scales) -> Iterator[Candidate]:
             "static_strengthening",
             "logarithmic after an onset",
             (rate, onset, lost),
-            grows=log10(1.0 + _HOLD / time),
         )
     for time in (0.1, 0.5):
         yield Candidate(
@@ -112,22 +106,18 @@ def candidates(s: Scales) -> Iterator[Candidate]:
                     0.03,
                     30.0,
                     log=True,
-                    plain_below=True,
                 ),
                 lost,
             ),
-            grows=1.0,
         )
-    exponent = 0.3
     yield Candidate(
         "static_strengthening",
         "power",
         (
             FreeParameter("static_strengthening.power", 0.05, 0.03, 0.0, 5.0),
-            FreeParameter("static_strengthening.exponent", exponent, 0.15, 0.05, 1.0),
+            FreeParameter("static_strengthening.exponent", 0.3, 0.15, 0.05, 1.0),
             lost,
         ),
-        grows=_HOLD**exponent,
     )
 
 

@@ -105,7 +105,6 @@ def candidates(s: Scales) -> Iterator[Candidate]:
         0.1 * s.speed,
         1e2 * s.speed,
         log=True,
-        plain_below=True,
     )
     most = FreeParameter("film_drag.saturating", 2.0 * force, force, 0.0, 1e3 * force)
     yield Candidate("film_drag", "saturating", (most, knee))

@@ -118,7 +118,6 @@ def candidates(s: Scales) -> Iterator[Candidate]:
             0.1 * s.speed,
             1e2 * s.speed,
             log=True,
-            plain_below=True,
         )
         yield Candidate("velocity_weakening", "stribeck", (peak, speed))
     yield Candidate(
