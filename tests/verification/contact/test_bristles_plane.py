@@ -1,18 +1,8 @@
-"""Bristles of a disc in the plane: steady sliding, shear, any rig, and a stiff solver of scipy."""
-
-import random
+"""Bristles of a disc in the plane: steady sliding, shear, and a stiff solver of scipy."""
 
 import numpy as np
 import pytest
-from effect_cases import (
-    IDS,
-    assert_ledger_is_closed,
-    assert_looking_changes_nothing,
-    draw_parameters,
-    with_bristles,
-)
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from effect_cases import with_bristles
 from scipy.integrate import solve_ivp
 from stickslip import Parameters
 from stickslip.arrays import RunArrays
@@ -27,9 +17,6 @@ from stickslip.kernel.bristles.law import (
 from stickslip.kernel.friction.force import friction_in_slip
 
 GRAVITY = 9.81
-#: Effects that bristles cannot stand beside, or judge the stick of a rigid contact.
-NOT_BESIDE = ("rate_and_state", "stick_stiffness")
-BESIDE = tuple(effect for effect in IDS if effect not in NOT_BESIDE)
 
 
 def rig(kappa=1.0, **friction):
@@ -157,31 +144,3 @@ def test_the_plane_s_motion_is_that_of_a_stiff_solver():
     found, _ = places(np.array(p), u, times)
     turned = np.abs(scale * (found - exact)).max()
     assert 1e-9 < turned < 2e-6  # it did leave them out
-
-
-seeds = st.integers(0, 2**31)
-effects = st.lists(st.sampled_from(BESIDE), unique=True, max_size=2).map(tuple)
-distances = st.sampled_from([1e-5, 5e-5, 2e-4])
-
-
-def any_rig(seed, on, distance):
-    draw = random.Random(seed)
-    return with_bristles(
-        draw_parameters(on, draw),
-        distance,
-        10.0 ** draw.uniform(-3.0, -2.0),
-        draw.choice([1.0, draw.uniform(0.7, 3.0)]),
-        draw.uniform(0.1, 1.0),
-    )
-
-
-@settings(max_examples=30, deadline=None, derandomize=True)
-@given(seeds, effects, distances)
-def test_the_ledger_of_any_rig_is_closed(seed, on, distance):
-    assert_ledger_is_closed(any_rig(seed, on, distance), 2.0, 1e-6)
-
-
-@settings(max_examples=15, deadline=None, derandomize=True)
-@given(seeds, effects, distances)
-def test_when_anybody_looks_does_not_matter(seed, on, distance):
-    assert_looking_changes_nothing(any_rig(seed, on, distance), 1.0)

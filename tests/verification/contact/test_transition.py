@@ -4,19 +4,9 @@ mu(v) = mu_k + (mu_s - mu_k) exp(-(v / v_s)^p): a slip begins at rest with the f
 the block, grows by e in tau = m v_s / (N (mu_s - mu_k)), and ends where it comes to rest again.
 """
 
-import random
-
 import numpy as np
 import pytest
 from disc_integral import law_over_disc
-from effect_cases import (
-    BESIDE_CREEP,
-    assert_ledger_is_closed,
-    assert_looking_changes_nothing,
-    draw_parameters,
-)
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from stickslip import Parameters, friction_coefficient, simulate
 from stickslip.kernel.friction.force import friction_in_slip
@@ -202,33 +192,3 @@ def test_a_law_of_speed_and_state_has_no_mu_s_to_fall_from():
     for exponent in (0.4, 3.1):
         with pytest.raises(ValueError, match=r"friction.transition_exponent"):
             Parameters(friction={"transition_exponent": exponent})
-
-
-# Any rig.
-
-seeds = st.integers(0, 2**31)
-effects = st.lists(st.sampled_from(BESIDE_CREEP), unique=True, max_size=3).map(tuple)
-speeds = st.sampled_from([1e-4, 2e-3, 2e-2])
-
-
-def any_rig(seed, on, transition_speed):
-    draw = random.Random(seed)
-    parameters = draw_parameters(on, draw)
-    law = {
-        "transition_speed": transition_speed,
-        "transition_exponent": draw.choice([1.0, draw.uniform(0.7, 3.0)]),
-        "stick_creep": draw.choice([0.0, 1e-3]),
-    }
-    return parameters.model_copy(update={"friction": parameters.friction.model_copy(update=law)})
-
-
-@settings(max_examples=40, deadline=None, derandomize=True)
-@given(seeds, effects, speeds)
-def test_the_ledger_of_any_rig_is_closed(seed, on, transition_speed):
-    assert_ledger_is_closed(any_rig(seed, on, transition_speed), 3.0, 1e-12)
-
-
-@settings(max_examples=20, deadline=None, derandomize=True)
-@given(seeds, effects, speeds)
-def test_when_anybody_looks_does_not_matter(seed, on, transition_speed):
-    assert_looking_changes_nothing(any_rig(seed, on, transition_speed), 2.0)
