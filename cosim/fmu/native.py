@@ -35,6 +35,7 @@ from cosim.fmu.description.fmi3 import build_description, fmi3_description
 from cosim.fmu.exchange import INDICATORS, variables
 from cosim.fmu.extras import extras
 from cosim.fmu.libraries import FMI2, FMI3, Sources, of_platforms
+from cosim.fmu.variables import Variable
 
 NAME = "StickSlip3DOF"
 #: Version of FMI -> file.
@@ -126,25 +127,34 @@ def build(
     from cosim.fmu.description.documentation import documentation  # not for who only compiles
 
     facts, declared = _facts(fmi, catalogue), variables(catalogue)
-    files = {f"sources/{name}": content for name, content in _sources_of(fmi, catalogue).items()}
-    if fmi == FMI3:
-        files["modelDescription.xml"] = fmi3_description(facts, declared)
-        files["sources/buildDescription.xml"] = build_description(facts)
-    else:
-        files["modelDescription.xml"] = fmi2_description(facts, declared)
-    files |= documentation(facts, declared, fmi, catalogue) | extras(declared, fmi)
+    files = of_version(facts, declared, sources(catalogue), fmi)
+    files |= documentation(facts, declared, fmi, catalogue)
     files |= of_platforms(guid(catalogue), sources_of(catalogue), platforms, NAME, fmi)
     return write_bytes(packed(files), directory / FILES[fmi])
 
 
-def _sources_of(fmi: int, catalogue: Catalogue) -> dict[str, bytes]:
-    return of_version(sources(catalogue), fmi)
+def of_version(
+    facts: UnitFacts, declared: Sequence[Variable], files: Mapping[str, bytes], fmi: int
+) -> dict[str, bytes]:
+    """What any unit in C has in a version of FMI, of its sources: path in the unit -> content."""
+    found = {f"sources/{name}": content for name, content in sources_in(files, fmi).items()}
+    if fmi == FMI3:
+        found["modelDescription.xml"] = fmi3_description(facts, declared)
+        found["sources/buildDescription.xml"] = build_description(facts)
+    else:
+        found["modelDescription.xml"] = fmi2_description(facts, declared)
+    return found | extras(declared, fmi)
 
 
-def of_version(files: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
+def sources_in(files: Mapping[str, bytes], fmi: int) -> dict[str, bytes]:
     """Sources without the functions and headers of the other version of FMI."""
     other = f"fmi{FMI2 if fmi == FMI3 else FMI3}"
     return {name: content for name, content in files.items() if not name.startswith(other)}
+
+
+def compiled_in(files: Mapping[str, bytes], fmi: int) -> tuple[str, ...]:
+    """Names of the files of C that are compiled for a version of FMI."""
+    return tuple(sorted(name for name in sources_in(files, fmi) if name.endswith(".c")))
 
 
 def built_guid(fmu: Path) -> str | None:
@@ -167,5 +177,5 @@ def _facts(fmi: int, catalogue: Catalogue) -> UnitFacts:
         version=version("stickslip"),
         tool="stickslip",
         indicators=INDICATORS,
-        sources=tuple(sorted(name for name in _sources_of(fmi, catalogue) if name.endswith(".c"))),
+        sources=compiled_in(sources(catalogue), fmi),
     )

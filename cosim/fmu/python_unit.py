@@ -15,7 +15,6 @@ import json
 import pprint
 import re
 import zipfile
-import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
@@ -116,18 +115,6 @@ def hash_of(files: dict[str, bytes], table: list[Any]) -> str:
     digest.update(json.dumps(table, sort_keys=True).encode())
     digest.update(version("pythonfmu").encode())
     return digest.hexdigest()[:12]
-
-
-def built_hash(fmu: Path) -> str | None:
-    """The content hash that an FMU was built with; None when it is missing, damaged or another."""
-    try:
-        with zipfile.ZipFile(fmu) as archive:
-            if archive.testzip() is not None:
-                return None
-            module = archive.read("resources/slavemodule.txt").decode()
-    except (OSError, zipfile.BadZipFile, zlib.error, EOFError, KeyError, ValueError):
-        return None
-    return module.removeprefix(f"{MODULE}_") if module.startswith(f"{MODULE}_") else None
 
 
 @dataclass(frozen=True)

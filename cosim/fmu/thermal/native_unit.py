@@ -22,9 +22,6 @@ from cosim.files import write_bytes
 from cosim.fmu import c_tables, native
 from cosim.fmu.archive import digest_of, guid_of, packed
 from cosim.fmu.description import UnitFacts
-from cosim.fmu.description.fmi2 import fmi2_description
-from cosim.fmu.description.fmi3 import build_description, fmi3_description
-from cosim.fmu.extras import extras
 from cosim.fmu.libraries import FMI2, FMI3, of_platforms
 from cosim.fmu.thermal.variables import DESCRIPTION, NAME, STARTS, reduced
 from cosim.fmu.variables import Variable, names
@@ -124,21 +121,12 @@ def build_for(
     made = resources.reduction(parameters)
     declared = reduced(resources.starts(made))
     facts = _facts(fmi)
-    files = {f"sources/{name}": content for name, content in _sources_of(fmi).items()}
+    files = native.of_version(facts, declared, sources(), fmi)
     files[f"resources/{resources.FILE}"] = resources.packed(made)
-    if fmi == FMI3:
-        files["modelDescription.xml"] = fmi3_description(facts, declared)
-        files["sources/buildDescription.xml"] = build_description(facts)
-    else:
-        files["modelDescription.xml"] = fmi2_description(facts, declared)
     files["documentation/index.html"] = _documentation(made, declared, fmi)
-    files |= reference_run.of_heat(parameters, declared) | extras(declared, fmi)
+    files |= reference_run.of_heat(parameters, declared)
     files |= of_platforms(guid(), sources, platforms, NAME, fmi)
     return write_bytes(packed(files), target)
-
-
-def _sources_of(fmi: int) -> dict[str, bytes]:
-    return native.of_version(sources(), fmi)
 
 
 def _documentation(made: Reduction, declared: Sequence[Variable], fmi: int) -> bytes:
@@ -189,7 +177,7 @@ def _facts(fmi: int) -> UnitFacts:
         description=f"{DESCRIPTION}. Modes of the finite elements",
         version=version("stickslip"),
         tool="stickslip",
-        sources=tuple(sorted(name for name in _sources_of(fmi) if name.endswith(".c"))),
+        sources=native.compiled_in(sources(), fmi),
         interpolates=False,
         gives_rates=False,
         starts=STARTS,
