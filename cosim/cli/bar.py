@@ -23,6 +23,11 @@ class Bar(tqdm):  # type: ignore[type-arg]  # tqdm takes none when it runs
             how |= {"file": _Lines(sys.stderr), "ncols": 80, "miniters": 1, **seldom}
         super().__init__(*given, **{**how, **further})
 
+    def reach(self, done: int, total: int) -> None:
+        """So much is done of what may have grown or shrunk."""
+        self.total = total
+        self.update(done - self.n)
+
 
 class _Lines:
     """What a bar writes over itself, as lines of their own."""

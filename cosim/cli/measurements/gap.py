@@ -168,21 +168,13 @@ def _blocking(campaign: Campaign) -> list[str]:
 
 def _find(campaign: Campaign, seed: int, jobs: int, bar: Bar) -> Any:
     """Runs of which figures alone are known, and the study's own scheme, are searched otherwise."""
-
-    def progress(done: int, total: int) -> None:
-        bar.total = total
-        bar.update(done - bar.n)
-
-    def step(count: int) -> None:
-        bar.update(count)
-
     if _has_no_tracks(campaign):
         from cosim.studies.reproduction.summary import find_summary_gap
 
-        return find_summary_gap(campaign, seed=seed, jobs=jobs, step=step)
+        return find_summary_gap(campaign, seed=seed, jobs=jobs, step=bar.update)
     from cosim.gap.find import find_gap
 
-    return find_gap(campaign, jobs=jobs, progress=progress)
+    return find_gap(campaign, jobs=jobs, progress=bar.reach)
 
 
 def count(text: str) -> int:

@@ -81,13 +81,8 @@ def execute(arguments: Namespace) -> int:
     for remark in planned.campaign.remarks:
         note(remark)
     with Bar(unit="step") as bar:
-
-        def progress(done: int, total: int) -> None:
-            bar.total = total
-            bar.update(done - bar.n)
-
         answer = plan.make_plan(
-            planned, wanted=arguments.power, seed=arguments.seed, progress=progress
+            planned, wanted=arguments.power, seed=arguments.seed, progress=bar.reach
         )
     text = json_text(data.as_data(answer))
     made = made_by(campaign=str(Path(arguments.campaign).resolve()))

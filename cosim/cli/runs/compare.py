@@ -109,11 +109,7 @@ def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
     from cosim.report.compare import OneResult
 
     _ = scenario.catalogue.compiled
-    with progress_over(scenario.run.duration) as bar:
-
-        def show(reached: float) -> None:
-            bar(reached)
-
+    with progress_over(scenario.run.duration) as show:
         if coupled:
             from cosim.coupling.case import run_scenario
 

@@ -145,7 +145,7 @@ def is_removed(folder: Path, time: Iterable[float]) -> bool:
 
 
 @contextmanager
-def progress_over(duration: float) -> Iterator[Callable[[float], object]]:
+def progress_over(duration: float) -> Iterator[Callable[[float], None]]:
     """A bar over simulated time (s) on stderr, none when that is no terminal.
 
     Gives a function to be called with the time reached. What remains is by the mean speed since

@@ -221,15 +221,11 @@ def execute(arguments: Namespace) -> int:
     grid = empty_map(arguments.map, own) if arguments.map else None
     try:
         with Bar(total=len(wanted) + arguments.map**2, unit="case") as bar:
-
-            def show(count: int) -> None:
-                bar.update(count)
-
             if own is not None:
                 answer_all(study, wanted, arguments.jobs, lambda count: None)
-            work_off(study, wanted, arguments.jobs, show)
+            work_off(study, wanted, arguments.jobs, bar.update)
             if grid is not None:
-                fill_map(grid, wanted[0], arguments.jobs, show)
+                fill_map(grid, wanted[0], arguments.jobs, bar.update)
     except KeyboardInterrupt:
         print(
             f"error: interrupted; {len(study.rows)} of {len(wanted)} cases are kept in {folder}",

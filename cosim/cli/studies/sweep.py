@@ -7,8 +7,6 @@ import sys
 import time
 import tomllib
 from argparse import ArgumentParser, Namespace
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -127,14 +125,14 @@ def execute(arguments: Namespace) -> int:
     datasets = {}
     try:
         for group, grid in grids.items():
-            with _bar(len(grid)) as progress:
+            with Bar(total=len(grid), unit="run") as bar:
                 datasets[group] = run_grid(
                     grid,
                     run,
                     jobs=arguments.jobs,
                     dask=arguments.dask,
                     folder=folder,
-                    progress=progress,
+                    progress=bar.reach,
                 )
             datasets[group].attrs["scenario"] = scenario.to_toml()
     except (KeyboardInterrupt, SweepStopped) as stop:
@@ -195,18 +193,6 @@ def _is_coupled(grid: Grid) -> bool:
     from cosim.scenario import Scenario as Whole
 
     return isinstance(grid.base, Whole)
-
-
-@contextmanager
-def _bar(total: int) -> Iterator[Callable[[int, int], None]]:
-    """A bar over combinations on stderr."""
-    with Bar(total=total, unit="run") as bar:
-
-        def show(done: int, of: int) -> None:
-            bar.total = of
-            bar.update(done - bar.n)
-
-        yield show
 
 
 def _write(datasets: dict[str, xr.Dataset], folder: Path, asked: list[str], command: str) -> None:

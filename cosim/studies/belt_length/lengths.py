@@ -196,7 +196,7 @@ def empty_map(points: int, case: Case | None = None) -> DriftMap:
 
 
 def fill_map(
-    grid: DriftMap, case: Case, jobs: int, progress: Callable[[int], None] = lambda done: None
+    grid: DriftMap, case: Case, jobs: int, progress: Callable[[int], object] = lambda done: None
 ) -> None:
     """Drifts of a case on other belts, in `jobs` processes; what interrupts it leaves the rest."""
     belts = [(case.with_length(float(length)), grid.speeds) for length in grid.lengths]

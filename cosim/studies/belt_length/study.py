@@ -25,7 +25,7 @@ from .result import Options, Row, Study
 from .rigs import FEWEST_SAMPLES
 from .uncertainty import uncertainty
 
-Progress = Callable[[int], None]
+Progress = Callable[[int], object]
 #: In place of a number for h: that of a belt moving through still air.
 AIR = "air"
 #: Option -> field of a case, unit, above this or, where True follows, also this; at most that.
