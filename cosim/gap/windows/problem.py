@@ -8,10 +8,10 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from cosim.gap.data import Campaign, MeasuredRun
 
+from .descent import descend
 from .fitted import Fitted, Leeway
 from .numbers import Number, owners_of, unknowns_of
 from .run_fit import RunFit
@@ -19,10 +19,6 @@ from .run_model import RunModel
 from .start_states import Started
 from .windows import Windows
 
-#: A fit ends where a step changes the sum of squares by less than this part of it, and by as many
-#: times more as the mean square exceeds that of the noise, up to the second: there the model is not
-#: yet what it will be.
-SETTLED, COARSER = 1e-5, 10.0
 #: Most evaluations of a fit, and of one that only shows which start leads on.
 MOST_TRIES, FIRST_TRIES = 15, 6
 #: Gap up to which nothing is missing, and there is no other minimum to look for.
@@ -162,15 +158,10 @@ class Problem:
         """Down from one point, in so many tries."""
         if not self.unknowns:
             return self._point(at)
-        low = np.array([u.number.scaled(u.number.low) for u in self.unknowns])
-        high = np.array([u.number.scaled(u.number.high) for u in self.unknowns])
-        at = np.clip(at, low, high)
-        mean_square = float(np.mean(self.residuals(at) ** 2))
-        found = least_squares(
-            self.residuals, at, self.derivatives, bounds=(low, high), max_nfev=tries,
-            ftol=SETTLED * min(max(mean_square, 1.0), COARSER), xtol=SETTLED, gtol=None,
-        )  # fmt: skip
-        return self._point(found.x)
+        low = [u.number.scaled(u.number.low) for u in self.unknowns]
+        high = [u.number.scaled(u.number.high) for u in self.unknowns]
+        found = descend(self, np.clip(at, low, high), np.array(low), np.array(high), tries)
+        return self._point(found)
 
     def _fitted(self, at: np.ndarray) -> Fitted:
         derivatives = self.derivatives(at)

@@ -1,0 +1,81 @@
+"""Levenberg-Marquardt within bounds, on the normal equations of a few numbers."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+
+#: A fit ends where a step changes the sum of squares by less than this part of it, and by as many
+#: times more as the mean square exceeds that of the noise, up to the second: there the model is not
+#: yet what it will be.
+SETTLED, COARSER = 1e-5, 10.0
+#: Damping at first, least and most, in parts of the normal matrix's diagonal; factors by which it
+#: falls after a step that gains and grows after one that does not.
+DAMPING, LEAST, MOST, EASIER, HARDER = 1e-3, 1e-7, 1e5, 0.2, 6.0
+#: Longest step, in scales of the numbers: beyond it the derivatives say nothing.
+LONGEST = 10.0
+
+
+class Rows(Protocol):
+    """Residuals and their derivatives by the scaled numbers."""
+
+    def residuals(self, scaled: np.ndarray) -> np.ndarray:
+        """(m,)"""
+
+    def derivatives(self, scaled: np.ndarray) -> np.ndarray:
+        """(m, k) at the last point whose residuals were taken and kept."""
+
+
+def descend(
+    rows: Rows, at: np.ndarray, low: np.ndarray, high: np.ndarray, tries: int
+) -> np.ndarray:
+    """The least sum of squares nearby, in at most so many evaluations."""
+    off = rows.residuals(at)
+    cost, damping = float(off @ off), DAMPING
+    normal, slope = _normal(rows.derivatives(at), off)
+    for _ in range(tries):
+        step = _step(normal, slope, at, (low, high), damping)
+        gain = -float(2.0 * slope @ step + step @ normal @ step)
+        enough = SETTLED * min(max(cost / off.size, 1.0), COARSER)
+        if gain < enough * cost:
+            break
+        off = rows.residuals(at + step)
+        found = float(off @ off)
+        if not found < cost:
+            damping *= HARDER
+            if damping > MOST:
+                break
+            continue
+        at, last, cost = at + step, cost, found
+        damping = max(EASIER * damping, LEAST)
+        if last - cost < enough * last:
+            break
+        normal, slope = _normal(rows.derivatives(at), off)
+    return at
+
+
+def _normal(derivatives: np.ndarray, off: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    return derivatives.T @ derivatives, derivatives.T @ off
+
+
+def _step(
+    normal: np.ndarray, slope: np.ndarray, at: np.ndarray, bounds: tuple[np.ndarray, np.ndarray],
+    damping: float,
+) -> np.ndarray:  # fmt: skip
+    """Damped step; a number that would leave its bounds stops there, the others take note."""
+    least, most = bounds[0] - at, bounds[1] - at
+    step, is_free = np.zeros(at.size), np.ones(at.size, dtype=bool)
+    damped = normal + np.diag(damping * np.diag(normal) + 1e-12 * (np.diag(normal).max() + 1.0))
+    for _ in range(at.size):
+        if not is_free.any():
+            break
+        right = -slope[is_free] - damped[np.ix_(is_free, ~is_free)] @ step[~is_free]
+        step[is_free] = np.linalg.solve(damped[np.ix_(is_free, is_free)], right)
+        beyond = is_free & ((step < least) | (step > most))
+        if not beyond.any():
+            break
+        step = np.where(beyond, np.clip(step, least, most), step)
+        is_free &= ~beyond
+    step = np.clip(step, least, most)
+    return step * min(1.0, LONGEST / max(float(np.abs(step).max()), 1e-300))
