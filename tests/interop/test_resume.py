@@ -14,9 +14,9 @@ from kill_and_resume import SCENARIO, at_rows, begin, check_record, kill_and_res
 from cosim.coupling.record import load_checkpoint, save_checkpoint
 
 
-def refused(*arguments, ask=stickslip_here):
+def refused(*arguments):
     """Its one line."""
-    done = ask(".", *arguments)
+    done = stickslip_here(".", *arguments)
     assert done.returncode == 2, done.stderr
     (line,) = done.stderr.splitlines()
     return line
@@ -55,14 +55,10 @@ def test_the_folder_says_that_its_run_is_not_complete(killed):
     assert not (killed / "result.nc").exists()
 
 
-def test_another_version_or_unit_is_refused(copy):
-    change(copy, stickslip="0.0.1")
-    assert 'stickslip: was "0.0.1", is ' in refused("run", "--resume", copy)
-
-
-def test_another_unit_is_refused(copy):
-    change(copy, **{"GUID of mechanics": "{of another}"})
-    assert 'GUID of mechanics: was "{of another}", is ' in refused("run", "--resume", copy)
+@pytest.mark.parametrize("key, was", [("stickslip", "0.0.1"), ("GUID of mechanics", "{another}")])
+def test_another_version_or_unit_is_refused(copy, key, was):
+    change(copy, **{key: was})
+    assert f'{key}: was "{was}", is ' in refused("run", "--resume", copy)
 
 
 def test_another_case_is_refused(copy):
@@ -78,7 +74,7 @@ def test_a_record_that_is_gone_is_refused(copy):
 
 def test_nothing_to_go_on_with_is_refused(tmp_path):
     assert "holds no unfinished run" in refused("run", "--resume", tmp_path)
-    assert "no such folder" in refused("run", "--resume", tmp_path / "none", ask=stickslip)
+    assert "no such folder" in refused("run", "--resume", tmp_path / "none")
 
 
 @pytest.mark.parametrize(

@@ -1,13 +1,16 @@
-"""The same sweep on a real Dask cluster: two worker processes, one of them killed in mid-sweep."""
+"""Sweeps on a real Dask cluster: two worker processes, one of them killed in mid-sweep."""
 
+import json
 import os
 import signal
 import subprocess
 import sys
 from contextlib import ExitStack
+from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import stickslip
 from stickslip import Parameters
 
 from cosim.studies.sweep import SweepError, sweep
@@ -85,3 +88,38 @@ def test_no_scheduler_is_said_in_one_line(monkeypatch):
     monkeypatch.setattr("cosim.studies.sweep.workers.CONNECT_SECONDS", 0.5)
     with pytest.raises(SweepError, match=r"^dask: no scheduler answers at tcp://127.0.0.1:1 \(.*"):
         sweep(BASE, {"rig.mass": [0.5, 0.6]}, duration=1.0, dask="tcp://127.0.0.1:1")
+
+
+LAW = Path(__file__).resolve().parents[1] / "examples" / "effects" / "flash_heating.py"
+SCENARIO = """
+name = "flash"
+effects = ["law.py"]
+[rig]
+degrees_of_freedom = ["x"]
+[surface]
+run_up_time = 0.5
+[flash_heating]
+fall = 0.5
+onset = 0.1
+[run]
+duration = 2.0
+output_interval = 0.02
+"""
+
+
+def test_workers_elsewhere_have_a_custom_effect(cluster, tmp_path):
+    """Of its file, beside a scenario in a user's folder, they know nothing."""
+    user = tmp_path / "user"
+    user.mkdir()
+    (user / "law.py").write_text(LAW.read_text())
+    (user / "flash.toml").write_text(SCENARIO)
+    # two scenarios, so that whole ones travel
+    vary = ("--vary", "flash_heating.fall=0,0.4", "--vary", "rig.mass=0.5,0.7,0.9")
+    words = ("sweep", user / "flash.toml", *vary, "--json", "-o")
+    far = stickslip(tmp_path, *words, "far", "--dask", cluster[0])
+    near = stickslip(tmp_path, *words, "near", "--jobs", "1")
+    assert (far.returncode, near.returncode) == (0, 0), far.stderr + near.stderr
+    rows = [json.loads(one.stdout)["runs"] for one in (far, near)]
+    assert rows[0] == rows[1] and len(rows[0]) == 6
+    # the law acts: with it, friction falls
+    assert rows[0][0]["friction_coefficient"] > rows[0][3]["friction_coefficient"]
