@@ -14,7 +14,8 @@ FLAGS = ("--headless=new", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-u
 FINDINGS = """
 const done = arguments[arguments.length - 1];
 axe.run(document, {resultTypes: ["violations"]}).then((found) => done(found.violations.map(
-  (each) => [each.impact, each.id, each.nodes.map((node) => node.html.slice(0, 150))])));
+  (each) => [each.impact, each.id, each.nodes.map((node) => node.html.slice(0, 150))]
+).concat([["passed", found.passes.length, []]])));
 """
 #: Seconds that a page may take to do something; it takes milliseconds.
 PATIENCE = 20.0
@@ -27,7 +28,7 @@ class Browser:
         self.driver = driver
         self.width = WIDE
 
-    def open(self, path: Path, width: int = WIDE):
+    def resize(self, width: int):
         self.width = width
         self.command(
             "Emulation.setDeviceMetricsOverride",
@@ -36,6 +37,9 @@ class Browser:
             deviceScaleFactor=1,
             mobile=width == PHONE,
         )
+
+    def open(self, path: Path, width: int = WIDE):
+        self.resize(width)
         self.driver.get(path.as_uri())
 
     def command(self, name: str, **values):
@@ -75,12 +79,13 @@ class Browser:
         if not AXE.is_file():
             pytest.skip(f"no {AXE.relative_to(ROOT)}: npm install --no-save --prefix .npm axe-core")
         self.js(AXE.read_text(encoding="utf-8"))
-        found = self.driver.execute_async_script(FINDINGS)
+        *found, (_, passed, _) = self.driver.execute_async_script(FINDINGS)
+        assert passed > 5  # it has looked
         return [each for each in found if each[0] in ("serious", "critical")]
 
 
-def start() -> Browser:
-    """A browser; the test is skipped where there is none."""
+def start(*flags: str, downloads: Path | None = None) -> Browser:
+    """A browser with more flags; the test is skipped where there is none."""
     webdriver = pytest.importorskip("selenium.webdriver", reason="no selenium")
     program = shutil.which("chromium") or shutil.which("chromium-browser")
     driver = shutil.which("chromedriver")
@@ -88,8 +93,10 @@ def start() -> Browser:
         pytest.skip("no chromium with chromedriver: apt-get install chromium chromium-driver")
     options = webdriver.ChromeOptions()
     options.binary_location = program
-    for flag in FLAGS:
+    for flag in (*FLAGS, *flags):
         options.add_argument(flag)
+    if downloads is not None:
+        options.add_experimental_option("prefs", {"download.default_directory": str(downloads)})
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     service = webdriver.ChromeService(driver)
     return Browser(webdriver.Chrome(options=options, service=service))

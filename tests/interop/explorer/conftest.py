@@ -1,8 +1,7 @@
 """The explorer's page in a real browser."""
 
-import shutil
-
 import pytest
+from browser import start
 from explorer_page import Page
 from stickslip.generation.compiler import CompilerError
 
@@ -16,25 +15,14 @@ PATIENCE = 60.0
 @pytest.fixture(scope="session")
 def chromium(tmp_path_factory):
     """Chromium by Selenium, without a window; downloads go to ``driver.downloads``."""
-    webdriver = pytest.importorskip("selenium.webdriver", reason="needs selenium, from PyPI")
-    browser = shutil.which("chromium") or shutil.which("chromium-browser")
-    driver = shutil.which("chromedriver")
-    if browser is None or driver is None:
-        pytest.skip("needs chromium and its driver: apt-get install chromium chromium-driver")
     downloads = tmp_path_factory.mktemp("downloads")
-    options = webdriver.ChromeOptions()
-    options.binary_location = browser
-    for argument in ("headless=new", "no-sandbox", "disable-gpu", "window-size=1400,1000"):
-        options.add_argument(f"--{argument}")
     # a page that plays would draw for nobody all the time
-    options.add_argument("--force-prefers-reduced-motion")
-    options.add_experimental_option("prefs", {"download.default_directory": str(downloads)})
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    made = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
-    made.set_script_timeout(PATIENCE)
-    made.downloads = downloads
-    yield made
-    made.quit()
+    flags = "--window-size=1400,1000", "--force-prefers-reduced-motion"
+    driver = start(*flags, downloads=downloads).driver
+    driver.set_script_timeout(PATIENCE)
+    driver.downloads = downloads
+    yield driver
+    driver.quit()
 
 
 @pytest.fixture(scope="session")

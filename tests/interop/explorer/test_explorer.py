@@ -6,10 +6,10 @@ One file for all, so that one browser is started.
 import json
 import time
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
+from browser import PHONE, Browser
 from explorer_page import address_of
 from stickslip import EFFECTS, Parameters, simulate
 from stickslip.friction.law import friction_coefficient
@@ -345,36 +345,15 @@ def test_it_is_one_small_file(explorer_file):
     assert "http://" not in text and "https://" not in text and "src=" not in text
 
 
-SERIOUS = ("serious", "critical")
-
-
-#: As `.ci/run` installs it.
-AXE = Path(__file__).resolve().parents[3] / ".npm/node_modules/axe-core/axe.min.js"
-
-
-@pytest.mark.parametrize("width", [1400, 390])
+@pytest.mark.parametrize("width", [1400, PHONE])
 def test_no_serious_barrier(page, width):
     """axe-core, with all folds open; and on a phone nothing sticks out."""
-    if not AXE.is_file():
-        pytest.skip("needs axe-core: npm install --no-save --prefix .npm axe-core")
-    page.driver.execute_cdp_cmd(
-        "Emulation.setDeviceMetricsOverride",
-        {"width": width, "height": 800, "deviceScaleFactor": 1, "mobile": width < 500},
-    )
+    browser = Browser(page.driver)
+    browser.resize(width)
     try:
-        page.driver.refresh()
-        page.ended()
-        wide = page.tell("return document.documentElement.scrollWidth")
+        page.open()
+        assert browser.overhang() <= 0
         page.tell("document.querySelectorAll('details').forEach((each) => (each.open = true))")
-        page.tell(AXE.read_text(encoding="utf-8"))
-        found = page.driver.execute_async_script("axe.run().then(arguments[0])")
+        assert browser.barriers() == []
     finally:
-        page.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
-    assert wide <= width
-    barriers = {
-        each["id"]: [node["html"][:90] for node in each["nodes"][:3]]
-        for each in found["violations"]
-        if each["impact"] in SERIOUS
-    }
-    assert barriers == {}
-    assert len(found["passes"]) > 20  # it has looked
+        browser.command("Emulation.clearDeviceMetricsOverride")
