@@ -58,7 +58,7 @@ class Models:
     ladder: list[Rung] = field(default_factory=list)
     scatter: tuple[float, float, float] | None = None
     last: float | None = None
-    known: dict[frozenset, Fitted] = field(default_factory=dict)
+    known: dict[frozenset[object], Fitted] = field(default_factory=dict)
 
     @classmethod
     def fitted(
@@ -228,7 +228,9 @@ class Models:
         return felt
 
 
-def _same(numbers: Sequence[Number], settings: Mapping[str, float], scatter: float) -> frozenset:
+def _same(
+    numbers: Sequence[Number], settings: Mapping[str, float], scatter: float
+) -> frozenset[object]:
     """What tells one least-squares problem from another: a start alone does not."""
     terms = ((n.key, n.scope, n.low, n.high, n.prior and (n.start, n.prior)) for n in numbers)
     return frozenset([*terms, *settings.items(), scatter])

@@ -62,7 +62,7 @@ class RunArrays:
     @classmethod
     def begin(
         cls,
-        p: Sequence[float],
+        p: Sequence[float] | np.ndarray,
         u: Sequence[float] | np.ndarray,
         start: float = 0.0,
         events: int = 1,

@@ -62,7 +62,7 @@ class Restarts(NamedTuple):
 
 
 def simulate_restarted(
-    p: Sequence[float],
+    p: Sequence[float] | np.ndarray,
     speed: float,
     temperature: float,
     times: np.ndarray,
@@ -78,7 +78,7 @@ def simulate_restarted(
 
 
 def track_restarted(
-    p: Sequence[float],
+    p: Sequence[float] | np.ndarray,
     speed: float,
     temperature: float,
     times: np.ndarray,
@@ -94,7 +94,7 @@ def track_restarted(
 
 
 def _begin(
-    p: Sequence[float],
+    p: Sequence[float] | np.ndarray,
     speed: float,
     temperature: float,
     times: np.ndarray,

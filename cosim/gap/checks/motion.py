@@ -11,14 +11,13 @@ from scipy import stats
 from scipy.signal import savgol_filter
 
 from cosim.gap.data import Campaign, MeasuredRun
-from cosim.gap.data.units import swing
+from cosim.gap.data.units import cycle_of, swing
 from cosim.gap.result import Doubt
 from cosim.gap.weak_form.constants import CUBIC_REACH
 from cosim.gap.weak_form.rows import Response, rows_of
 from cosim.gap.windows.sticks import smoothed, sticks_of
 
 from .level import LEVEL, far
-from .units import cycle_of
 
 # Speed in stick.
 #: Part of the speed by which a contact that is sheared has the block swing past the surface.

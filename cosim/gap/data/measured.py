@@ -45,7 +45,7 @@ class Track:
         values = getattr(self, channel) if channel in CHANNELS else None
         if values is None:
             raise KeyError(channel)
-        return values
+        return np.asarray(values)
 
     @property
     def channels(self) -> tuple[str, ...]:

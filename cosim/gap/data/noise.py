@@ -70,7 +70,7 @@ def _third_differences(time: np.ndarray, values: np.ndarray) -> np.ndarray:
     weights = 1.0 / np.prod(apart, axis=1)
     weights /= np.linalg.norm(weights, axis=0)
     whole = np.max(np.diff(nodes, axis=0), axis=0) <= GAP * np.median(np.diff(time))
-    return np.sum(weights * samples, axis=0)[whole]
+    return np.asarray(np.sum(weights * samples, axis=0)[whole])
 
 
 def _huber_scale(values: np.ndarray) -> float:
@@ -87,7 +87,8 @@ def _huber_scale(values: np.ndarray) -> float:
         return math.sqrt(float(np.mean(np.minimum(size, HUBER * part) ** 2)) / CLIPPED)
 
     # it grows with its argument and is bounded, so that the plain iteration settles on any samples
-    return scale * float(fixed_point(better, 1.0, xtol=1e-9, maxiter=5000, method="iteration"))
+    settled = fixed_point(better, 1.0, xtol=1e-9, maxiter=5000, method="iteration")
+    return float(scale * settled)
 
 
 def with_noise(

@@ -184,14 +184,18 @@ def _along_curves(
         known["relaxation_time"] = unknown.settings.get("memory", memory)
         own, ends = candidate.free_parameters[0].key.rpartition(".")[2], _range(effect, candidate)
 
-        def sizes(
-            value: float, law=law, nodes=nodes, known=known, own=own, neutral=ends[0], unit=unit
-        ) -> np.ndarray:
-            there, nothing = (law(nodes, {**known, own: each}) for each in (value, neutral))
-            return np.asarray((there - nothing) / unit)
-
+        sizes = partial(_curve, law, nodes, known, own, ends[0], unit)
         part = unit / force if unknown.curve.per == "N" else 1.0
         yield Law(name, candidate, *ends, unknown, sizes, part, unit=_unit(effect, candidate))
+
+
+def _curve(
+    law: Callable[[np.ndarray, Mapping[str, float]], np.ndarray], nodes: np.ndarray,
+    known: Mapping[str, float], own: str, neutral: float, unit: float, value: float,
+) -> np.ndarray:  # fmt: skip
+    """(q,) what a law's own number makes of it beyond a neutral one, in units of its curve."""
+    there, nothing = (law(nodes, {**known, own: each}) for each in (value, neutral))
+    return np.asarray((there - nothing) / unit)
 
 
 def _waves(system: System, effect: Effect, candidate: Candidate) -> Iterator[Law]:

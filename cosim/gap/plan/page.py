@@ -14,6 +14,7 @@ from stickslip.quantity import details
 from cosim.files import write_bytes, write_text
 from cosim.gap.plan import data
 from cosim.gap.plan.plan import Plan
+from cosim.gap.plan.sizes import Size
 from cosim.report.page import number, render, unit_text
 from cosim.report.style import BLUE, INK, ORANGE, RED, logarithmic_x, panels, picture
 
@@ -56,11 +57,11 @@ def _next_run(plan: Plan) -> str:
     return plan.next_run.text[0].upper() + plan.next_run.text[1:]
 
 
-def _value(value: float | None, size: data.Size, never: str = "not seen") -> str:
+def _value(value: float | None, size: Size, never: str = "not seen") -> str:
     return data.value_text(value, size, never).replace("-", "−")
 
 
-def _at(size: data.Size) -> str:
+def _at(size: Size) -> str:
     """The law's other numbers at that size, such as the speed over which friction falls."""
     if size.law.wave:
         return f", {size.law.unknown.variant}"
@@ -115,11 +116,11 @@ def draw_sizes(plan: Plan) -> Figure:
     return figure
 
 
-def _name(size: data.Size, sizes: Sequence[data.Size]) -> str:
+def _name(size: Size, sizes: Sequence[Size]) -> str:
     """Its parameter, of a wave its length, and of two directions which."""
     law = size.law
     if law.wave:
         return f"{law.key}, {law.unknown.variant}"
     if sum(other.law.key == law.key for other in sizes) == 1:
-        return law.key
+        return str(law.key)
     return f"{law.key} {'>' if law.most > law.neutral else '<'} {law.neutral:g}"

@@ -125,7 +125,7 @@ def is_named(law: Law, offers: Offers) -> np.ndarray:
 
 def is_alone(law: Law, offers: Offers) -> np.ndarray:
     """(c,) by itself."""
-    return is_named(law, offers) & (offers.near.sum(axis=0) == 1)
+    return np.asarray(is_named(law, offers) & (offers.near.sum(axis=0) == 1))
 
 
 def sizes_of(design: Design, wanted: float, progress: Callable[[], object]) -> list[Size]:

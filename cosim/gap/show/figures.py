@@ -16,7 +16,17 @@ from cosim.gap.quantities import digits
 from cosim.gap.result import NINETY, Gap, Law
 from cosim.gap.windows import Fitted
 from cosim.report.live import Live, live_of
-from cosim.report.style import BLUE, GREY, INK, RED, logarithmic_x, panels, picture, readable
+from cosim.report.page import Picture
+from cosim.report.style import (
+    BLUE,
+    GREY,
+    INK,
+    RED,
+    logarithmic_x,
+    panels,
+    picture,
+    readable,
+)
 
 from .tracks import channels, channels_of, modelled, residuals, shown_runs, starts, title, worst
 
@@ -226,7 +236,7 @@ def _labelled(figure: Figure, axes: Any) -> Figure:
     return figure
 
 
-def figures_of(gap: Gap) -> dict[str, partial]:
+def figures_of(gap: Gap) -> dict[str, partial[Picture]]:
     """name -> what draws it, in the page's order."""
     first = {"ladder": draw_ladder, "curve": draw_laws, "run": draw_run}
     drawn = {

@@ -47,7 +47,7 @@ def as_data(gap: Gap, model: str) -> dict[str, Any]:
         "plain": _fitted(gap.plain),
         "extended": _fitted(gap.extended) | {"undetermined": sorted(undetermined(gap))},
     }
-    return tree(data)
+    return dict(tree(data))
 
 
 def ranked(row: Ranked) -> dict[str, Any]:

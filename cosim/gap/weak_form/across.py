@@ -148,8 +148,8 @@ class Course:
 def _within(values: np.ndarray, seen: np.ndarray | None, most: float) -> np.ndarray:
     """Cut off at the least and the largest that was seen; at -most and most where nothing was."""
     if seen is None:
-        return np.clip(values, -most, most)
-    return np.clip(values, np.min(seen), np.max(seen))
+        return np.asarray(np.clip(values, -most, most))
+    return np.asarray(np.clip(values, np.min(seen), np.max(seen)))
 
 
 def course(

@@ -87,7 +87,9 @@ def _balance(track: SmoothTrack) -> float:
     return float(np.median(force[slipping]))
 
 
-def _weighed(track: SmoothTrack, found: list) -> tuple[BreakAway, ...]:
+def _weighed(
+    track: SmoothTrack, found: list[tuple[int, float, float, float]]
+) -> tuple[BreakAway, ...]:
     """With their standard deviation: what they scatter by in this run, beyond a slow change."""
     if len(found) < 3:
         return ()

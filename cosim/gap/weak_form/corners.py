@@ -85,7 +85,7 @@ class CornerRows(RunRows):
         """(rows, q) of unit noise."""
         before = self.before.respond(response, unknowns)
         after = self.whitened(self._responded(response, unknowns), before)
-        return self.counted[:, None] * np.concatenate([before, after])
+        return np.asarray(self.counted[:, None] * np.concatenate([before, after]))
 
     def whitened(self, rows: np.ndarray, before: np.ndarray) -> np.ndarray:
         """(c, q) of unit noise, of what the rows before have not said."""
@@ -97,7 +97,7 @@ class CornerRows(RunRows):
     @property
     def _held(self) -> np.ndarray:
         """(c, 1) kg, by which the line's place counts."""
-        return -self.bend.sum(axis=1, keepdims=True)
+        return np.asarray(-self.bend.sum(axis=1, keepdims=True))
 
     def _responded(self, response: Response, unknowns: int) -> np.ndarray:
         rows = np.zeros((len(self.corners), unknowns))

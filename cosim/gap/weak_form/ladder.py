@@ -225,7 +225,7 @@ def price_of(name: str) -> float:
     return PRICE if name.startswith(("measurement.", "other.")) else 0.0
 
 
-def _least(found: Sequence) -> float:
+def _least(found: Sequence[object]) -> float:
     """ln of how much more probable a finding must make the rows; less of the first of all.
 
     Simulated runs are asked for that, too (`judge`).

@@ -23,7 +23,7 @@ def spring_loads(
     dx = bx + outward * np.cos(turned) - x - arm_x
     dy = by + outward * np.sin(turned) - y - arm_y
     pull = stiffness * (1.0 - rig.spring_natural_length / np.sqrt(dx * dx + dy * dy))
-    return np.sum([pull * dx, pull * dy, pull * (arm_x * dy - arm_y * dx)], axis=1)
+    return np.asarray(np.sum([pull * dx, pull * dy, pull * (arm_x * dy - arm_y * dx)], axis=1))
 
 
 def extensions(rig: Rig, x: np.ndarray) -> np.ndarray:
@@ -31,4 +31,4 @@ def extensions(rig: Rig, x: np.ndarray) -> np.ndarray:
     angles = np.deg2rad(rig.attachment_angles_deg)
     side = np.where(np.cos(angles) >= 0.0, 1.0, -1.0)
     stretched = rig.spring_length - rig.spring_natural_length
-    return stretched - side[:, None] * np.asarray(x)[None, :]
+    return np.asarray(stretched - side[:, None] * np.asarray(x)[None, :])

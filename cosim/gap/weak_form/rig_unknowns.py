@@ -7,6 +7,7 @@ switch, and the scatter of friction from run to run.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -149,7 +150,7 @@ def _static(run: RunRows, force: float) -> np.ndarray:
     return np.full((len(run.events), 1), force)
 
 
-def _springs(mass: float, stiffness: float):
+def _springs(mass: float, stiffness: float) -> Callable[[RunRows], Response]:
     def stiffer(run: RunRows) -> Response:
         on = float((run.track.run.mass, run.track.run.stiffness) == (mass, stiffness))
         held = column([-on * event.force for event in run.events])

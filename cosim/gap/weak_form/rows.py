@@ -72,7 +72,7 @@ class _Block:
         solved, info = dtbtrs(self.factor, rows, uplo="L")
         if info != 0:
             raise ArithmeticError(f"dtbtrs: {info}")
-        return solved.reshape(rows.shape)
+        return np.asarray(solved.reshape(rows.shape))
 
 
 @dataclass(frozen=True)
@@ -107,7 +107,7 @@ class RunRows:
         """(rows, q) of unit noise."""
         parts = [_slip_part(self.slip, response, unknowns, self.track)]
         parts += [_stick_part(self.stick, response, unknowns), self._static(response, unknowns)]
-        return self.counted[:, None] * np.concatenate(parts)
+        return np.asarray(self.counted[:, None] * np.concatenate(parts))
 
     def only(self, kind: int) -> RunRows:
         """The same, of which rows of one kind alone count."""
@@ -124,7 +124,7 @@ class RunRows:
             at = [event.at for event in self.events]
             sign = np.sign(self.track.run.surface_speed)
             rows = rows + sign * self.track.run.total_stiffness * response.place[at]
-        return rows / np.array([event.sd for event in self.events])[:, None]
+        return np.asarray(rows / np.array([event.sd for event in self.events])[:, None])
 
 
 def _slip_part(block: _Block, response: Response, unknowns: int, track: SmoothTrack) -> np.ndarray:

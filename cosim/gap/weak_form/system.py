@@ -192,12 +192,12 @@ class Rung:
     def weights(self) -> np.ndarray:
         """(h,) ln weight and determinant of each setting: with w'w / 2 its ln evidence."""
         lower = self._solved[0]
-        return self.settings[1] - np.log(np.einsum("hii->hi", lower)).sum(axis=1)
+        return np.asarray(self.settings[1] - np.log(np.einsum("hii->hi", lower)).sum(axis=1))
 
     @property
     def evidences(self) -> np.ndarray:
         """(h,) ln evidence of each setting, with its weight."""
-        return self._solved[2] + self.settings[1]
+        return np.asarray(self._solved[2] + self.settings[1])
 
     @property
     def evidence(self) -> float:
@@ -228,7 +228,7 @@ class Rung:
         option = self.beside((unknown,), factors_of(unknown, len(self.system.fitted)), SCALES_ASKED)
         w, right = self._solved[1][:, :, None], self.system.right([unknown])[:, None]
         values = option.offered(right, w, self.evidences[:, None])[:, 0]
-        return values.reshape(-1, len(SCALES_ASKED)).T - np.log(values.size)
+        return np.asarray(values.reshape(-1, len(SCALES_ASKED)).T - np.log(values.size))
 
     def beside(
         self, unknowns: Sequence[Unknown], factors: Sequence[np.ndarray], scales: Sequence[float]
@@ -255,7 +255,7 @@ class Rung:
     def residuals(self) -> np.ndarray:
         """(rows,) of the fitted runs, in units of the noise."""
         columns = np.hstack([self.system.columns(each.unknown) for each in self.unknowns])
-        return self.system.rows - columns @ self.posterior[0]
+        return np.asarray(self.system.rows - columns @ self.posterior[0])
 
     def left(self, run: RunRows) -> np.ndarray:
         """(rows,) residuals of a run that need not be among the fitted ones.

@@ -87,7 +87,7 @@ class SmoothTrack:
     def surface_place(self) -> np.ndarray:
         """(n,) place on the surface that lies under the block, m, from the start of the run."""
         travel = np.cumsum(self.surface_speed) - self.surface_speed[0]
-        return travel * self.interval - self.place
+        return np.asarray(travel * self.interval - self.place)
 
 
 def mask(stretches: tuple[tuple[int, int], ...], size: int) -> np.ndarray:
@@ -121,7 +121,7 @@ def smooth(
             return None
         raw, at = track[channel][present], track.time[present]
         raw = np.interp(at, at[np.isfinite(raw)], raw[np.isfinite(raw)])
-        return raw if samples is None else samples @ raw
+        return np.asarray(raw if samples is None else samples @ raw)
 
     x, y, phi = values("x"), values("y"), values("phi")
     assert x is not None  # every track has it

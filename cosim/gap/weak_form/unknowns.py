@@ -85,7 +85,7 @@ class Unknown:
     @property
     def size(self) -> int:
         """q"""
-        return self.prior.shape[0]
+        return int(self.prior.shape[0])
 
     def columns(self, runs: Sequence[RunRows]) -> np.ndarray:
         """(rows of all runs, unknowns)"""

@@ -152,7 +152,7 @@ class Problem:
             if label in values:
                 inside = min(max(values[label], number.low), number.high)
                 start[place] = number.scaled(inside)
-        return np.nan_to_num(start, neginf=0.0)
+        return np.asarray(np.nan_to_num(start, neginf=0.0))
 
     def _descended(self, at: np.ndarray, tries: int) -> Point:
         """Down from one point, in so many tries."""

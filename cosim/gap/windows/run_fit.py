@@ -113,7 +113,9 @@ class RunFit:
         moved = scaled.copy()
         step = STEP if number.value(scaled[i] + STEP) <= number.high else -STEP
         moved[i] += step
-        return (self.model.residuals(self.values(moved), at.states) - at.residuals) / step
+        return np.asarray(
+            (self.model.residuals(self.values(moved), at.states) - at.residuals) / step
+        )
 
     def retried(self, scaled: np.ndarray) -> bool:
         """Whether windows off course have found better states, which are then kept."""

@@ -141,7 +141,9 @@ class RunModel:
         p[layout.P_LONGEST_STICK] *= LONGER if is_uneven else LONGER_STICK
         return p
 
-    def track(self, values: Mapping[str, float], states: np.ndarray, p=None) -> np.ndarray:
+    def track(
+        self, values: Mapping[str, float], states: np.ndarray, p: np.ndarray | None = None
+    ) -> np.ndarray:
         """(n, 3) x, y, phi as the tracker reads them, at the data's times.
 
         states : (w, 6 + sticks) of the block itself; p : `packed` of the values
@@ -164,9 +166,11 @@ class RunModel:
         places = track_restarted(
             p, speed, temperature, time, restarts, catalogue=self.campaign.catalogue
         )
-        return seen(places, time, values) + self.zero(values)
+        return np.asarray(seen(places, time, values) + self.zero(values))
 
-    def residuals(self, values: Mapping[str, float], states: np.ndarray, p=None) -> np.ndarray:
+    def residuals(
+        self, values: Mapping[str, float], states: np.ndarray, p: np.ndarray | None = None
+    ) -> np.ndarray:
         """(rows,) model less data in units of the noise, no more than the whole motion; then how
         far the sticks' own friction is from 0 in units of its scatter."""
         model = self.track(values, states, p)[self.rows, self.axes]

@@ -80,7 +80,7 @@ class StartStates:
             moved[free[:, axis], axis] += self.steps[axis]
             columns[:, place] = self.model.residuals(values, moved, p) - at.residuals
         # windows without this axis feel nothing but what the model carried over from others
-        return columns * free[:, axes][self.model.owner]
+        return np.asarray(columns * free[:, axes][self.model.owner])
 
     def coordinates(self, columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """(w, a, m) least-squares coordinates of rows (size, m) along each window's columns."""
@@ -93,9 +93,11 @@ class StartStates:
     def normal_part(self, columns: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """(size, m) what of rows the windows' states cannot take up."""
         along = self.coordinates(columns, rows)[self.model.owner]
-        return rows - np.einsum("ra,ram->rm", columns, along)
+        return np.asarray(rows - np.einsum("ra,ram->rm", columns, along))
 
-    def stepped(self, values, at: Started, columns: np.ndarray, p: np.ndarray) -> Started:
+    def stepped(
+        self, values: Mapping[str, float], at: Started, columns: np.ndarray, p: np.ndarray
+    ) -> Started:
         """One Gauss-Newton step with these derivatives; of no window to a larger misfit."""
         axes = self.axes(values)
         move = self.coordinates(columns, at.residuals[:, None])[:, :, 0]
@@ -110,7 +112,7 @@ class StartStates:
         return at
 
     def settled(
-        self, values, at: Started, p: np.ndarray, rounds: int = ROUNDS,
+        self, values: Mapping[str, float], at: Started, p: np.ndarray, rounds: int = ROUNDS,
         columns: np.ndarray | None = None,
     ) -> Started:  # fmt: skip
         """The best states nearby. columns : derivatives there, where they are known"""
@@ -126,18 +128,20 @@ class StartStates:
         """Of the sum of squares, relative."""
         return 1.0 - float(np.sum(after.residuals**2) / max(np.sum(before.residuals**2), 1e-300))
 
-    def started(self, values, states: np.ndarray, p: np.ndarray) -> Started:
+    def started(self, values: Mapping[str, float], states: np.ndarray, p: np.ndarray) -> Started:
         """States and their residuals."""
         return Started(states, self.model.residuals(values, states, p))
 
-    def read_off(self, values) -> np.ndarray:
+    def read_off(self, values: Mapping[str, float]) -> np.ndarray:
         """(w, 6 + sticks) of the block, from the data."""
         states = np.zeros(self.of_block.shape)
         states[:, :6] = self.model.windows.states
         states[:, :3] -= self.model.zero(values)
         return states
 
-    def found(self, values, p: np.ndarray, near: np.ndarray | None = None) -> Started:
+    def found(
+        self, values: Mapping[str, float], p: np.ndarray, near: np.ndarray | None = None
+    ) -> Started:
         """The best states from those read off the data, or from those of a model nearby."""
         at = self.started(values, self.read_off(values), p)
         if near is not None:
@@ -145,7 +149,9 @@ class StartStates:
             at = self.better(at, self.started(values, there, p))
         return self.retried(values, self.settled(values, at, p), p, at_last=False)
 
-    def retried(self, values, at: Started, p: np.ndarray, at_last: bool = True) -> Started:
+    def retried(
+        self, values: Mapping[str, float], at: Started, p: np.ndarray, at_last: bool = True
+    ) -> Started:
         """Windows off course set out from a few other velocities; the very same if none gains."""
         mean = self.squares(at) / np.maximum(
             self.model.per_window(np.ones(self.model.owner.size)), 1.0
