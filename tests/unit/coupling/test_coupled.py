@@ -142,6 +142,13 @@ def model():
     return BeltIceModel(case().thermal)
 
 
+def started(model, observer=None):
+    part = ThermalParticipant(model, observer=observer)
+    part.enter_initialisation(0.0, 1.0)
+    part.exit_initialisation()
+    return part
+
+
 def test_a_participant_takes_differences_of_totals():
     part, direct = ThermalParticipant(model()), model()
     part.enter_initialisation(0.0, 1.0)
@@ -155,9 +162,7 @@ def test_a_participant_takes_differences_of_totals():
 
 
 def test_a_total_that_falls_by_rounding_is_made_up_for_and_one_that_falls_is_refused():
-    part = ThermalParticipant(model())
-    part.enter_initialisation(0.0, 1.0)
-    part.exit_initialisation()
+    part = started(model())
     for heat in (1.0, 1.0 - 1e-15, 1.5):
         part.write({"heat": heat})
         part.step(0.0, 0.1)
@@ -168,9 +173,7 @@ def test_a_total_that_falls_by_rounding_is_made_up_for_and_one_that_falls_is_ref
 
 
 def test_stick_is_no_movement_whatever_rounding_says():
-    part = ThermalParticipant(model())
-    part.enter_initialisation(0.0, 1.0)
-    part.exit_initialisation()
+    part = started(model())
     part.write({"heat": 1.0, "surface_travel": 0.3, "x": 0.1})
     part.step(0.0, 0.1)
     entry = part.read()["belt_entry_temperature"]
@@ -186,9 +189,7 @@ def test_stick_is_no_movement_whatever_rounding_says():
 
 def test_a_creep_far_below_a_millimetre_a_second_is_movement():
     """1 um in a step after 3 m of travel: a contact that creeps at 0.1 mm/s."""
-    part = ThermalParticipant(model())
-    part.enter_initialisation(0.0, 1.0)
-    part.exit_initialisation()
+    part = started(model())
     part.write({"surface_travel": 3.0, "x": 0.1})
     part.step(0.0, 0.1)
     at = part.model.contact_position
@@ -198,9 +199,7 @@ def test_a_creep_far_below_a_millimetre_a_second_is_movement():
 
 
 def test_a_participant_goes_back_and_on_bit_for_bit():
-    part = ThermalParticipant(model())
-    part.enter_initialisation(0.0, 1.0)
-    part.exit_initialisation()
+    part = started(model())
     part.write({"heat": 0.1, "surface_travel": 0.02})
     part.step(0.0, 0.1)
     state = part.get_state()
@@ -213,13 +212,6 @@ def test_a_participant_goes_back_and_on_bit_for_bit():
     assert outcomes[0] == outcomes[1]
     part.enter_initialisation(0.0, 1.0)
     assert part.read()["heat_received"] == 0.0
-
-
-def started(model):
-    part = ThermalParticipant(model)
-    part.enter_initialisation(0.0, 1.0)
-    part.exit_initialisation()
-    return part
 
 
 @pytest.mark.parametrize("warm", [False, True], ids=["cold", "melting"])
@@ -249,9 +241,7 @@ def test_a_participant_saved_goes_on_in_another_bit_for_bit(warm):
 
 def test_a_state_that_is_taken_back_is_in_no_picture():
     pictures = Snapshots(0.1)
-    part = ThermalParticipant(model(), observer=pictures)
-    part.enter_initialisation(0.0, 1.0)
-    part.exit_initialisation()
+    part = started(model(), pictures)
     part.observe()
     start = part.get_state()
     for heat in (9.0, 0.1):  # a first try, and the step that counts
