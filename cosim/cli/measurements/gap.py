@@ -9,7 +9,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
-from cosim.cli import DONE, FAILED
+from cosim.cli import DONE, Failed
 from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
@@ -112,30 +112,25 @@ def execute(arguments: Namespace) -> int:
             text = files.write_data(gap, folder / RESULT, folder / MODEL)
             corrected = files.write_corrected(gap, folder)
         asked.give(text)
-        status = _shown(files, gap, folder, corrected, arguments)
-        results.complete = status == DONE
-    return status
+        _show(files, gap, folder, corrected, arguments)
+        results.complete = True
+    return DONE
 
 
-def _shown(
+def _show(
     files: ModuleType, gap: Any, folder: Path, corrected: list[Path], arguments: Namespace
-) -> int:
+) -> None:
     """Figures and page where they are wanted, then the closing lines."""
     try:
         if not arguments.no_page:
             with Bar(unit="figure", total=len(files.drawers(gap))) as bar:
                 files.write_page(gap, folder, folder / PAGE, bar.update, corrected)
     except KeyboardInterrupt:
-        print(
-            f"error: interrupted while drawing; {RESULT} and {MODEL} are in {folder}",
-            file=sys.stderr,
-        )
-        return FAILED
+        raise Failed(f"interrupted while drawing; {RESULT} and {MODEL} are in {folder}") from None
     names = [str(folder / name) for name in (PAGE, MODEL, RESULT)[arguments.no_page :]]
     names += map(str, corrected[:1])
     lines = [*files.closing_lines(gap), f"  files      {', '.join(names)}"]
     print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
-    return DONE
 
 
 def packaged_campaigns() -> list[str]:

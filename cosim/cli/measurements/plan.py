@@ -8,7 +8,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from cosim.cli import DONE, FAILED
+from cosim.cli import DONE, Failed
 from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
@@ -90,12 +90,12 @@ def execute(arguments: Namespace) -> int:
         with held_interrupts():
             write_text(text, folder / RESULT)
         asked.give(text)
-        status = _shown(answer, data.closing_lines(answer), folder, arguments)
-        results.complete = status == DONE
-    return status
+        _show(answer, data.closing_lines(answer), folder, arguments)
+        results.complete = True
+    return DONE
 
 
-def _shown(answer: Any, lines: list[str], folder: Path, arguments: Namespace) -> int:
+def _show(answer: Any, lines: list[str], folder: Path, arguments: Namespace) -> None:
     """Figures and page where they are wanted, then the closing lines."""
     try:
         if not arguments.no_page:
@@ -103,12 +103,10 @@ def _shown(answer: Any, lines: list[str], folder: Path, arguments: Namespace) ->
                 page = import_module("cosim.gap.plan.page")
             page.write_page(answer, folder, folder / PAGE)
     except KeyboardInterrupt:
-        print(f"error: interrupted while drawing; {RESULT} is in {folder}", file=sys.stderr)
-        return FAILED
+        raise Failed(f"interrupted while drawing; {RESULT} is in {folder}") from None
     names = [str(folder / name) for name in (PAGE, RESULT)[arguments.no_page :]]
     lines = [*lines, f"  files: {', '.join(names)}"]
     print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
-    return DONE
 
 
 def _chance(text: str) -> float:

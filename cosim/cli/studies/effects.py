@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-import sys
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cosim.cli import DONE, FAILED
+from cosim.cli import DONE, Failed
 from cosim.cli.arguments import add_force, add_json, add_output
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
@@ -54,9 +53,8 @@ def execute(arguments: Namespace) -> int:
         names = (RESULT, PAGE, *(f"{entry['id']}.png" for entry in entries))
         writable(folder, names)
         with results_in(folder, made_by(), names, arguments.force) as results:
-            results.complete = _write(entries, told, folder)
-        if not results.complete:
-            return FAILED
+            _write(entries, told, folder)
+            results.complete = True
     if not asked.give(json.dumps(entries, indent=1)):
         for entry in entries:
             _print(entry)
@@ -78,8 +76,8 @@ def _print(entry: dict[str, Any]) -> None:
         print(f"        {parameter['description']}")
 
 
-def _write(entries: list[dict[str, Any]], told: list[Entry], folder: Path) -> bool:
-    """Figures, then the page of all of them; whether it got so far."""
+def _write(entries: list[dict[str, Any]], told: list[Entry], folder: Path) -> None:
+    """Figures, then the page of all of them."""
     with held_interrupts():
         from cosim.studies.effects.page import effect_figure, page
 
@@ -93,9 +91,6 @@ def _write(entries: list[dict[str, Any]], told: list[Entry], folder: Path) -> bo
         write_text(json.dumps(entries, indent=1), folder / RESULT)
         write_text(page(told, pictures), folder / PAGE)
     except KeyboardInterrupt:
-        print(
-            f"error: interrupted; {len(pictures)} of {len(entries)} figures are in {folder}",
-            file=sys.stderr,
-        )
-        return False
-    return True
+        raise Failed(
+            f"interrupted; {len(pictures)} of {len(entries)} figures are in {folder}"
+        ) from None
