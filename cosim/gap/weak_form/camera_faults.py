@@ -39,7 +39,7 @@ from scipy.interpolate import CubicSpline
 from scipy.special import ndtr
 
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.constants import FAULT_SIZES, FILTER_WIDTHS, LATENCIES, MOST_LEAN
+from cosim.gap.weak_form.constants import FAULT_SIZES, FILTER_WIDTHS, LATENCIES, LONGER, MOST_LEAN
 from cosim.gap.weak_form.corners import CornerResponse, CornerRows
 from cosim.gap.weak_form.rig_unknowns import Level
 from cosim.gap.weak_form.rows import Response, RunRows
@@ -129,10 +129,25 @@ def drift(course: str) -> Respond:
 
 
 def latencies(rung: Rung) -> list[Unknown]:
-    """Every delay in all runs; that which the rows prefer in some."""
-    forms = [_fault("latency", latency(delay)) for size in LATENCIES for delay in (size, -size)]
-    best = max(forms, key=lambda form: rung.offered([replace(form, per_run=True)])[0])
-    return [one for form in forms for one in _among(rung, form, in_some=form is best)]
+    """Delays in all runs, and in some, each about as long as it is asked for.
+
+    Of a short one there may be less, it is in proportion.
+    """
+    delays = [sign * size for size in LATENCIES for sign in (1.0, -1.0)]
+    forms = {delay: _fault("latency", latency(delay)) for delay in delays}
+    best = max(delays, key=lambda one: rung.offered([replace(forms[one], per_run=True)])[0])
+    found = [(delay, one) for delay in delays for one in _among(rung, forms[delay], False)]
+    for one in _among(rung, forms[best])[1:]:
+        size = _sizes(rung, one)[0][0]
+        near = min(delays, key=lambda delay: abs(delay - size))
+        names = frozenset(key.removeprefix("in@") for key, part in one.settings.items() if part)
+        found.append((near, replace(one, respond=_within(latency(near), names))))
+
+    def holds(delay: float, unknown: Unknown) -> bool:
+        part = _sizes(rung, unknown)[0][0] / delay
+        return part < LONGER and (part > 1.0 / LONGER or abs(delay) == LATENCIES[0])
+
+    return [one for delay, one in found if holds(delay, one)]
 
 
 def latency(delay: float) -> Respond:

@@ -195,10 +195,10 @@ FAULT_SIZES = {
 #: sees, up to some frames of 30 a second; their squares lie apart by less than a scale asked for.
 FILTER_WIDTHS = (0.007, 0.012, 0.02, 0.035, 0.06)
 
-#: Delays over 0.1 m for which a slow chip is asked, s: a delay is off by a fifth of itself at most,
-#: and what it does beyond its own proportion by a fifth of that. The most by which it may bring
-#: samples together, a part of their interval.
-LATENCIES, MOST_LEAN = (0.01, 0.015, 0.023, 0.035, 0.053, 0.08), 0.9
+#: Delays over 0.1 m for which a slow chip is asked, s: one is off by a fifth of itself at most, and
+#: what it does beyond its own proportion by a fifth of that; how many times as long as asked it may
+#: be found. The most by which it may bring samples together, a part of their interval.
+LATENCIES, LONGER, MOST_LEAN = (0.01, 0.015, 0.023, 0.035, 0.053, 0.08), 2.0, 0.9
 
 # What cannot be told apart.
 #: ln of a Bayes factor below which two explanations are not told apart: 20 to 1 (Kass & Raftery,
