@@ -168,12 +168,14 @@ def leaning(time: np.ndarray, x: np.ndarray, delay: float) -> np.ndarray:
     What a camera of the delay c sees of a motion is this with -c, the motion from what it saw with
     c. Where times would not grow, the delay is as long as they do.
     """
-    lean = time + delay * x / ACROSS
-    steps = np.diff(time)
-    most = float(np.max(-np.diff(lean - time) / steps, initial=0.0))
-    if most > MOST_LEAN:
-        lean = time + MOST_LEAN / most * (lean - time)
-    return np.asarray(CubicSpline(lean, x)(time))
+    there = np.isfinite(x)  # a model may be lost
+    if there.sum() < 2:
+        return x
+    places, seen, late = np.full(x.shape, np.nan), time[there], delay * x[there] / ACROSS
+    most = float(np.max(-np.diff(late) / np.diff(seen)))
+    lean = seen + late * min(1.0, MOST_LEAN / max(most, 1e-300))
+    places[there] = CubicSpline(lean, x[there])(seen)
+    return places
 
 
 def zero(run: RunRows) -> Response:

@@ -240,6 +240,19 @@ def test_a_long_delay_is_taken_whole(tmp_path):
     assert made.rung([added]).misfit < 0.01 * rung.misfit
 
 
+@pytest.mark.parametrize("lost", [slice(100, None), slice(0, None), slice(1, None)])
+def test_where_a_model_is_lost_nothing_is_seen(lost):
+    """The rest is as it was."""
+    t, x = path(0.2, 0.87)
+    moved = np.array(x)
+    moved[lost] = np.nan
+    late = leaning(t, moved, -0.02)
+    assert (np.isnan(late) == np.isnan(moved)).all()
+    np.testing.assert_allclose(
+        late[:80], np.where(np.isnan(moved), np.nan, leaning(t, x, -0.02))[:80]
+    )
+
+
 def test_a_filter_in_some_runs_is_told_where_rounded_swings_ask_for_something_else(tmp_path):
     """A long filter reaches into the slips, where a clock of a run stands for some of it."""
     naming = Naming.of(system(tmp_path, "smoothing", 0.04, among=(0, 3)).campaign)
