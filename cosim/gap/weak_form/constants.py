@@ -109,6 +109,8 @@ SHORTEST_WAVE = 2.0
 #: Most wavenumbers of a scan times samples of a run, for the sake of memory: long records of fast
 #: swings are scanned for long waves alone.
 MOST_WAVES = 1e7
+#: Least part of a step by which a wave is moved: what is left then gains next to nothing.
+LEAST_STEP = 0.05
 #: Peaks of the scan that are fitted as one shape.
 WAVES_FITTED = 3
 
@@ -125,7 +127,7 @@ LEAST_GAIN = 6.0
 PRICE = 3.0
 #: A further finding counts from this part of what is missing at first (root mean square): what is
 #: smaller may be what smoothed arguments and the nodes of the first one's curve leave.
-LEAST_PART = 0.08
+LEAST_PART = 0.12
 #: More findings than these are no explanation.
 MOST_FINDINGS = 3
 

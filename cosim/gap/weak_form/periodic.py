@@ -20,6 +20,7 @@ from cosim.gap.weak_form.constants import (
     ALIGNED,
     ALIKE,
     HARMONICS,
+    LEAST_STEP,
     MOST_WAVES,
     PHASES_TRIED,
     ROUNDS,
@@ -182,34 +183,72 @@ def _scan(rung: Rung, kind: Periodic) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float, tuple[Added, ...]]:
-    """ln evidence with a wave of one shape, and its unknowns: shape, phases, wavenumber, speeds."""
+    """ln evidence with a wave of one shape, and its unknowns: shape, phases, wavenumber, speeds.
+
+    Linear in all that moves it, it is moved by as much of that as makes it more probable: a longer
+    wave on faster surfaces is nearly the same one, and whole steps would run away.
+    """
     runs, one = rung.system.fitted, np.array([wavenumber])
     speeds = speeds_of(rung, kind)
-    wave = Wave(kind, wavenumber, {
-        run.track.run.name: float(_Waves.of(run, kind, one).fitted(rung.left(run))[1][0])
-        for run in runs
-    }, {name: mean for name, (mean, _) in speeds.items()})  # fmt: skip
-    rounds: list[tuple[float, tuple[Added, ...]]] = []
-    for number in range(ROUNDS):
+    phases = {run.track.run.name: float(_Waves.of(run, kind, one).fitted(rung.left(run))[1][0])
+              for run in runs}  # fmt: skip
+    faster = {name: mean for name, (mean, _) in speeds.items()}
+    found = _Fit.of(rung, Wave(kind, wavenumber, phases, faster), speeds)
+    other = _Fit.of(rung, _realigned(rung, found.wave, found.sizes, speeds), speeds)
+    found = max(found, other, key=lambda fit: fit.evidence)
+    part = 1.0
+    for _ in range(2 * ROUNDS if found.with_moves > rung.evidence else 0):
+        other = _Fit.of(rung, found.moved(part), speeds)
+        gain = other.evidence - found.evidence
+        part = min(2.0 * part, 1.0) if gain > 0.0 else part / 3.0
+        found = other if gain > 0.0 else found
+        if 0.0 < gain < 0.1 * ALIKE or part < LEAST_STEP:
+            break
+    return found.with_moves, found.added
+
+
+@dataclass(frozen=True)
+class _Fit:
+    """A wave in the rows of a rung.
+
+    evidence : ln, with its shape alone; with_moves : as well with what moves it; added : both;
+    sizes : of its shape; turns, more, ahead : by how much phases, wavenumber and speeds would move
+    """
+
+    wave: Wave
+    evidence: float
+    with_moves: float
+    added: tuple[Added, ...]
+    sizes: np.ndarray
+    turns: np.ndarray
+    more: float
+    ahead: np.ndarray
+
+    @classmethod
+    def of(cls, rung: Rung, wave: Wave, speeds: Mapping[str, tuple[float, float]]) -> _Fit:
         _, shape = rung.offered([wave.shape()])
         here = rung.system.rung([*rung.added, shape], *rung.kinds)
-        mean = here.posterior[0][here.part_of(shape)]
-        moves = [Added(each) for each in wave.moves(mean, runs, speeds)]
+        sizes = here.posterior[0][here.part_of(shape)]
+        moves = [Added(each) for each in wave.moves(sizes, rung.system.fitted, speeds)]
         moving = rung.system.rung([*rung.added, shape, *moves], *rung.kinds)
-        rounds.append((moving.evidence, (shape, *moves)))
-        turns, more, *faster = (moving.posterior[0][moving.part_of(each)] for each in moves)
-        wave = wave.moved(
-            dict(zip(wave.phases, turns, strict=True)), float(more[0]),
-            {name: speeds[name][1] * float(sds)
-             for name, sds in zip(wave.phases, faster[0], strict=True)} if faster else {},
-        )  # fmt: skip
-        if number == 1 and moving.evidence < rung.evidence:
-            break  # nothing that more rounds would bring about
-        if number > 1 and abs(moving.evidence - rounds[-2][0]) < 0.1 * ALIKE:
-            break
-        if number == 0:
-            wave = _realigned(rung, wave, mean, speeds)
-    return max(rounds, key=lambda each: each[0])
+        # of speeds it is known beforehand how far they are from where the wave is now
+        off = np.array([(mean - wave.faster[name]) / sd for name, (mean, sd) in speeds.items()])
+        mean, covariance = moving.posterior
+        parts = [moving.part_of(each) for each in moves]
+        if speeds:
+            mean = mean + covariance[:, parts[2]] @ off
+        turns, more, *faster = (mean[part] for part in parts)
+        ahead = faster[0] * [sd for _, sd in speeds.values()] if faster else np.zeros(turns.size)
+        less = 0.5 * float(off @ off)
+        return cls(wave, here.evidence - less, moving.evidence - less, (shape, *moves), sizes,
+                   turns, float(more[0]), ahead)  # fmt: skip
+
+    def moved(self, part: float) -> Wave:
+        """By a part of what the rows ask for."""
+        names = tuple(self.wave.phases)
+        turns, ahead = (dict(zip(names, (part * each).tolist(), strict=True))
+                        for each in (self.turns, self.ahead))  # fmt: skip
+        return self.wave.moved(turns, part * self.more, ahead)
 
 
 def speeds_of(rung: Rung, kind: Periodic) -> dict[str, tuple[float, float]]:

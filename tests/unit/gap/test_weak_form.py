@@ -175,6 +175,18 @@ def test_what_noise_hides_of_a_slip_is_no_stick(tmp_path, noise, sticks):
     assert np.sqrt(np.mean(left**2)) < 1.0 + 3.0 / np.sqrt(2 * left.size)
 
 
+def test_a_wave_is_the_same_from_wherever_it_is_looked_for(tmp_path):
+    """A longer one on faster surfaces is nearly the same: whole steps ran away along that."""
+    system = system_of(written(tmp_path, surface_pattern={"amplitude": 0.3, "wavelength": 0.15}))
+    rung, kind = system.rung(), periodic.kinds(system.level.kinetic)[0]
+    for near in (0.97, 0.99, 1.0, 1.01, 1.03):
+        evidence, added = periodic._as_one_shape(rung, kind, near / 0.15)
+        wave = added[0].unknown.wave
+        assert wave.wavenumber == pytest.approx(1.0 / 0.15, rel=0.01), near
+        assert max(map(abs, wave.faster.values())) < 0.02
+        assert system.rung(added).gap < 1.05
+
+
 def test_evidence_is_the_density_of_the_rows():
     random = np.random.default_rng(2)
     columns, rows = random.standard_normal((30, 3)), random.standard_normal(30)
