@@ -176,14 +176,18 @@ def test_what_noise_hides_of_a_slip_is_no_stick(tmp_path, noise, sticks):
 
 
 def test_a_wave_is_the_same_from_wherever_it_is_looked_for(tmp_path):
-    """A longer one on faster surfaces is nearly the same: whole steps ran away along that."""
-    system = system_of(written(tmp_path, surface_pattern={"amplitude": 0.3, "wavelength": 0.15}))
+    """On surfaces off by 1 to 2 %: a longer wave on faster ones is nearly the same."""
+    pattern = {"amplitude": 0.3, "wavelength": 0.15, "second_amplitude": 0.4}
+    off = (0.012, -0.015, 0.01, -0.02, 0.018)
+    stated = [{"surface_speed": speed * (1.0 + part)}
+              for (_, speed), part in zip(RUNS, off, strict=True)]  # fmt: skip
+    system = system_of(written(tmp_path, more=stated, duration=20.0, surface_pattern=pattern))
     rung, kind = system.rung(), periodic.kinds(system.level.kinetic)[0]
-    for near in (0.97, 0.99, 1.0, 1.01, 1.03):
-        evidence, added = periodic._as_one_shape(rung, kind, near / 0.15)
+    for near in (0.96, 0.98, 0.99, 1.0, 1.01, 1.02, 1.04):
+        _, added = periodic._as_one_shape(rung, kind, near / 0.15)
         wave = added[0].unknown.wave
-        assert wave.wavenumber == pytest.approx(1.0 / 0.15, rel=0.01), near
-        assert max(map(abs, wave.faster.values())) < 0.02
+        assert wave.wavenumber == pytest.approx(1.0 / 0.15, rel=5e-3), near
+        assert max(map(abs, wave.faster.values())) < 0.025
         assert system.rung(added).gap < 1.05
 
 
