@@ -1,5 +1,6 @@
 """A run that is cut off and resumed is the run that was not, to the last bit."""
 
+import json
 import os
 import shutil
 import signal
@@ -12,7 +13,7 @@ import pytest
 from saved_pendulums import ORDER, pendulums
 
 from cosim.coupling import GaussSeidel, run
-from cosim.coupling.record import CheckpointError, Keep, RunFolder, load_checkpoint, read_columns
+from cosim.coupling.record import CheckpointError, Keep, RunFolder, load_checkpoint
 from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton
 from cosim.coupling.schemes.explicit import Jacobi
 from cosim.coupling.schemes.iterated import Iterated
@@ -140,7 +141,8 @@ def test_every_accepted_step_is_on_disk_at_once(tmp_path):
 
     result = go("held", Keep(folder), look)
     assert seen[-1] == len(result.time) and len(seen) == result.steps
-    columns = read_columns(folder.columns)
+    content = json.loads(folder.columns.read_text(encoding="utf-8"))
+    columns = {column["name"]: column["unit"] for column in content["columns"]}
     assert list(columns) == ["time", *result.values]
     assert columns["spring.on_one"] == "N.m"
     np.testing.assert_array_equal(np.load(folder.record)[:, 1:].T, list(result.values.values()))

@@ -3,7 +3,7 @@
 import pandas as pd
 import xarray as xr
 
-from cosim.report.files import write_csv, write_table
+from cosim.report.files import write_table
 
 
 def test_no_name_is_taken_for_a_formula(tmp_path):
@@ -18,6 +18,6 @@ def test_a_result_is_restored_exactly(tmp_path):
     dataset = xr.Dataset(
         {"=a.x": ("time", [-0.1, 1 / 3]), "mode": ("time", [True, False])}, {"time": [0.0, 1.0]}
     )
-    found = pd.read_csv(write_csv(dataset, tmp_path / "a.csv"))
+    found = pd.read_csv(write_table(dataset.to_dataframe(), tmp_path / "a.csv"))
     assert list(found) == ["time", "'=a.x", "mode"]
     assert found["'=a.x"].tolist() == [-0.1, 1 / 3] and found["mode"].tolist() == [True, False]
