@@ -4,7 +4,8 @@
     speed in sticks, the spring force at break-aways (`weak_form`).
  2. What every rig has unknown is in the rows with its stated error: both coefficients, springs,
     zeros, set-points, the contact's own transition, friction that scatters from run to run.
- 3. Whatever friction may depend on is an argument with one free curve; all have the same evidence.
+ 3. Whatever friction may depend on is an argument with one free curve; all have the same evidence,
+    of which a fault, and what no effect stands for, needs e^3 times as much.
  4. An argument is a finding where the rows are e^6 times as probable with it (e^3 the first), and
     it takes more than a small part of what was missing at first; the best joins, all others are
     asked again.

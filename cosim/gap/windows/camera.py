@@ -58,8 +58,7 @@ def undone(track: Track, values: Mapping[str, float]) -> Track:
     x, y = _turned(still, values, -1.0).T / (1.0 + fault(values, "scale"))
     latency = fault(values, "latency")
     if latency:
-        there = np.isfinite(x)
-        x[there] = leaning(time[there], x[there], latency)
+        x = leaning(time, x, latency)
     return replace(track, time=time, x=x, y=None if track.y is None else y)
 
 
