@@ -217,12 +217,18 @@ class _Fitting:
         return self._fitted(named, [other for other in parts if other is not part], is_shown=False)
 
     def _is_asked_for(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
-        """Whether the simulated runs are more probable with a finding beside the others."""
+        """Whether the simulated runs are more probable with a finding beside the others.
+
+        A lesser one below e^500 is no more than what a law leaves that is not quite the greater
+        one's, where the others explain the runs and friction need not scatter for it.
+        """
         without = self._without(part, parts, named)
+        is_lesser = part.finding.gain < max(other.finding.gain for other in parts)
+        is_sure = part.finding.gain >= SURE
+        if is_lesser and not is_sure and judged(without.unscattered) <= EXPLAINED:
+            return False
         if not part.in_kernel:
-            is_lesser = part.finding.gain < max(other.finding.gain for other in parts)
-            most = EXPLAINED if is_lesser else NOTHING_MISSING
-            return leaves(without.ladder[-1].gap, most)
+            return leaves(without.ladder[-1].gap, EXPLAINED if is_lesser else NOTHING_MISSING)
         return runs_ask(without.gained(part) - price_of(part.finding.name))
 
     def _makes_up(self, part: Part, parts: Sequence[Part], named: Named) -> bool:

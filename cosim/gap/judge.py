@@ -18,8 +18,9 @@
  8. A finding below e^500, or beside a greater one, or that does not explain the runs or takes
     nothing of the gap by itself, goes, and the rows are not asked for it again, where the simulated
     runs are not e^6 times as probable with it, or, below e^500, it takes neither all nor half of
-    what they miss without it, at last or before friction may scatter; `none` is no finding left,
-    and every run at 1.1 at most; without any held out nothing tells.
+    what they miss without it, at last or before friction may scatter, or a greater one explains
+    them before that; `none` is no finding left, and every run at 1.1 at most; without any held out
+    nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
     where they are better but stay above that, and most of the misfit is gone, half by findings.
 10. Everything else is `unknown`.

@@ -56,7 +56,7 @@ COURSES: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "root": np.sqrt,
     "logarithmic": lambda u: np.log1p(20.0 * u) / np.log(21.0),
 }
-SMOOTHING = "measurement.smoothing"
+DRIFT, SMOOTHING = "measurement.drift", "measurement.smoothing"
 #: Every fault that has a name; a turned camera is found in the plane.
 FAULTS = tuple(f"measurement.{name}" for name in (*FAULT_SIZES, "rotation", "quantisation"))
 
@@ -69,7 +69,7 @@ def camera_faults(rung: Rung) -> dict[str, list[Unknown]]:
     made = {
         "measurement.scale": _among(rung, _fault("scale", scale(level))),
         "measurement.clock": _among(rung, _fault("clock", clock(level))),
-        "measurement.drift": [
+        DRIFT: [
             one for number, course in enumerate(COURSES)  # the root lies between the others
             for one in _among(rung, _fault("drift", drift(course), course, course=number),
                               course == "root")

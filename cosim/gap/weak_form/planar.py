@@ -2,7 +2,8 @@
 
 Effects are compared by how probable the measured y (and phi) are with each, as courses of the whole
 record (`across`): all of them are made of the same x(t), friction level and noise, and the samples
-are the same for all. "Nothing across" is a block that keeps its y, or swings freely in it.
+are the same for all. "Nothing across" is a block that keeps its y, or swings freely in it, before a
+camera that keeps its place or creeps.
 """
 
 from __future__ import annotations
@@ -30,8 +31,10 @@ from cosim.gap.weak_form.across import (
     disc,
     measured,
 )
+from cosim.gap.weak_form.camera_faults import COURSES, DRIFT
 from cosim.gap.weak_form.constants import (
     ALIKE,
+    FAULT_SIZES,
     LEAST_GAIN,
     LEAST_SHARE,
     MOST_SHARE,
@@ -55,9 +58,11 @@ from cosim.gap.weak_form.track import SmoothTrack
 LATERAL, TURNING, MISALIGNED, ROTATION = (
     "lateral_friction", "turning_surface", "spring_misalignment", "measurement.rotation",
 )  # fmt: skip
+#: Unknowns of a camera's zero that creeps across -> its course.
+CREEPS = {f"{DRIFT}, {course}": course for course in COURSES}
 #: Effect, or nothing -> its forms: the unknowns that they have.
 FORMS: dict[str, tuple[tuple[str, ...], ...]] = {
-    "": ((),),
+    "": ((), *((creep,) for creep in CREEPS)),
     ROTATION: ((ROTATION,),),
     LATERAL: ((SHARE,),),
     TURNING: ((CURVATURE, SHARE), (CURVATURE, ASKEW, SHARE)),
@@ -65,9 +70,10 @@ FORMS: dict[str, tuple[tuple[str, ...], ...]] = {
                       for some in ((TURN,), (SHIFT,), (TURN, SHIFT))),
 }  # fmt: skip
 #: What is expected at the largest, as standard deviations: curvature (1/m), turns (rad), shift (m)
-#: and camera angle (rad), of which parts are tried; ln g, g the square of lateral_friction.ratio,
-#: about isotropic friction.
+#: and camera angle (rad), creep of its zero (m), of which parts are tried; ln g, g the square of
+#: lateral_friction.ratio, about isotropic friction.
 SD = {CURVATURE: 3.0, ASKEW: 0.2, TURN: 0.2, SHIFT: 0.03, ROTATION: 0.2, SHARE: 0.5}
+SD |= dict.fromkeys(CREEPS, FAULT_SIZES["drift"])
 
 
 @dataclass(frozen=True)
@@ -247,7 +253,7 @@ def _round(
     planes: Sequence[Plane], before: np.ndarray, turned: frozenset[str],
 ) -> tuple[Fitted, np.ndarray]:  # fmt: skip
     """The numbers from courses about the last round's."""
-    moving = tuple(name for name in form if name != ROTATION)
+    moving = tuple(name for name in form if name not in (ROTATION, *CREEPS))
     courses = [
         course(run.track, campaign.rig, level * run.weight, moving, plane)
         for run, plane in zip(runs, planes, strict=True)
@@ -267,7 +273,7 @@ def _round(
         gram, right = part.own.T @ part.own, part.own.T @ rows
         own = posterior(gram, right, float(rows @ rows), np.diag(prior**2)).mean
         left.append(rows - part.own @ own)
-        known = {name: float(v) for name, v in zip(form, values, strict=True) if name != ROTATION}
+        known = {name: float(v) for name, v in zip(form, values, strict=True) if name in moving}
         starts = {f"own {name}": float(v) for name, v in zip(OWN, own, strict=False)}
         found[run.track.run.name] = made.plane(run.track, known | starts)
     gap = float(np.sqrt(np.mean(np.concatenate(left) ** 2)))
@@ -285,18 +291,33 @@ def _samples(
         noise, values = track.run.noise[channel], track.run.motion[channel]
         seen = np.isfinite(values)
         times = np.clip(track.run.motion.time[seen], *track.time[[0, -1]])
-        turned = -track.place * (axis == 0 and is_turned)  # by a camera
         # columns of what the form has, of a run's own, and the course without either
-        every = np.vstack([made.columns[:, axis], turned, made.offset[axis]])
-        *columns, turned, offset = interp1d(track.time, every)(times) / noise
+        every = np.vstack([made.columns[:, axis], made.offset[axis]])
+        *columns, offset = interp1d(track.time, every)(times) / noise
         own_ones, moving = columns[-len(OWN) :], iter(columns)
         zeros = np.zeros((2, times.size))
         zeros[axis] = campaign.zero_sd(track.run, channel) / noise
-        shared.append(np.reshape([turned if name == ROTATION else next(moving) for name in form],
+        camera = (axis == 0) * _of_camera(track, form, is_turned, times) / noise
+        shared.append(np.reshape([seen_so if name in (ROTATION, *CREEPS) else next(moving)
+                                  for name, seen_so in zip(form, camera, strict=True)],
                                  (len(form), times.size)).T)  # fmt: skip
         own.append(np.vstack([*own_ones, zeros]).T)
         rows.append(values[seen] / noise - offset)
     return _Samples(np.concatenate(rows), np.concatenate(shared), np.concatenate(own))
+
+
+def _of_camera(
+    track: SmoothTrack, form: tuple[str, ...], is_turned: bool, times: np.ndarray
+) -> np.ndarray:
+    """(unknowns, times) m of y by what a camera does of a form; 0 for what moves the block."""
+    part = (times - track.time[0]) / (track.time[-1] - track.time[0])
+    seen = np.zeros((len(form), times.size))
+    for row, name in zip(seen, form, strict=True):
+        if name == ROTATION and is_turned:
+            row[:] = -np.interp(times, track.time, track.place)
+        elif name in CREEPS:
+            row[:] = COURSES[CREEPS[name]](part)
+    return seen
 
 
 def _solved(

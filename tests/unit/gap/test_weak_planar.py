@@ -34,8 +34,11 @@ FOREIGN = {
 }
 
 
-def measured(folder, rotation=(0.0, 0.0, 0.0), **blocks):
-    """A campaign of three runs in the plane. rotation : of the camera in each, rad"""
+def measured(folder, rotation=(0.0, 0.0, 0.0), creep=0.0, **blocks):
+    """A campaign of three runs in the plane.
+
+    rotation : of the camera in each, rad; creep : of its zero across, as the root of the time, m
+    """
     runs = []
     for number, (speed, angle) in enumerate(zip(SPEEDS, rotation, strict=True)):
         parameters = Parameters(
@@ -47,6 +50,7 @@ def measured(folder, rotation=(0.0, 0.0, 0.0), **blocks):
         )
         moved = simulate(parameters, DURATION, INTERVAL)
         x, y = np.asarray(moved["x"]), np.asarray(moved["y"])
+        y = y + creep * np.sqrt(moved.time / DURATION)
         columns = {
             "t": moved.time,
             "x": noisy(x * np.cos(angle), number, NOISE),
@@ -99,9 +103,16 @@ def test_a_block_that_stays_on_the_axis_shows_nothing(tmp_path):
     assert planar.answer == "" and not planar.evidence
 
 
-def test_a_block_that_swings_freely_shows_no_effect(tmp_path):
-    campaign = measured(tmp_path, initial={"y": 5e-3})
+@pytest.mark.parametrize("creep", [0.0, 8e-3])
+def test_a_block_that_swings_freely_shows_no_effect(creep, tmp_path):
+    campaign = measured(tmp_path, creep=creep, initial={"y": 5e-3})
     assert planar_effects(campaign, tracks_and_rows(campaign)[1]).answer == ""
+
+
+def test_a_camera_that_creeps_moves_no_block(tmp_path):
+    campaign = measured(tmp_path, creep=8e-3, **ISOTROPIC)
+    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    assert planar.answer == "" and planar.fits[""].form == ("measurement.drift, root",)
 
 
 def test_friction_of_a_disc_at_its_limits():
