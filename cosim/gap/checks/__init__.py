@@ -50,8 +50,8 @@ def doubts_of(campaign: Campaign) -> tuple[Doubt, ...]:
 
 
 def blocking(doubts: Sequence[Doubt]) -> tuple[Doubt, ...]:
-    """Severe doubts that no fit can answer: nothing is named beside them."""
-    return tuple(one for one in doubts if one.severe and one.check not in ANSWERABLE)
+    """Severe doubts that no finding can answer: nothing is named beside them."""
+    return tuple(one for one in doubts if one.severe and one.check != ANSWERABLE[0])
 
 
 def _but(runs: Sequence[MeasuredRun], doubts: Sequence[Doubt]) -> list[MeasuredRun]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Sequence
 from dataclasses import replace
@@ -23,6 +24,8 @@ from cosim.scenario.validation import checked
 
 #: So many equal samples in a row are no coincidence of two measurements.
 PATTERN = 16
+#: Free vibrations of a run that are looked at: ten minutes of a usual rig, and minutes of work.
+MOST_VIBRATIONS = 1000.0
 
 
 def read_campaign(path: str | Path) -> Campaign:
@@ -62,11 +65,12 @@ def read_campaign(path: str | Path) -> Campaign:
     remarks += [f"{', '.join(who)}: converted: {what}" for what, who in converted.items()]
     kept, copies = without_duplicates(_unique_names(runs), str(path))
     kept, held = with_hold_outs(kept, str(path))
+    kept, cut = shortened(kept)
     kept, noise, estimated, differs = with_noise(kept, table.noise.given)
     regimes = [f"{run.name}: {remark}" for run in kept for remark in regime_remarks(run)]
     return replace(
         campaign, noise=noise, noise_estimated=estimated, runs=kept,
-        remarks=(*remarks, *copies, *held, *differs, *regimes),
+        remarks=(*remarks, *copies, *held, *cut, *differs, *regimes),
     )  # fmt: skip
 
 
@@ -128,6 +132,21 @@ def without_duplicates(
         copy = " and is not held out from it" if run.hold_out and not twin.hold_out else ""
         remarks.append(f"{same}{copy}: left out")
     return tuple(run for run in runs if run in kept), remarks
+
+
+def shortened(runs: Sequence[MeasuredRun]) -> tuple[tuple[MeasuredRun, ...], list[str]]:
+    """Runs without what comes after `MOST_VIBRATIONS`, and a remark on each that was longer."""
+    kept, remarks = [], []
+    for run in runs:
+        longest = MOST_VIBRATIONS * 2.0 * math.pi / run.natural_frequency
+        if run.track is not None and run.track.duration > longest:
+            remarks.append(
+                f"{run.name}: of {run.track.duration:.3g} s the first {longest:.3g} s are looked "
+                f"at, {MOST_VIBRATIONS:g} free vibrations; a later part may be a run of its own"
+            )
+            run = replace(run, track=run.track.until(longest))
+        kept.append(run)
+    return tuple(kept), remarks
 
 
 def _same_data(run: MeasuredRun, other: MeasuredRun) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +51,12 @@ class Track:
     def channels(self) -> tuple[str, ...]:
         """The channels that were measured."""
         return tuple(name for name in CHANNELS if getattr(self, name) is not None)
+
+    def until(self, time: float) -> Track:
+        """The rows up to a time, s."""
+        count = int(np.searchsorted(self.time, time, side="right"))
+        cut: dict[str, Any] = {name: self[name][:count] for name in self.channels}
+        return replace(self, time=self.time[:count], **cut)
 
     @property
     def duration(self) -> float:

@@ -216,10 +216,11 @@ def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("check", "blocked"), [("units", True), ("speed", True), ("springs", False)]
+    ("check", "blocked"),
+    [("units", True), ("speed", True), ("sampling", True), ("springs", False)],
 )
 def test_no_effect_is_searched_for_where_none_would_be_named(check, blocked, monkeypatch):
-    """Doubts are asked first; those that simulated runs may answer do not stop the search."""
+    """Doubts are asked first; one that a finding may answer does not stop the search."""
     doubt = Doubt(check, "run01: surface_speed = 60 m/s", ("run01",), True)
     monkeypatch.setattr(find, "doubts_of", lambda campaign: (doubt,))
     taken = []

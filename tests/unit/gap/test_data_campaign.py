@@ -188,6 +188,16 @@ def test_a_run_that_only_slips_or_sticks_is_remarked_on(tmp_path, speed, start, 
     assert read.remarks[1:] == ((f"run01: {remark}",) if remark else ())
 
 
+@pytest.mark.parametrize(("vibrations", "kept"), [(900.0, 900.0), (1300.0, 1000.0)])
+def test_of_a_run_of_hours_the_beginning_is_looked_at_and_that_is_said(campaign, vibrations, kept):
+    period = 2.0 * np.pi / np.sqrt(4.0 * 38.5 / 0.87)
+    time = np.linspace(0.0, vibrations * period, 20_000)
+    read = read_campaign(campaign({"columns": {"t": time, "x": 0.02 * np.sin(0.2 * time)}}))
+    assert read.runs[0].track.duration == pytest.approx(kept * period, rel=1e-3)
+    cut = [one for one in read.remarks if "are looked at" in one]
+    assert len(cut) == (kept < vibrations) and all("first 472 s" in one for one in cut)
+
+
 @pytest.mark.parametrize("name", ["e1", "e2", "e3", "e4", "e5"])
 def test_example_campaigns_are_read(name, shared):
     read = read_campaign(shared(f"data/blind_examples/{name}"))
