@@ -2,7 +2,6 @@
 
 import os
 import signal
-import subprocess
 import sys
 from pathlib import Path
 
@@ -14,28 +13,27 @@ import pytest
 for library in ("OPENBLAS", "MKL", "OMP"):
     os.environ.setdefault(f"{library}_NUM_THREADS", "1")
 
+# What is compiled of the tests and of the package is kept where Python keeps it, also where the
+# environment says that nothing is: half of what a worker does before its first test is compiling.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
+
 # Before any FMU is loaded: an FMU that is the first to import pythonfmu imports its own copy of it,
 # and that cannot build.
 import pythonfmu  # noqa: E402, F401
 
-COMPILED_AHEAD = Path(__file__).parent / "helpers" / "models" / "compiled_ahead.py"
 SHARED = Path(__file__).resolve().parents[2] / "shared"
 
 
 def pytest_configure(config):
-    """Compile once, before there are workers: the model, and what else tests compile.
+    """Compile the model once, before there are workers.
 
     Commands say when they compile, and what tests look at is what they say otherwise.
     """
-    if hasattr(config, "workerinput"):
-        return
-    from stickslip.catalogue import CATALOGUE
+    if not hasattr(config, "workerinput"):
+        from stickslip.catalogue import CATALOGUE
 
-    _ = CATALOGUE.compiled
-    kept = (Path(__file__).parent / "blind").glob("*/__pycache__/*.nbi")
-    if config.getoption("numprocesses", None) and not any(kept):
-        if subprocess.run([sys.executable, str(COMPILED_AHEAD)]).returncode != 0:
-            raise pytest.UsageError(f"{COMPILED_AHEAD} failed, see above")
+        _ = CATALOGUE.compiled
 
 
 @pytest.fixture(scope="session")
@@ -55,31 +53,46 @@ def shared():
 
 
 @pytest.fixture(scope="session")
-def fmu(tmp_path_factory):
-    """The native unit for this machine, built once a session from what is here now."""
-    from stickslip.generation.platforms import this_platform
+def once(tmp_path_factory):
+    """Name of a unit -> its file, built once a session, by whichever worker needs it first."""
 
-    from cosim.fmu.build import build_fmu
+    def look_up(name):
+        from stickslip.generation.platforms import this_platform
 
-    return build_fmu(tmp_path_factory.mktemp("fmu"), platforms=[this_platform()])
+        from cosim.fmu.build import build_fmu
+
+        base = tmp_path_factory.getbasetemp()
+        # a worker's folder lies in that of all
+        folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "units"
+        if not (folder / name).exists():  # a unit appears whole
+            build_fmu(folder, name, [this_platform()])
+        return folder / name
+
+    return look_up
 
 
 @pytest.fixture(scope="session")
-def fmu3(tmp_path_factory):
+def fmu(once):
+    """The native unit for this machine."""
+    from cosim.fmu.build import NATIVE
+
+    return once(NATIVE)
+
+
+@pytest.fixture(scope="session")
+def fmu3(once):
     """The native unit for FMI 3."""
-    from stickslip.generation.platforms import this_platform
+    from cosim.fmu.build import FMI3
 
-    from cosim.fmu.build import FMI3, build_fmu
-
-    return build_fmu(tmp_path_factory.mktemp("fmu3"), FMI3, [this_platform()])
+    return once(FMI3)
 
 
 @pytest.fixture(scope="session")
-def python_fmu(tmp_path_factory):
+def python_fmu(once):
     """The unit that pythonfmu makes."""
-    from cosim.fmu.build import PYTHON, build_fmu
+    from cosim.fmu.build import PYTHON
 
-    return build_fmu(tmp_path_factory.mktemp("python_fmu"), PYTHON)
+    return once(PYTHON)
 
 
 @pytest.fixture(params=["native", "python"])

@@ -1,7 +1,7 @@
 """Benchmarks by their names.
 
     python tests/benchmarks                            lists them
-    python tests/benchmarks fmu_step --json new.json   runs one; its own arguments follow
+    python tests/benchmarks mechanics --json new.json  runs one; its own arguments follow
 
 models/: mechanics and heat alone; coupling/: the master, units, rows on disk; gap/: campaigns with
 known answers; commands/: commands as they are used.

@@ -16,7 +16,6 @@ import pandas as pd
 import pytest
 import xarray as xr
 from command_line import stickslip_here
-from stickslip.generation.platforms import this_platform
 
 MODULE = [sys.executable, "-m", "cosim"]
 SCRIPT = Path(sys.executable).with_name("stickslip")
@@ -93,24 +92,6 @@ def test_a_second_run_takes_the_fmu_as_it_is_and_repeats_the_first(place):
     pd.testing.assert_frame_equal(first, pd.read_csv(place / "again" / "result.csv"))
 
 
-@pytest.mark.slow
-def test_a_truncated_fmu_is_rebuilt_and_a_given_one_refused(place):
-    fmu = place / "build" / "StickSlip3DOF.fmu"
-    whole = fmu.read_bytes()
-    fmu.write_bytes(whole[: len(whole) // 2])
-    (place / "given.fmu").write_bytes(whole[: len(whole) // 2])
-    refused = stickslip(place, "run", "short.toml", "-o", "given", "--fmu", "given.fmu")
-    assert refused.returncode == 2 and refused.stderr.count("\n") == 1
-    assert refused.stderr.startswith("error: given.fmu: not an FMU, or truncated")
-    own = this_platform().name
-    built = stickslip(place, "build", "StickSlip3DOF.fmu", "--platforms", own)
-    assert (built.returncode, built.stdout) == (0, f"build/StickSlip3DOF.fmu: {own}\n")
-    assert fmu.read_bytes() == whole
-    fmu.write_bytes(whole[: len(whole) // 2])
-    assert stickslip(place, "run", "short.toml", "-o", "rebuilt").returncode == 0
-    assert fmu.read_bytes() == whole
-
-
 def test_a_damaged_fmu_with_a_sound_table_of_contents_is_refused(place):
     content = bytearray((place / "build" / "StickSlip3DOF.fmu").read_bytes())
     library = content.index(b"binaries/")
@@ -129,19 +110,6 @@ def test_simulate_needs_no_fmu_and_says_the_same_motion(place, tmp_path):
     alone = check_readable(tmp_path / "out", "complete")
     coupled = check_readable(place / "results" / "short", "complete")
     np.testing.assert_allclose(alone["x"], coupled["x"], atol=1e-8)
-
-
-def test_what_may_be_odd_is_run(tmp_path):
-    """Kinetic above static friction (with a warning), and a belt that runs backwards."""
-    (tmp_path / "odd.toml").write_text(
-        'defaults = "plain"\n'
-        "[friction]\nmu_s = 0.2\nmu_k = 0.3\n[surface]\nspeed = -0.15\n[run]\nduration = 1.0\n"
-    )
-    done = stickslip_here(tmp_path, "simulate", "odd.toml")
-    assert done.returncode == 0
-    assert done.stderr.startswith("warning: friction.mu_k = 0.3 exceeds friction.mu_s = 0.2")
-    assert done.stderr.count("\n") == 1
-    assert check_readable(tmp_path / "results" / "odd", "complete")["x"][-1] < 0
 
 
 @pytest.mark.parametrize("command", ["run", "simulate"])

@@ -11,7 +11,6 @@ from cosim.cli import main
 from cosim.coupling import IsolatedParticipant
 from cosim.coupling import case as coupled
 from cosim.coupling.record import RunFolder
-from cosim.scenario import ScenarioError
 
 CASE = {"run.duration": 0.6, "run.output_interval": 0.01, "run.checkpoint_steps": 20}
 SCHEMES = {
@@ -90,11 +89,6 @@ def test_a_unit_that_dies_takes_nothing_with_it(fmu, made):
     done = run_scenario(case(**{"coupling.isolate": True}), fmu=fmu, progress=end)
     assert done.result.status == "failed" and "mechanics: failed in the step" in done.result.reason
     assert done.result.time[-1] == pytest.approx(ended[0])
-
-
-def test_a_limit_of_no_time_is_refused():
-    with pytest.raises(ScenarioError, match=r"coupling.time_limit: out of range \(0"):
-        case(**{"coupling.time_limit": 0.0})
 
 
 def test_a_unit_that_does_not_answer_in_time_is_said_in_one_line(fmu, tmp_path, capsys):

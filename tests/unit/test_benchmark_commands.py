@@ -35,6 +35,6 @@ def test_tests_import_from_the_rooms_of_the_benchmarks(runner):
 
 
 def test_a_name_that_is_none_is_answered_by_those_that_are(runner, monkeypatch):
-    monkeypatch.setattr("sys.argv", ["benchmarks", "fmu_stop"])
-    with pytest.raises(SystemExit, match="no benchmark fmu_stop; there are .*fmu_step"):
+    monkeypatch.setattr("sys.argv", ["benchmarks", "mechanic"])
+    with pytest.raises(SystemExit, match="no benchmark mechanic; there are .*mechanics"):
         runner["main"]()

@@ -1,9 +1,7 @@
 """Scoring of hidden campaigns: counts by hand, a benchmark that goes on where it stopped."""
 
-import json
 import math
 
-import blind_campaigns as benchmark
 import pytest
 from blind import score
 from blind.campaign import draw_campaign
@@ -72,13 +70,6 @@ def test_confusion_matrix_by_hand():
     }
 
 
-def test_interval_of_a_share():
-    # Wilson's interval of 8 of 10, from his formula worked by hand
-    low, high = score.Share(8, 10).interval
-    assert low == pytest.approx(0.4902, abs=1e-3) and high == pytest.approx(0.9433, abs=1e-3)
-    assert score.Share(0, 0).interval == (0.0, 1.0)
-
-
 def test_table_states_every_figure():
     text = markdown(ROWS, 42)
     assert "seed 42" in text
@@ -90,61 +81,7 @@ def test_table_states_every_figure():
     assert "| … ≤ 1.5 after, from ≥ 5 before | 50.0 % (1/2;" in text
 
 
-def test_cells_keep_their_seeds_whatever_else_is_run():
-    everything = list(benchmark.cells(benchmark.KINDS, None, 7, (), []))
-    assert len({cell.name for cell in everything}) == len(everything) >= 200
-    assert len({cell.seed for cell in everything}) == len(everything)
-    few = list(benchmark.cells(["effects", "none"], 1, 7, ["run_in"], []))
-    assert len(few) == 6 and set(few) <= set(everything)
-    assert not {c.seed for c in everything} & {
-        c.seed for c in benchmark.cells(benchmark.KINDS, None, 8, (), [])
-    }
-
-
-def test_benchmark_does_only_what_is_missing(tmp_path, monkeypatch):
-    asked = []
-
-    def answer(campaign, folder):
-        asked.append(campaign)
-        assert campaign.is_file() and not list(folder.rglob("*answer*"))
-        assert not any(word in str(campaign.relative_to(tmp_path)) for word in ("none", "clean"))
-        return {"verdict": "none", "effects": []}, "exit 0: ", 0.1
-
-    monkeypatch.setattr(benchmark, "ask", answer)
-    cells = list(benchmark.cells(["none"], 1, 7, (), []))
-    first = benchmark.run_missing(cells[:1], tmp_path, 1, keep=False)
-    file = tmp_path / "campaigns.jsonl"
-    with open(file, "a", encoding="utf-8") as lines:
-        lines.write('{"name": "cut o')
-    both = benchmark.run_missing(cells, tmp_path, 1, keep=False)
-    assert len(asked) == 2 and both[0] == json.loads(json.dumps(first[0]))
-    assert benchmark.run_missing(cells, tmp_path, 1, keep=False) == json.loads(json.dumps(both))
-    assert len(asked) == 2
-    assert not list((tmp_path / "campaigns").iterdir())
-    benchmark.score_figure(both, tmp_path / "scores.png")
-    assert (tmp_path / "scores.png").stat().st_size > 10_000
-
-
 @pytest.mark.slow
-def test_failures_are_asked_again_when_told(tmp_path, monkeypatch):
-    cells = list(benchmark.cells(["none"], 1, 7, (), []))[:1]
-    monkeypatch.setattr(benchmark, "ask", lambda *_: (None, "exit 1: broken", 0.1))
-    assert benchmark.run_missing(cells, tmp_path, 1, keep=False)[0]["found"] is None
-    found = {"verdict": "none", "effects": []}
-    monkeypatch.setattr(benchmark, "ask", lambda *_: (found, "exit 0: ", 0.1))
-    assert benchmark.run_missing(cells, tmp_path, 1, keep=False)[0]["found"] is None
-    assert benchmark.run_missing(cells, tmp_path, 1, keep=False, again=True)[0]["found"] == found
-    assert benchmark.run_missing(cells, tmp_path, 1, keep=False)[0]["found"] == found
-
-
-def test_seed_is_kept_in_the_folder(tmp_path):
-    seed = benchmark.seed_of(tmp_path / "new", None)
-    assert benchmark.seed_of(tmp_path / "new", None) == seed
-    assert benchmark.seed_of(tmp_path / "other", 5) == 5
-    with pytest.raises(SystemExit, match="begun with seed 5"):
-        benchmark.seed_of(tmp_path / "other", 6)
-
-
 @pytest.mark.parametrize("seed, effect", [(1, "film_drag"), (2, "structural_damping")])
 def test_one_speed_cannot_tell_drag_from_damping_but_another_can(seed, effect):
     drawn = draw_campaign(seed, "single_speed", [effect], tries=1)

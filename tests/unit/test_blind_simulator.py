@@ -14,6 +14,7 @@ from blind.simulator.disc import disc_points
 from blind.simulator.hidden import Hidden, State
 from blind.simulator.plane import ANGLES, anchors, spring_load
 
+pytestmark = pytest.mark.slow  # numba compiles the simulator, and no answer hangs on it
 TESTS = Path(__file__).resolve().parents[1]
 
 PRODUCT = {"stickslip", "thermal", "cosim"}

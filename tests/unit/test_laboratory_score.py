@@ -1,23 +1,12 @@
 """Scores of the laboratory's campaigns, by hand on answers made up here."""
 
-import json
-
-import laboratory
-import numpy as np
 import pytest
-from laboratory_score.answers import Row, read_lines, rows_of, truth_of
-from laboratory_score.calibration import (
-    interval_points,
-    probability_points,
-    write_calibration,
-)
+from laboratory_score.answers import Row, truth_of
 from laboratory_score.exponents import exponents_are_near
 from laboratory_score.outcome import Outcome, is_right, names_physics, outcome
-from laboratory_score.parameters import compared, rounded
+from laboratory_score.parameters import compared
 from laboratory_score.shares import Share
-from laboratory_score.tables import markdown
 from laboratory_score.targets import scores
-from laboratory_score.wrong import listing
 
 CONTACT = {"form": "lugre", "mu_s": 0.4, "mu_k": 0.25}
 
@@ -107,17 +96,6 @@ def test_a_class_excuses_one_of_two_effects():
     assert outcome(row(told("speed_ripple", "structural_damping"), said)) is Outcome.WRONG
 
 
-def test_answers_of_other_campaigns():
-    one = truth_of({"verdict": ["named"], "effect": ["run_in"]})
-    assert one.effects == {"run_in"} and one.kind is None
-    apart = {"verdict": ["class"], "members": ["film_drag", "structural_damping"]}
-    said = found("class", ["structural_damping", "film_drag"])
-    assert outcome(row(apart, said)) is Outcome.CLASS
-    assert outcome(row(apart, found("named", ["film_drag"]))) is Outcome.WRONG
-    unknown = {"verdict": "unknown"}
-    assert is_right(row(unknown, found("unknown"))) and not is_right(row(unknown, found("none")))
-
-
 def test_a_fault_that_is_named_as_physics():
     fault = told("measurement.scale")
     assert names_physics(row(fault, found("named", ["run_in"])))
@@ -170,38 +148,6 @@ def test_coverage_is_counted_at_90_per_cent():
         assert each.distance == pytest.approx(off, rel=1e-3)
 
 
-def test_parameters_without_a_counterpart_are_not_compared():
-    drifting = with_sd("friction.mu_k", 0.2, 0.1, told("run_in"), effects=["run_in"])
-    wrong = with_sd("friction.mu_k", 0.2, 0.1, told("speed_ripple"), effects=["run_in"])
-    smooth = told("speed_ripple", contact=CONTACT | {"form": "smooth"})
-    peak = with_sd("friction.mu_s", 0.4, 0.1, smooth)
-    assert not compared(drifting) and not compared(wrong) and not compared(peak)
-
-
-def test_a_period_is_known_as_far_as_it_is_written():
-    answer = told("speed_ripple")
-    answer["hidden"][0]["law"] = "speed (1 + strength * sawtooth), 0.874 Hz"
-    near = with_sd("speed_ripple.frequency", 0.8744, 1e-6, answer)
-    far = with_sd("speed_ripple.frequency", 0.8752, 1e-6, answer)
-    assert [each.covers() for each in (*compared(near), *compared(far))] == [True, False]
-    assert rounded("0.0874") == pytest.approx((0.0874, 0.00005))
-    answer["hidden"][0]["law"] += " at 0.2 m/s, in proportion"
-    assert not compared(with_sd("speed_ripple.frequency", 0.8744, 1e-6, answer))
-
-
-def test_amounts_of_faults_have_their_own_parameters():
-    turned = told("measurement.rotation")
-    turned["hidden"][0] |= {"shape": "rotation", "strength": 0.08}
-    said = ["measurement.rotation"]
-    (each,) = compared(with_sd("measurement.rotation", -0.07, 0.02, turned, effects=said))
-    assert (each.value, each.true) == pytest.approx((0.07, 0.08))
-    past = told("measurement.smoothing")
-    past["hidden"][0] |= {"shape": "lagging", "strength": 0.01}
-    said = ["measurement.smoothing"]
-    (each,) = compared(with_sd("measurement.smoothing_past", 0.012, 0.004, past, effects=said))
-    assert each.covers()
-
-
 def test_what_a_suite_has_to_show():
     rows = [row(told("run_in"), found("named", ["run_in"]), "contact_and_shapes")] * 9
     rows += [row(told("run_in"), found("unknown"), "contact_and_shapes")]
@@ -215,88 +161,3 @@ def test_what_a_suite_has_to_show():
     refused = by_name["nothing hidden: `none` refused"]
     assert refused.share == Share(1, 5) and refused.met
     assert by_name["right answers: held-out gap after <= 1.1"].share == Share(9, 9)
-
-
-def ranked(effect):
-    return [{"effect": effect, "probability": 0.97, "form": "", "held_out_gap": 1.0, "fit_gap": 1.0,
-             "delta_bic": 9.0, "parameters": {}}]  # fmt: skip
-
-
-@pytest.mark.filterwarnings("error")
-def test_calibration_is_on_the_diagonal_for_exact_tests(tmp_path):
-    random = np.random.default_rng(0)
-    estimates = 0.25 + 0.01 * random.standard_normal(600)
-    fitted = [with_sd("friction.mu_k", x, 0.01, told("speed_ripple")) for x in estimates]
-    for level, seen in interval_points(fitted):
-        low, high = seen.interval(0.999)
-        assert low <= level <= high
-    sure = [row(told("run_in"), found("named", ["run_in"], ranking=ranked("run_in")))] * 97
-    sure += [row(told("run_in"), found("named", ["film_drag"], ranking=ranked("film_drag")))] * 3
-    ((stated, seen),) = probability_points(sure)
-    assert stated == pytest.approx(0.03) and seen == Share(3, 100)
-    for rows in ([*fitted, *sure], fitted, []):  # panels may have nothing to show yet
-        write_calibration(rows, tmp_path / "calibration.png")
-        assert (tmp_path / "calibration.png").stat().st_size > 10_000
-
-
-def test_tables_and_listing_name_every_case():
-    rows = [
-        row(told("run_in"), found("named", ["run_in"])),
-        row(told("film_drag"), found("named", ["run_in"], ranking=[]), name="c2"),
-        Row("one_effect", "c3", truth_of(told("run_in")), None, error="refused: no file"),
-    ]
-    text = markdown(rows, "three")
-    assert "| one_effect | 3 | 1 | 1 |  |  |  |  | 1 | 1 |" in text
-    cases = listing(rows)
-    assert cases.startswith("# 2 of 3 ")
-    assert "film_drag: not in the ranking" in cases
-    assert "c2: wrong" in cases and "size 7.5 noise units" in cases and "a law of its own" in cases
-    assert "refused: no file" in cases
-
-
-def fake_judge(task, keep=None):
-    """An answer without a campaign."""
-    said = found("none") if task.name != "b" else None
-    return {"suite": task.suite, "name": task.name, "answer": told(), "found": said, "seconds": 1.0}
-
-
-def test_a_run_that_was_cut_off_goes_on(tmp_path, monkeypatch):
-    asked = []
-    monkeypatch.setattr(
-        laboratory, "judge", lambda task, keep: asked.append(task.name) or fake_judge(task)
-    )
-    tasks = [laboratory.Task("nothing", name) for name in "abc"]
-    assert len(laboratory.run(tasks[:2], tmp_path, 1, False, None)) == 2
-    with open(tmp_path / laboratory.LINES, "a") as file:
-        file.write('{"suite": "nothing", "na')
-    with pytest.raises(SystemExit, match="resume"):
-        laboratory.run(tasks, tmp_path, 1, False, None)
-    rows = laboratory.run(tasks, tmp_path, 1, True, None)
-    assert asked == ["a", "b", "b", "c"]  # what failed is asked again, what is there is not
-    assert [each.name for each in rows] == ["a", "b", "c"]
-    assert len(rows_of(read_lines(tmp_path / laboratory.LINES))) == 3
-    assert "right, nothing" in laboratory.figures(rows)
-
-
-def test_tasks_of_a_suite_and_of_a_folder(tmp_path):
-    tasks = list(laboratory.of_suites(["nothing", "faults"], 3, 4, 2))
-    assert [(task.suite, task.name) for task in tasks] == [
-        ("nothing", "3-4-c001"),
-        ("nothing", "3-4-c002"),
-        ("faults", "3-4-c001"),
-        ("faults", "3-4-c002"),
-    ]
-    (tmp_path / "answers.json").write_text(json.dumps({"h01": {"verdict": ["none"]}}))
-    (task,) = laboratory.of_folder(tmp_path, tmp_path / "answers.json")
-    assert task.folder == str(tmp_path / "h01") and json.loads(task.answer) == {"verdict": ["none"]}
-
-
-def test_too_long_an_answer_is_none():
-    def endless():
-        try:
-            while True:
-                pass
-        except laboratory.TooLong:
-            return None, "too long"
-
-    assert laboratory.within(0.2, endless) == (None, "too long")

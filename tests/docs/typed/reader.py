@@ -2,8 +2,8 @@
 
 Cells go into IPython, which knows `%%bash` and `%%writefile`; lines with a `$` go into a shell
 beside it, in the same folder. Hidden cells, which only the build has, are not typed: a page that
-needs one cannot be done. Its cells are also executed by `test_site.py`: one page is typed with
-every run of the tests, the others by `pytest -m slow`.
+needs one cannot be done. Its cells are also executed by `test_site.py`, with every run of the
+tests; pages are typed by `pytest -m slow`.
 
 What is said must be what the page has, with these exceptions:
 

@@ -10,25 +10,11 @@ import random
 
 import numpy as np
 from stickslip import EFFECTS, Parameters, simulate
-from stickslip.effects.candidate import Scales
 from stickslip.packing import GRAVITY
 
 IDS = tuple(effect.id for effect in EFFECTS)
 #: Those beside which a stick may creep.
 BESIDE_CREEP = tuple(effect for effect in IDS if effect != "rate_and_state")
-
-#: Of a campaign like the source study's.
-SCALES = Scales(
-    speed=0.15,
-    distance=3.0,
-    heat=5.0,
-    duration=20.0,
-    stiffness=38.5,
-    travel=0.02,
-    mass=0.87,
-    force=8.5,
-    extension=0.03,
-)
 
 
 def draw_table(effect: str, draw: random.Random) -> dict[str, float]:

@@ -1,9 +1,8 @@
 """The source study's scheme once more, flat, from its equations and its listing.
 
 Nothing is shared with `stickslip.reference`: springs are summed as the listing sums them, a block
-of slip is one matrix exponential of the motion with its loads held linear between samples, and
-friction is a sum over a hundred strips, each with a draw of its own. What the print leaves open is
-an argument.
+of slip is one matrix exponential of the motion under a load that is held, and friction is a sum
+over a hundred strips. What the print leaves open is an argument.
 """
 
 from __future__ import annotations
@@ -13,7 +12,7 @@ import math
 import numpy as np
 from scipy.linalg import expm
 
-R, LENGTH, STRIPS, BLOCK, SAMPLES, BLOCKS = 0.05, 0.2, 100, 0.01, 100, 100
+R, LENGTH, STRIPS, BLOCK, BLOCKS = 0.05, 0.2, 100, 0.01, 100
 BETA = np.radians([160.0, 20.0, 200.0, 340.0])
 A, B = R * np.cos(BETA), R * np.sin(BETA)
 
@@ -48,33 +47,26 @@ def transcribed(
     cycles=25,
     alpha0=(0.0,) * 4,
     updated=True,
-    scatter=0.0,
-    per_draw=1,
-    common=False,
     slope=0.0,
     slope_at=0.15,
     curvature=0.0,
     stick_springs=1,
     reach=1.0,
-    seed=0,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Rows (n, 8): t, q, q', mode at every stick sample and block end; phases: begin, end, mode.
 
-    scatter: of mu_k, drawn anew every ``per_draw`` samples, for all strips at once if ``common``.
     slope: loss of mu_k per m/s of a strip's sliding speed above ``slope_at``, on a slab of
     ``curvature`` 1/R, held for a block. stick_springs: 1 as the listing has it, 4 as eq. 4.21.
     reach: the factor of the rise behind the spring angles, 1 as the listing has it, r if it is r.
     """  # fmt: skip
-    rng = np.random.default_rng(seed)
     area, arm = strips()
     pressure = mass * 9.81 / (math.pi * R**2)
     limit = mu_s * mass * 9.81
     inverse = 1.0 / np.array([mass, mass, mass * R**2])
-    h = BLOCK / (SAMPLES - 1)
     q, v, t = np.zeros(3), np.array([speed, 0.0, 0.0]), 0.0
     carried = v  # the listing never hands the belt's velocity over to slip
     alpha = np.array(alpha0)
-    rows, phases, draws, drawn = [], [], np.zeros(STRIPS), 0
+    rows, phases = [], []
 
     for _ in range(cycles):
         begin = t
@@ -88,28 +80,17 @@ def transcribed(
         phases.append([begin, t, 0])
         begin, v = t, carried
         for _ in range(BLOCKS):
-            # state, its rate, load at the sample's beginning, and the load's growth
-            system = np.zeros((12, 12))
+            # state, its rate, and the load, which is held over a block
+            system = np.zeros((9, 9))
             system[:3, 3:6] = np.eye(3)
             system[3:6, :3] = -k * inverse[:, None] * stiffness(alpha)
             system[3:6, 6:9] = np.diag(inverse)
-            system[6:9, 9:12] = np.eye(3)
-            advance = expm(system * h)
+            advance = expm(system * BLOCK)
             sliding = np.abs(speed * (1.0 - curvature * arm) - v[0] + arm * v[2])
             mu = np.maximum(mu_k - slope * (sliding - slope_at), 0.0) if slope else mu_k
-            load = np.zeros((SAMPLES, 3))
-            for sample in range(SAMPLES if scatter else 1):
-                if scatter and drawn % per_draw == 0:
-                    draws = scatter * rng.standard_normal(1 if common else STRIPS)
-                drawn += 1
-                force = pressure * (mu + draws) * area
-                load[sample] = force.sum(), 0.0, -(force * arm).sum()
-            load = load if scatter else np.tile(load[0], (SAMPLES, 1))
-            growth = np.diff(load, axis=0) / h
-            pushed = load[:-1] @ advance[:6, 6:9].T + growth @ advance[:6, 9:12].T
-            state = np.concatenate([q, v])
-            for push in pushed:
-                state = advance[:6, :6] @ state + push
+            force = pressure * mu * area
+            load = np.array([force.sum(), 0.0, -(force * arm).sum()])
+            state = advance[:6] @ np.concatenate([q, v, load])
             q, v, t = state[:3], state[3:], t + BLOCK
             rows.append([t, *q, *v, 1])
             if v[0] >= speed:

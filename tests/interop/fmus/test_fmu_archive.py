@@ -49,12 +49,6 @@ def test_a_member_that_is_a_link_is_refused(unit):
     refused(unit, "its member 'resources/link' is a symbolic link")
 
 
-def test_a_backslash_in_a_name_is_refused(unit):
-    with zipfile.ZipFile(unit, "a") as file:
-        file.writestr("resources\\x", "x")
-    refused(unit, "has a name that no FMU may hold")
-
-
 def test_a_zip_bomb_is_refused(unit, monkeypatch):
     with zipfile.ZipFile(unit, "a", zipfile.ZIP_DEFLATED) as file:
         file.writestr("resources/zeros", bytes(archive.FEW_BYTES + 1))
@@ -179,17 +173,6 @@ def test_what_a_killed_run_left_is_removed_and_what_a_living_one_has_is_not(tmp_
     with scratch_folder("ssp") as mine:
         assert sorted(tmp_path.iterdir()) == sorted([others, *map(Path, (living.name, mine))])
     living.cleanup()
-
-
-def test_what_an_earlier_run_left_is_not_used(unit, tmp_path, monkeypatch):
-    stale = tmp_path / "fmu-stale"
-    (stale / "binaries" / "linux64").mkdir(parents=True)
-    (stale / "binaries" / "linux64" / "faulty.so").write_text("rubbish")
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    with FmuParticipant(unit) as participant:
-        participant.enter_initialisation(0.0, 1.0)
-        participant.exit_initialisation()
-    assert sorted(tmp_path.iterdir()) == [unit, stale]
 
 
 def folder_of(tmp_path):

@@ -113,15 +113,6 @@ def test_a_unit_that_another_host_ran_in_this_process_runs_in_it(python_fmu):
         one.exit_initialisation()
 
 
-def test_a_module_that_the_host_has_is_not_taken_for_the_units(tmp_path):
-    unit = made(tmp_path / "a", "Wave", 1.0)  # the standard library has one of that name
-    import wave  # noqa: F401
-
-    with FmuParticipant(unit) as one:
-        with pytest.raises(FmuError, match="'wave', and there is another one of that name"):
-            one.enter_initialisation(0.0, 1.0)
-
-
 def test_units_that_may_be_there_once_are(tmp_path):
     from c_units import made as made_of_c
 

@@ -130,30 +130,12 @@ def test_a_slope_is_followed_exactly_and_then_forgotten(old):
         assert unit.read()["x"] == 2.25
 
 
-def test_what_bends_goes_straight_to_its_end(old):
-    with started(old) as unit:
-        unit.write_waveforms({"u": Waveform((1.0, 0.0, 4.0), 0.5)})
-        unit.step(0.0, 0.5)
-        assert unit.read()["x"] == 0.75  # from 1 to 2
-        unit.write_waveforms({"u": Waveform((2.0,), 0.5)})
-        unit.step(0.5, 0.5)
-        assert unit.read()["x"] == 1.75
-
-
 def test_a_derivative_that_the_unit_does_not_take_is_a_failure(old, new):
     with started(old, input_order=2) as unit:
         with pytest.raises(FmuCallError, match="only u, order 1"):
             unit.write_waveforms({"u": Waveform((1.0, 0.0, 4.0), 0.5)})
     with started(new) as unit, pytest.raises(FmuError, match="takes no derivatives of inputs"):
         unit.write_waveforms({"f": Waveform((1.0, 0.0), 0.5)})
-
-
-def test_the_native_unit_follows_a_slope(fmu):
-    at_once = {"surface.run_up_time": 0.0}
-    with started(fmu, inputs={"surface_speed": 0.15}, parameters=at_once) as unit:
-        unit.write_waveforms({"surface_speed": Waveform((0.1, 0.2), 0.5)})
-        unit.step(0.0, 0.5)
-        assert unit.read()["surface_travel"] == pytest.approx(0.075, rel=1e-12)
 
 
 # --- events ---
@@ -207,14 +189,6 @@ def test_a_discrete_input_changes_at_an_event(new):
         assert unit.read()["seen"] == 4 and unit.read()["high"]
 
 
-def test_an_event_of_the_native_unit_ends_its_step(fmu3):
-    with started(fmu3, inputs={"surface_speed": 0.15}) as unit:
-        assert unit.capabilities.ends_early
-        reached = [time for time, early in times(unit, 0.5, 2.0) if early]
-        assert reached
-        assert unit.read()["slip_count"] >= 1
-
-
 # --- states ---
 
 
@@ -255,18 +229,6 @@ def test_a_saved_state_goes_on_in_another_instance(tmp_path, name):
             unit.load_state(b'{"unit": "other", "known": {}, "memory": {}}\nxyz')
 
 
-def test_the_native_units_state_can_be_saved(unit, fmu3):
-    for path in (unit, fmu3):
-        with started(path, inputs={"surface_speed": 0.15}) as block:
-            if not block.capabilities.saves:
-                continue
-            block.step(0.0, 0.01)
-            saved, expected = block.save_state(), block.read()
-            block.step(0.01, 0.01)
-            block.load_state(saved)
-            assert block.read() == expected
-
-
 def test_c_is_not_given_a_state_that_is_not_its_own(old):
     with started(old) as unit:
         state = unit.get_state()
@@ -293,12 +255,6 @@ def test_a_restore_that_is_not_exact_is_found(old, tmp_path):
     with started(path) as unit:
         assert not restores_exactly(unit, 0.0, 0.1)
         unit.step(0.0, 0.1)
-
-
-def test_our_own_units_restore_exactly(fmu, fmu3, python_fmu):
-    for path in (fmu, fmu3, python_fmu):
-        with started(path, inputs={"surface_speed": 0.15}) as block:
-            assert restores_exactly(block, 0.0, 0.01)
 
 
 # --- what they log ---

@@ -1,7 +1,6 @@
 """What each unit brings along: licences, icon, terminals, and a run that it reproduces, as the FMI
 cross-check asks: inputs, times and tolerance, and outputs, computed by the models in Python."""
 
-import re
 import zipfile
 from importlib.metadata import distribution
 from pathlib import Path
@@ -12,19 +11,18 @@ import pytest
 from fmpy.util import read_csv, read_ref_opt_file, validate_result
 from fmpy.validation import validate_fmu
 from lxml import etree
-from stickslip.generation.platforms import this_platform
 
-from cosim.fmu.build import FMI3, NATIVE, PYTHON, THERMAL, THERMAL_FMI3, THERMAL_PYTHON, build_fmu
+from cosim.fmu.build import FMI3, NATIVE, PYTHON, THERMAL, THERMAL_FMI3, THERMAL_PYTHON
 
 SCHEMA = Path(fmpy.__file__).parent / "schema" / "fmi3" / "fmi3TerminalsAndIcons.xsd"
 HEAT = (THERMAL, THERMAL_FMI3, THERMAL_PYTHON)
 
 
 @pytest.fixture(scope="module")
-def units(fmu, fmu3, python_fmu, tmp_path_factory):
+def units(fmu, fmu3, python_fmu, once, tmp_path_factory):
     """Name -> file and what is beside its page, of every unit."""
     folder = tmp_path_factory.mktemp("units")
-    heat = [build_fmu(folder, name, [this_platform()]) for name in HEAT]
+    heat = [once(name) for name in HEAT]
     found = {}
     for unit in (fmu, fmu3, python_fmu, *heat):
         with zipfile.ZipFile(unit) as archive:
@@ -150,14 +148,3 @@ def test_its_icon_and_terminals_are_where_its_fmi_has_them(archive):
     assert members.keys() == expected
     assert {variable for each in members.values() for variable in each.values()} <= known
     assert [*members["interface"]] == ["heat", "surface_speed", "x", "interface_temperature"]
-
-
-def test_its_reference_run_ends_where_its_page_says(archive):
-    _, name, _ = facts(archive)
-    options = archive.read(f"documentation/{name}_ref.opt").decode()
-    stop = float(re.search(r"StopTime, (\S+)", options)[1])
-    last = archive.read(f"documentation/{name}_ref.csv").decode().splitlines()[-1]
-    assert float(last.partition(",")[0]) == pytest.approx(stop, rel=1e-12)
-    if "documentation/index.html" in archive.namelist():
-        page = archive.read("documentation/index.html").decode()
-        assert f"from 0 to {stop:g} s" in page

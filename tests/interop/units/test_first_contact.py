@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 from fmpy import simulate_fmu
 from fmpy_slave import fmpy_slave
-from stickslip.generation.platforms import this_platform
 
 from cosim.cli import main
-from cosim.fmu.build import THERMAL, build_fmu
+from cosim.fmu.build import THERMAL
 from cosim.fmu.variables import parameter_table
 from cosim.scenario.defaults import stated
 
@@ -55,10 +54,10 @@ def test_a_host_that_sets_nothing_has_one_motion_however_it_runs_the_unit(fmu, f
 
 
 @pytest.fixture(scope="module")
-def pair(fmu, tmp_path_factory):
+def pair(fmu, once, tmp_path_factory):
     """The bare pair as a system's file, with more lines."""
     folder = tmp_path_factory.mktemp("pair")
-    heat = build_fmu(folder, THERMAL, [this_platform()])
+    heat = once(THERMAL)
 
     def written(more=""):
         units = f'[units.mechanics]\nfile = "{fmu}"\n{more}[units.thermal]\nfile = "{heat}"\n'

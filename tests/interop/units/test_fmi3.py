@@ -5,7 +5,7 @@ import random
 import shutil
 import subprocess
 import zipfile
-from ctypes import byref, c_bool, c_double, c_uint, c_void_p
+from ctypes import byref, c_double, c_uint
 from xml.etree import ElementTree
 
 import fmpy
@@ -170,17 +170,6 @@ def test_steps_end_at_the_models_own_events(unit, case):
     assert rows == plain
 
 
-def test_fmpy_stops_at_events_and_the_motion_is_the_same(fmu3):
-    given = {"stop_time": 3.0, "output_interval": 0.01, "output": ["x", "heat", "mode"]}
-    given["start_values"] = values({})
-    plain = fmpy.simulate_fmu(str(fmu3), **given)
-    stopped = fmpy.simulate_fmu(str(fmu3), use_event_mode=True, early_return_allowed=True, **given)
-    own = simulate(Parameters(surface={"speed": 0.15}), duration=3.0).events
-    extra = ~np.isin(stopped["time"], plain["time"])
-    assert sorted(set(stopped["time"][extra])) == list(own[:, 0])
-    assert stopped[~extra].tobytes() == plain.tobytes()
-
-
 def test_a_step_that_happens_to_end_at_an_event_is_no_early_return(unit):
     with unit.instance(events=True, early=True) as block:
         block.begin().done("EnterStepMode")
@@ -189,16 +178,6 @@ def test_a_step_that_happens_to_end_at_an_event_is_no_early_return(unit):
     with unit.instance(events=True, early=True) as block:
         block.begin().done("EnterStepMode")
         assert block.step(time) == (True, False) and block.time == time
-
-
-def test_a_step_past_the_stop_time_is_refused(unit):
-    with unit.instance() as block:
-        block.done("EnterInitializationMode", False, 0.0, 0.0, True, 0.3)
-        block.done("ExitInitializationMode")
-        for _ in range(3):
-            block.step(0.1)
-        told = map(byref, (c_bool(), c_bool(), c_bool(), c_double()))
-        assert "past the stop time" in block.reason("DoStep", block.time, 1e-3, True, *told)
 
 
 @pytest.mark.parametrize(("events", "early"), [(False, False), (False, True), (True, False)])
@@ -334,36 +313,6 @@ def test_looking_at_indicators_leaves_a_step_as_it_is(unit):
 
 
 # --- saved states ---
-
-
-@pytest.mark.parametrize("exchanges", [False, True])
-def test_a_run_goes_on_from_a_state_in_another_instance(unit, exchanges):
-    how = {"exchanges": exchanges} if exchanges else {"events": True, "early": True}
-    with unit.instance(**how) as block, unit.instance(**how) as other:
-        block.begin(**PLANE_VALUES)
-        if exchanges:
-            block.update()
-        else:
-            block.done("EnterStepMode")
-            marched(block, 7, 0.1)
-            block.step(1.0)
-        state = block.save()
-        content = block.as_bytes(state)
-        loaded = other.from_bytes(content)
-        other.restore(loaded)
-        other.time = block.time
-        assert other.everything() == block.everything()
-        if not exchanges:
-            assert marched(block, 20, 0.1) == marched(other, 20, 0.1)
-            assert other.everything() == block.everything()
-        block.restore(state)
-        again = block.save()
-        assert block.as_bytes(again) == content
-        for one in (state, loaded, again):
-            block.forget(one)
-        broken = bytes([content[0] ^ 1]) + content[1:]
-        said = other.reason("DeserializeFMUState", broken, len(broken), byref(c_void_p()))
-        assert said == "the state is damaged, or was taken from another build of this unit"
 
 
 def test_a_state_is_of_an_instance_of_its_kind(unit):

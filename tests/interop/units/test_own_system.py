@@ -12,12 +12,11 @@ import pytest
 import xarray as xr
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssv
-from stickslip.generation.platforms import this_platform
 
 from cosim import read_scenario, run_scenario
 from cosim.cli import main
 from cosim.coupling.record import CheckpointError, RunFolder
-from cosim.fmu.build import SYSTEM, build_fmu
+from cosim.fmu.build import SYSTEM
 from cosim.fmu.thermal import structure
 from cosim.systems import read_system, run_system
 
@@ -26,8 +25,8 @@ TEMPERATURE = "thermal.interface_temperature"
 
 
 @pytest.fixture(scope="module")
-def ssp(tmp_path_factory):
-    return build_fmu(tmp_path_factory.mktemp("system"), SYSTEM, [this_platform()])
+def ssp(once):
+    return once(SYSTEM)
 
 
 def result_of(path, **changes):

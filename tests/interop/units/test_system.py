@@ -24,7 +24,7 @@ from stickslip.generation.platforms import this_platform
 from test_other_hosts import ecos_environment  # noqa: F401  (a fixture)
 
 from cosim import read_scenario, run_scenario
-from cosim.fmu.build import SYSTEM, build_fmu
+from cosim.fmu.build import SYSTEM
 from cosim.fmu.libraries import platforms_of
 from cosim.fmu.thermal import structure
 from cosim.systems import read_system, run_system
@@ -36,8 +36,8 @@ NEAR = 2e-5
 
 
 @pytest.fixture(scope="module")
-def system(tmp_path_factory):
-    return build_fmu(tmp_path_factory.mktemp("system"), SYSTEM, [this_platform()])
+def system(once):
+    return once(SYSTEM)
 
 
 @pytest.fixture(scope="module")

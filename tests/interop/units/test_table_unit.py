@@ -4,7 +4,7 @@ import numpy as np
 
 from cosim import read_scenario, run_scenario
 
-SPEED, DEGREES = (0.0, 0.1, 0.3), (-12.0, -6.0, -2.0)
+SPEED = (0.0, 0.1, 0.3)
 MU = (0.30, 0.22, 0.18, 0.24, 0.15, 0.12, 0.10, 0.05, 0.04)
 
 

@@ -53,15 +53,6 @@ def test_a_copy_is_the_same_under_its_own_name(capsys, source):
     assert set(comments) <= set(Path("deep/mine.toml").read_text().splitlines())
 
 
-def test_a_copy_of_a_copy_and_of_a_file_without_a_name(capsys):
-    Path("first.toml").write_text("# mine\n[rig]\nmass = 2.0\n")
-    assert main(["new", "second", "--from", "first.toml"]) == 0
-    assert main(["new", "third", "--from", "second.toml"]) == 0
-    assert Path("third.toml").read_text() == Path("second.toml").read_text()
-    assert read_scenario("third.toml").name == "third"
-    assert read_scenario("third.toml").rig.mass == 2.0
-
-
 def test_nothing_is_overwritten(capsys):
     Path("mine.toml").write_text("name = 'mine'")
     line = refusal(capsys, "new", "mine")
@@ -180,13 +171,6 @@ def test_campaigns_and_systems_have_schemas(schemas):
     assert errors(schemas["system"], "[[connections]]\nfrom = 'a.y'\nto = 'b.u'\n" + system) == []
     for text in ("[run]\nstop = 1", system + "stpo = 2", "[units.a]\nfile = 3"):
         assert errors(schemas["system"], text)
-
-
-def test_a_schema_goes_to_a_file_that_is_none_of_somebody_else(capsys):
-    for _ in range(2):
-        assert main(["schema", "campaign", "-o", "deep/campaign.schema.json"]) == 0
-    Path("mine.json").write_text("{}")
-    assert "mine.json: is there" in refusal(capsys, "schema", "-o", "mine.json")
 
 
 WORDS = {

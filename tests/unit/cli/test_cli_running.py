@@ -45,13 +45,6 @@ def test_a_coupled_run_ends_in_six_lines(tmp_path):
         assert any(said in line for line in lines), said
 
 
-def test_a_block_of_steel_is_one_on_the_terminal_too():
-    ledgers = {"ledger": MECHANICS["ledger"] | HEAT_LEDGERS}
-    lines = closing_lines(MECHANICS | HEAT | ledgers, Path("an/ice/out"), 6.0, "steel")
-    assert "belt 31.0 %, steel 48.0 %, air 21.0 %" in lines[3]
-    assert "an/ice/out" in lines[-1]
-
-
 @pytest.mark.parametrize(
     ("ends", "said"),
     [
@@ -80,13 +73,6 @@ def test_mechanics_alone_says_nothing_of_heat_and_a_short_run_has_no_frequency()
     short = {"frequency": None, "slip_share": None, "duration": 0.0}
     lines = closing_lines(MECHANICS | {"after_run_up": short}, Path("out"), 6.0)
     assert len(lines) == 4 and "not known" in lines[1]
-
-
-def test_a_ledger_of_nothing_and_one_that_is_exact():
-    ledgers = MECHANICS["ledger"] | HEAT_LEDGERS | {"mechanics": {"relative_residual": None}}
-    line = closing_lines(MECHANICS | HEAT | {"ledger": ledgers}, Path("out"), 6.0)[4]
-    assert "mechanics has nothing in it, heat 2.0e-14, coupling 0" in line
-    assert line.endswith("coupling 0")
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """Processes end in good order, however many calls wait and however long those under way take."""
 
-import inspect
 import os
 import subprocess
 import sys
@@ -9,7 +8,6 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
-from joblib.externals.loky import ProcessPoolExecutor
 
 from cosim.processes import apart, as_finished, processes
 
@@ -42,27 +40,6 @@ def test_an_interrupt_ends_calls_that_do_not_look_up(tmp_path):
     assert done.stdout.strip() == "interrupted"
     assert "Traceback" not in done.stderr
     assert time.perf_counter() - began < 40.0
-
-
-def test_what_is_used_of_loky_and_is_not_public_is_there():
-    """cosim/processes.py empties the queue of waiting calls; joblib is bounded for its sake."""
-    executor = ProcessPoolExecutor(1)
-    try:
-        for name in ("_work_ids", "_pending_work_items"):
-            assert hasattr(executor, name), (
-                f"this joblib's loky has no {name}: mend _forget_waiting in cosim/processes.py, "
-                "or lower the upper bound of joblib in pyproject.toml"
-            )
-        assert callable(executor._work_ids.get_nowait), "_work_ids is no queue any more"
-        assert callable(executor._pending_work_items.pop), "_pending_work_items is no dict any more"
-    finally:
-        executor.shutdown()
-    for owner, parameters in (
-        (ProcessPoolExecutor.__init__, {"initializer", "initargs", "env"}),
-        (ProcessPoolExecutor.shutdown, {"kill_workers"}),
-    ):
-        missing = parameters - set(inspect.signature(owner).parameters)
-        assert not missing, f"loky's {owner.__qualname__} takes no {missing} any more"
 
 
 def square(number):

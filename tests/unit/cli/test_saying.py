@@ -3,8 +3,6 @@
 import io
 import json
 import logging
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -42,25 +40,6 @@ def test_verbose_names_the_files_as_they_are_written(case, capsys):
     assert [line for line in said if line.startswith("note: left to the defaults")]
     for name in ("result.nc", "summary.json", "report.html"):
         assert f"writing out/{name}" in said
-
-
-def test_verbose_names_what_is_read_and_compiled(case, capsys):
-    # a process of its own: this one has the compiled model loaded
-    code = "from cosim.cli import main; raise SystemExit(main(['simulate', 'case.toml', '-v']))"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    said = done.stderr.splitlines()
-    assert "reading case.toml" in said
-    assert [line for line in said if line.startswith("mechanical model: machine code")]
-    with pytest.raises(SystemExit):
-        main(["keys", "--help"])
-    assert "what the units say" not in capsys.readouterr().out
-
-
-def test_quiet_and_verbose_together_are_refused(case, capsys):
-    with pytest.raises(SystemExit) as stop:
-        main(["simulate", case, "-q", "-v"])
-    assert stop.value.code == 2
-    assert "not allowed with argument" in capsys.readouterr().err
 
 
 def test_how_much_is_said_ends_with_the_command(capsys):

@@ -1,6 +1,5 @@
 """The table on disk: read by plain numpy at any moment, whatever becomes of the writer."""
 
-import json
 import os
 import signal
 import subprocess
@@ -10,7 +9,7 @@ import time
 import numpy as np
 import pytest
 
-from cosim.coupling.record import GrowingTable, Place, write_columns
+from cosim.coupling.record import GrowingTable, Place
 from cosim.files import OutputError
 
 #: Writes rows of (n, n, ...) for ever; every third stays. argv: path, columns.
@@ -55,28 +54,11 @@ def test_a_row_that_is_not_kept_gives_way_to_the_next(tmp_path):
     assert len(table) == 4 and table.rows()[:, 0].tolist() == [0, 3, 6, 7]
 
 
-@pytest.mark.parametrize("columns", [1, 12, 1000, 5000])
-def test_any_number_of_columns(tmp_path, columns):
-    """An array with named fields is refused by numpy.load from some 250 names on."""
-    table = GrowingTable(columns, tmp_path / "t.npy")
-    rows = np.random.default_rng(1).normal(size=(7, columns))
-    for row in rows:
-        table.append(row.tolist(), keep=True)
-        table.append(row, keep=False)
-    np.testing.assert_array_equal(loaded(table.path)[:-1], rows)
-
-
 def test_every_number_comes_back_as_it_was(tmp_path):
     odd = [np.nan, np.inf, -np.inf, -0.0, 5e-324, 1.7976931348623157e308, 0.1]
     table = GrowingTable(len(odd), tmp_path / "t.npy")
     table.append(odd)
     assert loaded(table.path).tobytes() == np.array([odd]).tobytes()
-
-
-def test_single_precision(tmp_path):
-    table = GrowingTable(2, tmp_path / "t.npy", single=True)
-    table.append(np.array([0.1, 2.0]))
-    assert loaded(table.path).dtype == np.float32 and loaded(table.path)[0, 1] == 2.0
 
 
 def test_without_a_path_there_is_no_file_and_the_rows_are_there(tmp_path, monkeypatch):
@@ -183,23 +165,6 @@ def test_whole_rows_whenever_it_is_killed(tmp_path, columns):
         check_rows(loaded(path))
 
 
-def test_whole_rows_while_it_grows(tmp_path):
-    """The last row may be replaced under the reader's eyes; those before it stay."""
-    path = tmp_path / "t.npy"
-    writer = start(path, 3)
-    try:
-        sizes = set()
-        for _ in range(2000):
-            found = loaded(path)
-            first = np.array(found[:-1, 0])
-            sizes.add(first.size)
-            assert (first == 3 * np.arange(first.size)).all()
-    finally:
-        writer.kill()
-        writer.communicate()
-    assert len(sizes) > 100, "the file did not grow while it was read"
-
-
 FULL = """
 import resource, signal, sys
 from pathlib import Path
@@ -247,9 +212,3 @@ def test_a_file_that_is_removed_is_missed(tmp_path, monkeypatch):
 def test_a_folder_that_is_not_there(tmp_path):
     with pytest.raises(OutputError, match="No such file or directory"):
         GrowingTable(1, tmp_path / "none" / "t.npy")
-
-
-def test_columns_have_names_and_units(tmp_path):
-    units = {"time": "s", "ice.heat": "J", 'a name with ü and "': "1"}
-    written = json.loads(write_columns(tmp_path / "t.json", units).read_text())["columns"]
-    assert {one["name"]: one["unit"] for one in written} == units

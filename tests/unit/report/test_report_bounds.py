@@ -7,7 +7,6 @@ from test_report_dataset import coupled_dataset, mechanics_dataset
 
 from cosim.report import summary, write_results
 from cosim.report.bounds import (
-    WIDTH,
     allowed_aside,
     bounds_sentences,
     contact_share,
@@ -80,12 +79,6 @@ def test_a_block_on_its_belt_is_not_told_of(make):
     found = summary(aside(make(), 0.002))
     assert found["left_belt"]["time"] is None and found["overstretched"]["time"] is None
     assert bounds_sentences(found) == []
-
-
-def test_without_a_width_there_is_no_edge():
-    dataset = aside(mechanics_dataset(), 0.06)
-    del dataset.attrs[WIDTH]
-    assert "left_belt" not in summary(dataset)
 
 
 def test_a_slab_has_a_centre_and_its_heat_a_track():

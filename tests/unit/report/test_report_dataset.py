@@ -228,13 +228,6 @@ def test_status_of_a_trajectory(reason, status):
     assert bool(dataset.attrs["reason"]) == (status != "complete")
 
 
-def test_unwritable_folder_is_one_clear_line(tmp_path):
-    missing = tmp_path / "nowhere"
-    with pytest.raises(OutputError, match="result.nc: cannot be written: No such file") as caught:
-        write_data(mechanics_dataset(), missing)
-    assert "\n" not in str(caught.value)
-
-
 def test_failed_write_leaves_the_earlier_file_and_no_scraps(tmp_path, monkeypatch, full_disk):
     dataset = mechanics_dataset()
     write_data(dataset, tmp_path)

@@ -45,16 +45,6 @@ def test_a_long_run_keeps_its_peaks_and_events():
     assert np.abs(np.diff(time[rows])).max() < 0.2
 
 
-def test_of_many_curves_none_becomes_angular():
-    """Twelve curves with other phases: each still has a row for each two pixels of its way."""
-    time = np.linspace(0.0, 20.0, 60_001)
-    curves = [np.sin(7.0 * time + phase) for phase in range(12)]
-    rows = thinned(time, curves)
-    for curve in curves:
-        drawn = np.interp(time, time[rows], curve[rows])
-        assert np.abs(drawn - curve).max() < 0.01  # a pixel of a plot of 150
-
-
 def test_a_page_has_the_events_to_the_last_digit():
     dataset = mechanics_dataset()
     sent = LIVE["motion"](dataset)
@@ -114,8 +104,3 @@ def test_a_picture_cannot_end_its_script():
     html = str(figure(Picture("p", "c", bytes, live=sent)))
     script = html.split('<script type="application/json">')[1].split("</script>")[0]
     assert json.loads(script)["panels"][0]["label"] == "</script><b> [m]"
-
-
-def test_pictures_without_life_are_as_they_were():
-    html = str(figure(Picture("p", "a & b", lambda: b"\0" * 24), alt="x"))
-    assert 'alt="x"' in html and "<script" not in html and "a &amp; b" in html

@@ -13,7 +13,7 @@ from cosim.report import page as page_module
 from cosim.report import write_results
 from cosim.report.figures import plates_of
 from cosim.report.page import number
-from cosim.report.quantities import digits, told
+from cosim.report.quantities import told
 from cosim.report.results import number_tables
 from cosim.report.run_answer import headline, tiles
 from cosim.report.run_summary import summary
@@ -174,12 +174,6 @@ def test_rounding_beside_a_channels_own_size_or_its_nominal_is_nought(value, siz
     assert number(value, 3, **sizes) == text
 
 
-def test_lists_and_words_of_parameters():
-    assert digits([160.0, 20.0]) == "160, 20" and digits("disc") == "disc"
-    assert told(0.947, "1", share=True) == "94.7 %"
-    assert told(0.0494134, "K", count=5) == "49.413 mK", "of differences between results"
-
-
 def test_a_run_that_ends_in_its_ramp_has_no_numbers_after_it():
     """A sentence in place of a column of dashes."""
     numbers = {"after_run_up": {"begin": 10.0, "duration": 0.0, "frequency": None}}
@@ -233,8 +227,3 @@ def test_a_run_is_told_in_a_sentence(moves, further, said):
     numbers = {"time_reached": 30.0, "status": "complete", "after_run_up": MOVES | moves, **further}
     assert headline(numbers) == f"The block {said}"
     assert len(tiles(numbers)) == 4
-
-
-def test_a_run_without_a_row_has_no_figures_at_the_top():
-    numbers = {"time_reached": None, "status": "failed"}
-    assert headline(numbers) == "The run failed before its first row." and tiles(numbers) == []

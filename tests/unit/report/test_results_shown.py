@@ -51,25 +51,12 @@ def test_a_trajectory_as_a_dataset_has_all_of_it(simulated):
     assert Parameters.model_validate_json(data.attrs["parameters"]) == run.parameters
 
 
-def test_a_dataset_goes_to_disk_and_comes_back(simulated, coupled, tmp_path):
-    datasets = (simulated.trajectory.to_xarray(), simulated.to_xarray(), coupled.to_xarray())
-    for number, data in enumerate((*datasets, coupled.result.to_xarray())):
-        data.to_netcdf(tmp_path / f"{number}.nc", engine="h5netcdf")
-        with xr.open_dataset(tmp_path / f"{number}.nc") as read:
-            assert read.sizes == data.sizes
-
-
 def test_a_coupled_result_has_every_recorded_variable(coupled):
     data = coupled.result.to_xarray()
     assert set(data.data_vars) == {*coupled.result.values, "energy_residual"}
     assert data["thermal.interface_temperature"].attrs["units"] == "degC"
     np.testing.assert_array_equal(data["mechanics.x"], coupled.result["mechanics.x"])
     assert coupled.to_xarray()["belt_temperature"].dims == ("snapshot_time", "belt_position")
-
-
-def test_they_draw_what_their_page_has(coupled, simulated):
-    for run, name in ((coupled, "temperatures"), (simulated, "motion")):
-        assert run.plot(name)._repr_png_().startswith(b"\x89PNG")
 
 
 def test_a_figure_that_there_is_not_is_refused_with_those_that_there_are(simulated):
@@ -98,13 +85,6 @@ def test_an_answer_as_a_dataset_has_runs_models_and_numbers(gap, tmp_path):
     data.to_netcdf(tmp_path / "gap.nc", engine="h5netcdf")
     with xr.open_dataset(tmp_path / "gap.nc") as read:
         assert read.sizes == data.sizes
-
-
-def test_an_answer_draws_the_figures_of_its_page(gap):
-    for name in ("ladder", "overlay_x"):
-        assert gap.plot(name)._repr_png_().startswith(b"\x89PNG")
-    with pytest.raises(ValueError, match="no figure of this answer is named 'rankings'"):
-        gap.plot("rankings")
 
 
 #: y1 = 6 t, which a second unit follows.

@@ -2,12 +2,10 @@
 
 import json
 
-import numpy as np
 import pytest
-from stickslip import simulate
 
 from cosim.cli import main
-from cosim.scenario import Scenario, ScenarioError, read_scenario
+from cosim.scenario import Scenario, read_scenario
 from cosim.scenario.defaults import IN_PROPORTION, stated
 from cosim.scenario.validation import known_keys
 
@@ -76,45 +74,11 @@ def test_a_default_that_goes_with_a_size_goes_with_the_given_one(tmp_path, given
     assert case.taken[key] == flat(case)[key] == value
 
 
-@pytest.mark.parametrize(
-    ("text", "line"),
-    [
-        ("rig = 3", "rig: not a table (3)"),
-        ("[rig]\nspring_length = '1'", 'rig.spring_length: not a number ("1")'),
-        ("[rig]\nspring_length = nan", "rig.spring_length: not a finite number"),
-        ("[run]\nduration = -1", "run.duration: out of range (-1)"),
-        ('defaults = "none"', 'defaults: not known ("none"), allowed is "rig" or "plain"'),
-        ("[default]", "default: no such key, nearest known: defaults"),
-    ],
-)
-def test_a_fault_is_the_file_s_as_always(tmp_path, text, line):
-    with pytest.raises(ScenarioError) as fault:
-        read_scenario(written(tmp_path, text))
-    assert line in str(fault.value)
-
-
 def test_what_was_taken_is_not_part_of_what_a_scenario_is(tmp_path):
     """It is written out in full, and read again in whatever way is the same."""
     case = read_scenario(written(tmp_path, THREE_LINES))
     again = read_scenario(written(tmp_path, case.to_toml(), "again.toml"))
     assert again == case and again.taken == {} != case.taken
-
-
-def motion(tmp_path, defaults):
-    """A block that starts 0.1 mm aside and turned by 1 mrad, after the speed ramp."""
-    text = f'defaults = "{defaults}"\n{THREE_LINES}[initial]\ny = 1e-4\nphi = 1e-3\n'
-    case = read_scenario(written(tmp_path, text))
-    run = simulate(case.mechanics, case.run.duration)
-    late = run.time > 10.0
-    return run, {key: np.abs(run[key][late]).max() for key in ("y", "phi")}, run["mode"][late]
-
-
-def test_a_first_scenario_sticks_slips_and_keeps_to_its_line(tmp_path):
-    """Disturbances as every rig has die out; the plain model with friction across swerves."""
-    run, largest, mode = motion(tmp_path, "rig")
-    assert run.complete and set(mode) == {0, 1}
-    # less than it started with: they die out by the factor 0.6 a cycle
-    assert largest["y"] < 1e-4 and largest["phi"] < 1e-3
 
 
 def test_the_command_says_what_was_taken(tmp_path, monkeypatch, capsys):

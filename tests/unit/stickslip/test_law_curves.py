@@ -5,7 +5,7 @@ import pytest
 from stickslip import EFFECTS, Parameters
 from stickslip.friction.law_curves import axis_of, law_curve
 
-MU_S, MU_K, NORMAL = 0.2815, 0.2086, 0.67 * 9.81
+MU_S, MU_K = 0.2815, 0.2086
 #: Effect -> its table, and the formula over the axis.
 FORMULAS = {
     "static_strengthening": ({"rate": 0.05}, lambda t: MU_S + 0.05 * np.log10(1.0 + t / 0.01)),

@@ -40,11 +40,6 @@ def test_the_values_stand_in_the_order_of_the_fmu_s_parameters():
         assert [name] * size == [each.partition("[")[0] for each in NAMES[at : at + size]]
 
 
-def test_the_order_of_a_mapping_is_of_no_concern():
-    values = Parameters(rig={"inertia": 1e-3}).flat()
-    assert pack(values) == pack({name: values[name] for name in reversed(NAMES)})
-
-
 def test_the_draws_are_those_of_python_s_generator():
     """Each seed its own, uncut; the field on the surface in pairs of deviate and turn."""
     v = in_order(Parameters(imperfections={"seed": 3}, surface_scatter={"seed": 8}).flat())

@@ -66,29 +66,6 @@ def test_unknown_block():
         Parameters(frictions={"mu_s": 0.2})
 
 
-def test_slab_and_curvature_are_one_thing():
-    with pytest.raises(ValueError, match="give one of the two"):
-        Parameters(rig={"surface": "slab"}, turning_surface={"curvature": 2.0})
-
-
-BRISTLES = {"transition_speed": 3e-3, "presliding_distance": 5e-5}
-
-
-@pytest.mark.parametrize(
-    ("tables", "said"),
-    [
-        ({"friction": {"presliding_distance": 5e-5}}, "friction.transition_speed = 0: bristles"),
-        ({"friction": BRISTLES | {"stick_creep": 1e-3}}, "beside friction.stick_creep"),
-        ({"friction": BRISTLES, "stick_stiffness": {"ratio": 0.25}}, "beside stick_stiffness"),
-        ({"friction": BRISTLES, "rate_and_state": {"evolution": 0.1}}, "beside rate_and_state"),
-    ],
-)
-def test_a_contact_is_sheared_by_one_law(tables, said):
-    Parameters(friction=BRISTLES)
-    with pytest.raises(ValueError, match=said):
-        Parameters(**tables)
-
-
 def test_a_creep_is_that_under_what_the_contact_holds():
     """Per load: v_c / (mu N), mu the larger of the two, with its dependence on the load."""
 

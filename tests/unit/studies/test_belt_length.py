@@ -2,7 +2,6 @@
 
 import argparse
 import json
-from dataclasses import asdict
 
 import numpy as np
 import pandas as pd
@@ -30,7 +29,6 @@ from cosim.studies.belt_length import (
 from cosim.studies.belt_length.changes import linear_sensitivity
 from cosim.studies.belt_length.lengths import LENGTHS, SPEEDS
 from thermal.belt.air import moving_belt
-from thermal.steady_sliding import SteadySliding
 
 FAST = ("--samples", 0, "--map", 0, "--jobs", 1)
 #: A contact that holds, and starts with the belt.
@@ -78,13 +76,6 @@ def test_drifts_in_the_order_that_they_must_have():
     assert found.seen_by_camera and not found.steady_melts
 
 
-def test_the_studys_resolution_is_good_to_half_a_percent():
-    case = Case(1.0, 0.82)
-    fine = SteadySliding(case.thermal(fine=True), case.speed, case.force)
-    fine.ramp(10.0)
-    assert run_drift(case) == pytest.approx(fine.run(20.0).entry, rel=5e-3)
-
-
 def test_shortest_belt_meets_the_limit():
     case, limit = Case(1.0, 0.5), 0.2
     length = shortest_belt(case, limit, run_drift)
@@ -117,11 +108,6 @@ def test_drift_map_rises_with_speed_and_falls_with_length():
     assert found.drift[0, 1] == pytest.approx(
         run_drift(Case(LENGTHS[0], float(found.speeds[1]))), rel=1e-12
     )
-
-
-def test_ambient_does_not_change_rises_but_friction():
-    warm, cold = (asdict(drift(Case(1.0, 0.5, h=15.0, ambient_degC=t))) for t in (-8.0, -16.0))
-    assert warm == pytest.approx(cold, rel=1e-9)
 
 
 def test_still_air_takes_its_number_from_speed_and_length():
@@ -240,36 +226,6 @@ def test_a_fault_of_a_scenario_names_file_and_key(tmp_path, table, options, says
     assert says in str(refused.value) and "\n" not in str(refused.value)
 
 
-def test_what_is_given_twice_is_one_case_and_a_narrow_belt_is_told_of(
-    tmp_path, monkeypatch, capsys
-):
-    monkeypatch.setattr(belt_length_command, "answer_all", lambda *given: None)
-    seen = []
-
-    def stopped(study, wanted, jobs, progress):
-        seen.extend(case.length for case in wanted)
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(belt_length_command, "work_off", stopped)
-    file = tmp_path / "case.toml"
-    for width, said in ((0.01, 1), (0.075, 0)):
-        seen.clear()
-        file.write_text(f"[belt]\nwidth = {width}")
-        call(file, "--length", 1, 1, 2, "-o", tmp_path / "out", *FAST)
-        assert seen == [1.0, 2.0]
-        assert capsys.readouterr().err.count("less than half of the contact") == said
-
-
-def test_the_rig_in_json_is_the_one_that_was_used(coarse):
-    study = work_through(*cases(Case(1.0, 0.5), length=(1.0, 2.0)))
-    said = study.as_dict()
-    assert said["rig"]["belt"]["air_heat_transfer"] is None, "another in each case"
-    assert [one["case"]["h"] for one in said["cases"]] == [row.case.film for row in study.rows]
-    assert said["rig"]["belt"]["conductivity"] == said["cases"][0]["case"]["conductivity"] == 0.5
-    study.rows.pop()
-    assert study.as_dict()["rig"]["belt"]["air_heat_transfer"] == Case(1.0, 0.5).film
-
-
 def test_ctrl_c_keeps_the_cases_that_are_done(coarse, tmp_path, monkeypatch, capsys):
     def stopped(study, wanted, jobs, progress):
         work_off(study, wanted[:2], 1, progress)
@@ -282,18 +238,6 @@ def test_ctrl_c_keeps_the_cases_that_are_done(coarse, tmp_path, monkeypatch, cap
     numbers = json.loads((tmp_path / "belt_length.json").read_text())
     assert not numbers["complete"] and len(numbers["cases"]) == 2
     assert len(pd.read_csv(tmp_path / "belt_length.csv")) == 2
-
-
-def test_ctrl_c_keeps_the_part_of_the_map_that_is_done(tmp_path, monkeypatch):
-    def stopped(grid, case, jobs, progress):
-        grid.drift[0] = 1.0
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(belt_length_command, "fill_map", stopped)
-    words = ("--length", 1, "--speed", 0.5, "--samples", 0, "--jobs", 1, "--map", 2)
-    assert call(*words, "-o", tmp_path) == 1
-    numbers = json.loads((tmp_path / "belt_length.json").read_text())
-    assert numbers["complete"] and numbers["map"]["drift"] == [[1.0, 1.0], [None, None]]
 
 
 def work_through(*wanted):

@@ -12,7 +12,6 @@ import pytest
 from cosim import read_scenario
 from cosim.cli import is_bad_input
 from cosim.cli.studies import friction_map as friction_regimes_command
-from cosim.report.style import shown
 from cosim.studies.friction_map import (
     FrictionMap,
     SteadySliding,
@@ -158,31 +157,8 @@ def test_a_dry_block_slides_at_the_speed_of_the_belt(dry):
     assert dry.regimes(-10.0)["minimum"] is None  # of rounding
 
 
-def test_a_line_that_is_flat_fills_its_picture(dry):
-    (axes,) = shown(draw_map, dry).axes
-    assert axes.get_yscale() == "linear" and axes.get_ylim()[0] == 0.0
-    left, right = axes.get_xlim()
-    assert left > SPEEDS[0] / 4.0 and right < SPEEDS[-1] * 4.0
-    text = page(dry, draw_map(dry), "command")
-    assert "Friction is 0.209 at all 4 speeds from 0.05 to 0.5 m/s" in text
-    assert "the contact is dry" in text and "less than a decade" not in text
-    assert "Dry friction alone" in text and "−0 " not in text
-
-
 def flowing(*speeds):
     return FrictionMap(CASE, 2.0, tuple(point(speed) for speed in speeds))
-
-
-def test_numbers_at_a_logarithmic_axis_are_in_full():
-    (axes,) = shown(draw_map, flowing(0.05, 0.1)).axes
-    axes.figure.canvas.draw()
-    assert axes.get_yscale() == "log"
-    said = [
-        label.get_text()
-        for which in ("major", "minor")
-        for label in axes.get_yticklabels(which=which)
-    ]
-    assert said and not any("10^" in text for text in said)
 
 
 def test_why_there_is_no_slope():

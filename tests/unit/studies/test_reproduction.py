@@ -228,15 +228,3 @@ def test_what_was_judged_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, ju
         claims = json.loads((tmp_path / "reproduction.json").read_text())["claims"]
         assert [claim["id"] for claim in claims] == ["C1"]
     assert (tmp_path / "report.html").is_file() == bool(judged)
-
-
-def test_command_refuses_before_it_computes(tmp_path):
-    (tmp_path / "file").write_text("")
-    for words, said in (
-        (["C99", "-o", str(tmp_path / "out")], "C99"),
-        (["C1", "-o", str(tmp_path / "file")], "cannot be written to"),
-        (["C1", "--json", str(tmp_path), "-o", str(tmp_path / "out")], "is a folder, allowed is"),
-    ):
-        with pytest.raises(ValueError, match=said):
-            reproduction_command.execute(arguments(*words))
-    assert not (tmp_path / "out").exists()

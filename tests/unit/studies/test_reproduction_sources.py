@@ -46,18 +46,3 @@ def test_the_number_is_printed_where_it_is_said_to_be(one, study_text):
         for number in numbers(one):
             # 0.0698 may stand there as 0.06980, but not as part of another number
             assert re.search(rf"(?<![\d.]){re.escape(number)}0*(?![\d])", inside), (number, name)
-
-
-@pytest.mark.parametrize("number", ["409.27", "1.7465", "0.925", "31.8", "0.0565"])
-def test_what_is_derived_is_not_printed(number, study_text):
-    """These were once taken for the study's own."""
-    assert number not in study_text
-    assert number not in {digits for one in STUDY.values() for digits in numbers(one)}
-
-
-def test_a_wrong_place_is_found():
-    """The check can fail: a number, and a section that does not print it."""
-    text = "Chapter 4\n4.1 One\n880 here\n4.2 Two\n56 there\n5.1 Three\n"
-    assert "880" in section(text, "4.1") and "880" not in section(text, "4.2")
-    assert numbers(Printed("20 to 30", "§4.2")) == ["20", "30"]
-    assert numbers(Printed(-7.9435, "§4.2")) == ["7.9435"]

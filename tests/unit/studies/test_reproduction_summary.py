@@ -55,18 +55,6 @@ def test_figures_of_a_swing(amplitude, frequency):
     assert (seen["break_away_x"], seen["restick_x"]) == pytest.approx(tuple(at))
 
 
-@pytest.mark.parametrize(
-    ("span", "low", "middle", "high"),
-    [
-        (Span("a.b", 1.0, 3.0), 1.0, 2.0, 3.0),
-        (Span("a.b", 0.01, 1.0, log=True), 0.01, 0.1, 1.0),
-        (Span("a.b", 0.1, 0.5, prior=(0.3, 0.05)), 0.1, 0.3, 0.5),
-    ],
-)
-def test_ends_and_middle_of_a_range(span, low, middle, high):
-    assert [span.at(share) for share in (0.0, 0.5, 1.0)] == pytest.approx([low, middle, high])
-
-
 def test_a_known_number_is_spread_as_it_is_known():
     span = Span("a.b", 0.15, 0.45, prior=(0.3, 0.05))
     drawn = np.array([span.at(share) for share in np.linspace(0.0005, 0.9995, 1000)])
@@ -136,13 +124,6 @@ def test_an_effect_is_found_in_figures_of_the_exact_model(monkeypatch):
     assert answer.found[0] == "static_strengthening"
     assert answer.gap_before[0] > 2.0 > 1.0 > answer.gap_after[0]
     assert answer.chance["p"] <= 0.05
-
-
-def test_no_figures_is_refused():
-    one = campaign(points=POINTS[:1])
-    bare = replace(one, runs=tuple(replace(run, summary=None) for run in one.runs))
-    with pytest.raises(CampaignError, match="no run has a summary"):
-        find_summary_gap(bare)
 
 
 def test_known_friction_is_read_and_checked(tmp_path):

@@ -4,8 +4,6 @@ import json
 import multiprocessing
 import os
 import signal
-import subprocess
-import sys
 from collections import Counter
 
 import numpy as np
@@ -17,7 +15,6 @@ from stickslip.catalogue import CATALOGUE
 from cosim.studies.sweep import SweepError, SweepStopped, features, product_grid, sweep
 from cosim.studies.sweep import combination as combination_module
 from cosim.studies.sweep import run as run_module
-from cosim.studies.sweep.store import Store
 
 BASE = Parameters(rig=Rig(degrees_of_freedom=("x",)), surface=Surface(run_up_time=0.5))
 SHORT = {"duration": 2.0, "output_interval": 0.02, "jobs": 1}
@@ -144,24 +141,6 @@ def test_a_damaged_chunk_is_run_again(tmp_path, computed):
     assert (done.status == 0).all()
 
 
-def test_a_killed_sweep_goes_on(tmp_path):
-    """kill -9 in the middle: every finished chunk is there, no half file is taken for one."""
-    script = f"""
-import os, signal
-from cosim.studies.sweep import run as run_module, sweep
-from stickslip import Parameters
-run_module.CHUNK_TIME = 0.0
-def kill(done, total):
-    if done == 5:
-        os.kill(os.getpid(), signal.SIGKILL)
-sweep(Parameters(), {{"rig.mass": [0.3 + 0.1 * i for i in range(10)]}}, duration=1.0, jobs=1,
-      folder={str(tmp_path)!r}, progress=kill)
-"""
-    ended = subprocess.run([sys.executable, "-c", script], stderr=subprocess.DEVNULL)
-    assert ended.returncode == -signal.SIGKILL
-    assert len(Store(tmp_path, combination_module.model_version()).read()) == 5
-
-
 def test_a_killed_process_of_the_pool_is_replaced(tmp_path, monkeypatch):
     monkeypatch.setattr(run_module, "NOT_WORTH_PROCESSES", 0)
     monkeypatch.setattr(run_module, "CHUNK_TIME", 0.05)
@@ -232,13 +211,6 @@ def test_bad_input_is_refused_in_one_line_before_anything_runs(tmp_path, compute
 def test_a_run_that_cannot_be_is_refused(case):
     with pytest.raises(SweepError, match=f"^{next(iter(case))}: out of range"):
         sweep(BASE, VARY, **SHORT | case)
-
-
-def test_many_warnings_are_one():
-    vary = {"friction.mu_k": [0.1, 0.3, 0.4, 0.5]}
-    with pytest.warns(UserWarning, match=r"holds up to mu_k \(and 2 like it in other") as caught:
-        product_grid(BASE, vary).keys(combination_module.Run(1.0, 0.1))
-    assert len(caught) == 1
 
 
 def test_equal_combinations_run_once(computed):

@@ -8,12 +8,12 @@ import pytest
 import xarray as xr
 from stickslip.trajectory import counted_break_aways
 
-from cosim import Scenario, read_scenario, run_scenario
+from cosim import Scenario, run_scenario
 from cosim.cli.studies import sweep as sweep_command
 from cosim.fmu.build import ensure_fmu
 from cosim.studies.sweep import Run, SweepError, features, sweep
 from cosim.studies.sweep.axis import parse_vary
-from cosim.studies.sweep.coupled import as_trajectory, changed
+from cosim.studies.sweep.coupled import as_trajectory
 from cosim.studies.sweep.figure import check_shown, shown_features, still_sentence
 from cosim.studies.sweep.grid import product_grid
 from cosim.studies.sweep.page import records, sentence, tiles
@@ -110,11 +110,6 @@ def test_any_key_may_be_varied(vary, coupled):
     assert len(set(keys)) == len(grid)
 
 
-def test_the_length_of_the_run_may_be_varied():
-    done = sweep(SHORT, {"run.duration": [0.5, 1.0]}, jobs=1)
-    assert done["heat"].values[1] > done["heat"].values[0]
-
-
 @pytest.mark.parametrize(
     ("texts", "line"),
     [
@@ -140,13 +135,6 @@ def test_what_cannot_be_is_refused_before_anything_runs(texts, line, monkeypatch
     assert "\n" not in str(refused.value)
 
 
-def test_another_scenario_takes_the_base_s_place():
-    slab = read_scenario("slab")
-    whole = changed(SHORT, {"scenario": slab, "rig.mass": 1.25})
-    assert whole.rig.surface == "slab" and whole.rig.mass == 1.25
-    assert SHORT.rig.surface == "belt"
-
-
 def test_the_command_leaves_a_page_and_a_table(tmp_path, capsys):
     """A block that never sticks has no frequency: neither a curve at 0 Hz nor a number."""
     file, out = tmp_path / "short.toml", tmp_path / "out"
@@ -169,16 +157,6 @@ def test_the_command_leaves_a_page_and_a_table(tmp_path, capsys):
     with xr.open_dataset(out / "sweep.nc") as done:
         assert records(done.load())[0]["surface.speed"] == 0.15
         assert np.all(done["status"].values == 0)
-
-
-def test_nothing_varied_is_refused(tmp_path):
-    parser = argparse.ArgumentParser()
-    sweep_command.add_arguments(parser)
-    with pytest.raises(ValueError, match="nothing is varied"):
-        sweep_command.execute(parser.parse_args(["reference", "-o", str(tmp_path / "out")]))
-    words = ["reference", "slab", "--test-plan", "-o", str(tmp_path / "out")]
-    with pytest.raises(ValueError, match="--test-plan: is of one scenario"):
-        sweep_command.execute(parser.parse_args(words))
 
 
 def run_row(mass, frequency, share=0.9, status="complete"):

@@ -1,14 +1,10 @@
 """What a system is given beside its units: values on the command line, inputs over time; and what
 no unit here is given, by its name."""
 
-import time
-import zipfile
-
 import numpy as np
 import pytest
 from c_units import made
 from lag_unit import lag_unit
-from test_systems_ssp import SPACES, component, connection
 
 from cosim.cli import main
 from cosim.coupling import Curve
@@ -175,29 +171,3 @@ def test_what_is_not_coupled_here_is_refused_by_its_name(tmp_path, changes, line
 
 
 # --- a large system ---
-
-
-def test_three_thousand_components_are_read_in_seconds(tmp_path):
-    """A chain of one unit; without libraries being loaded. It takes 0.7 s."""
-    count = 3000
-    names = [f"u{n}" for n in range(count)]
-    elements = "".join(component(name, "lag.fmu") for name in names)
-    links = "".join(
-        connection(f"{start}.y", f"{end}.u")
-        for start, end in zip(names[:-1], names[1:], strict=True)
-    )
-    text = (
-        f'<ssd:SystemStructureDescription {SPACES} name="s" version="1.0"><ssd:System name="s">'
-        f"<ssd:Elements>{elements}</ssd:Elements><ssd:Connections>{links}</ssd:Connections>"
-        '</ssd:System><ssd:DefaultExperiment startTime="0" stopTime="1"/>'
-        "</ssd:SystemStructureDescription>"
-    )
-    unit = lag_unit(tmp_path / "lag.fmu")
-    with zipfile.ZipFile(tmp_path / "large.ssp", "w") as archive:
-        archive.writestr("SystemStructure.ssd", text)
-        archive.write(unit or tmp_path / "lag.fmu", "resources/lag.fmu")
-    began = time.process_time()
-    with read_system(tmp_path / "large.ssp") as system:
-        check_system(system)
-        assert len(system.units) == count and len(system.links) == count - 1
-    assert time.process_time() - began < 5.0

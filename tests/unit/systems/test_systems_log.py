@@ -81,26 +81,6 @@ def test_verbose_shows_them_and_asks_for_more(system, tmp_path, capsys):
     json.loads(said.out)
 
 
-def test_where_nothing_is_said_there_is_no_file_not_even_an_old_one(system, tmp_path, capsys):
-    folder = tmp_path / "out"
-    assert main(["couple", system(LOGS), "-o", str(folder)]) == 0
-    assert (folder / "messages.log").exists()
-    capsys.readouterr()
-    assert main(["couple", system(0), "-o", str(folder)]) == 0
-    assert not (folder / "messages.log").exists()
-    assert capsys.readouterr().err == ""
-    assert "messages.log" not in (folder / "report.html").read_text()
-
-
-def test_a_log_of_somebody_else_is_left_alone(system, tmp_path, capsys):
-    folder = tmp_path / "out"
-    folder.mkdir()
-    (folder / "messages.log").write_text("of somebody else")
-    assert main(["couple", system(0), "-o", str(folder)]) == 2
-    assert "messages.log" in capsys.readouterr().err
-    assert (folder / "messages.log").read_text() == "of somebody else"
-
-
 def test_what_an_isolated_unit_writes_is_in_it(system, tmp_path, capfd):
     alone = ("[units.loud]\n", "[units.loud]\nisolate = true\n")
     folder = tmp_path / "out"

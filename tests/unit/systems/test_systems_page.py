@@ -104,14 +104,6 @@ def test_a_run_that_left_its_rig_is_not_simply_complete(pair, port, says):
     assert numbers["beyond_rig"] == [] and "left the rig" not in page
 
 
-@pytest.mark.parametrize(
-    "unit, told", [("J", "Dark orange and thick: energy."), ("W", "Light orange and thick: power.")]
-)
-def test_the_caption_names_the_colours_that_there_are(pair, unit, told):
-    assert told in pair(unit=unit)[1]
-    assert "orange" not in pair()[1].partition("</h1>")[2].partition('id="units"')[0]
-
-
 def test_a_sentence_a_picture_and_four_figures_come_first(pair):
     _, page = pair()
     places = [page.index(each) for each in ("<h1>", "<figure", 'class="tiles"', "<h2")]

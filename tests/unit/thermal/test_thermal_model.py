@@ -1,4 +1,3 @@
-import copy
 import math
 
 import numpy as np
@@ -141,13 +140,6 @@ def test_state_continues_bit_for_bit():
         other.step(*step)
     assert np.array_equal(other.state(), model.state())
     assert other.outputs() == model.outputs()
-
-
-def test_copies_are_independent():
-    model = BeltIceModel(COARSE)
-    twin = copy.deepcopy(model)
-    twin.step(0.01, 0.02, 0.001)
-    assert model.outputs()["heat_received"] == 0.0
 
 
 def test_state_of_another_mesh_is_refused():

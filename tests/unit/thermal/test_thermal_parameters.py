@@ -4,14 +4,6 @@ from thermal import ParameterError, ThermalParameters
 from thermal.belt.air import moving_belt
 
 
-def test_defaults_are_the_rig():
-    parameters = ThermalParameters.checked({})
-    belt = parameters.belt
-    assert belt.width * belt.thickness * belt.density == pytest.approx(0.0525)
-    assert parameters.ambient.temperature_degC == -8.0
-    assert 2 * parameters.contact.radius == 0.08
-
-
 def test_every_number_states_its_unit():
     schema = ThermalParameters.model_json_schema()
     for block in ("Ambient", "Belt", "Layer", "Ice", "Contact"):

@@ -80,32 +80,6 @@ def test_steady_all_heat_to_the_belt(length, speed, h, rise):
     assert sliding(length, speed, h, ice=NO_ICE).settle().entry == close(rise)
 
 
-def test_small_steps_say_the_same():
-    """The worst case of the table, stepped by the model of a coupled run."""
-    length, speed, h = 1.0, 0.82, 5.0
-    belt = Belt(length=length, air_heat_transfer=h, cell_length=2e-3, railing_length=LENGTH)
-    model = BeltIceModel(ThermalParameters(belt=belt, **PROTOTYPE))
-    for _ in range(1500):
-        model.step(0.02, FORCE * speed * 0.02, speed * 0.02)
-    assert model.outputs()["belt_entry_temperature"] + 8.0 == close("0.816")
-
-
-def test_the_true_disc_differs_by_what_the_prototype_left_out():
-    """More heat into the belt through the smaller contact, more lost by its open back."""
-    whole = {}
-    for name, blocks in (("prototype", PROTOTYPE), ("disc", {})):
-        railing = LENGTH if blocks else 0.0
-        for ice in (Ice(), NO_ICE):
-            parameters = ThermalParameters(
-                belt=Belt(cell_length=2e-3, railing_length=railing), ice=ice, **blocks
-            )
-            whole[name, ice is NO_ICE] = (
-                SteadySliding(parameters, 0.82, FORCE).until(DURATION).entry
-            )
-    assert whole["disc", False] / whole["prototype", False] == pytest.approx(1.05, abs=0.01)
-    assert whole["disc", True] / whole["prototype", True] == pytest.approx(0.97, abs=0.01)
-
-
 def test_lumped_loop_explains_the_rest():
     """Every loop: F/(c m') gained, then cooling by the faces that are open to the air."""
     length, speed, h = 1.0, 0.82, 15.0

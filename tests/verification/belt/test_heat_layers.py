@@ -74,19 +74,6 @@ def test_heat_crosses_layers_in_series():
     assert h * contact + through == pytest.approx(q, rel=1e-9)
 
 
-def test_equal_layers_are_one():
-    half = Layer(thickness=0.5e-3, density=700.0, heat_capacity=840.0, conductivity=0.5)
-
-    def rise(**belt):
-        model = BeltIceModel(ThermalParameters(belt=Belt(cell_length=4e-3, **belt)))
-        for _ in range(100):
-            model.step(0.01, 0.03, 0.008)
-        outputs = model.outputs()
-        return [outputs[name] + 8.0 for name in ("interface_temperature", "belt_exit_temperature")]
-
-    assert rise(layers=(half, half), elements=12) == pytest.approx(rise(elements=12), rel=1e-4)
-
-
 def test_conduction_along_layers_is_that_of_the_assembled_problem():
     """A wave of a contact's length: what the coupling of the modes changes is below 1e-3 of it."""
     length, belt = 0.07, Belt(layers=(GRIT, CLOTH), air_heat_transfer=0.0, elements=4)

@@ -57,13 +57,6 @@ def test_ramp_and_run_against_small_steps(length, speed, h, published):
         assert state.entry == pytest.approx(published, rel=0.01)
 
 
-def test_coarser_steps_err_by_what_is_said():
-    given = parameters()
-    (_, fine), (_, coarse) = long_steps(given, 0.15, 0.25), long_steps(given, 0.15, 2.0)
-    assert coarse.entry == pytest.approx(fine.entry, rel=5e-3)
-    assert coarse.mean_interface == pytest.approx(fine.mean_interface, rel=1e-3)
-
-
 def test_finer_steps_of_a_ramp_converge(monkeypatch):
     """Interface where the ramp ends; the steps of the fluxes are first order."""
     given, errors = parameters(), []

@@ -16,7 +16,6 @@ from thermal.belt.material_frame import CONTACT, BeltField
 D, K, RHO, C = 1e-3, 0.5, 700.0, 840.0
 ALPHA, EFFUSIVITY = K / (RHO * C), np.sqrt(K * RHO * C)
 LANE = 0.075
-ORDER_OF_P2_EIGENVALUES = 4
 ORDER_OF_P2_IN_L2 = 3
 ORDER_OF_P1_EIGENVALUES = 2
 # The graded meshes are similar only in the limit of many elements.
@@ -100,24 +99,6 @@ def test_finite_slab_under_constant_flux_and_order_in_l2():
     assert orders(sizes, errors)[-1] == pytest.approx(ORDER_OF_P2_IN_L2, abs=ASYMPTOTIC)
 
 
-@pytest.mark.parametrize("n", [1, 2])
-def test_cosine_modes_of_the_insulated_slab(n):
-    """cos(n pi z/d) decays with alpha (n pi/d)^2."""
-    points = (np.arange(4000) + 0.5) / 4000 * D
-    exact_rate, exact_shape = ALPHA * (n * np.pi / D) ** 2, np.cos(n * np.pi * points / D)
-    sizes, of_rates, of_shapes = [], [], []
-    for elements in (6, 12, 24):
-        belt = slab(elements)
-        belt.amplitudes[n, 0] = belt.cells
-        shape = between_nodes(belt, belt.field()[0], points)
-        shape /= shape @ exact_shape / (exact_shape @ exact_shape)
-        sizes.append(1 / elements)
-        of_rates.append(abs(belt.rates[n, 0] / exact_rate - 1.0))
-        of_shapes.append(np.sqrt(np.mean((shape - exact_shape) ** 2)))
-    assert orders(sizes, of_rates)[-1] == pytest.approx(ORDER_OF_P2_EIGENVALUES, abs=ASYMPTOTIC)
-    assert orders(sizes, of_shapes)[-1] == pytest.approx(ORDER_OF_P2_IN_L2, abs=ASYMPTOTIC)
-
-
 def test_cooling_of_the_slab_by_both_faces():
     """Slowest rate alpha (2 beta/d)^2 with beta tan beta = h d/(2 k); about 2h/(rho c d)."""
     h = 15.0
@@ -126,16 +107,6 @@ def test_cooling_of_the_slab_by_both_faces():
     beta = brentq(lambda b: b * np.tan(b) - biot, 1e-6, 1.5, xtol=1e-15)
     assert belt.rates[0, 0] == pytest.approx(ALPHA * (2 * beta / D) ** 2, rel=1e-9)
     assert belt.rates[0, 0] == pytest.approx(2 * h / (RHO * C * D), rel=biot)
-
-
-def test_uniform_belt_cools_as_a_lump():
-    belt = slab(h=15.0)
-    belt.advance(1.0, uniform_flux(belt, 1e3))
-    belt.advance(5.0, uniform_flux(belt, 0.0))
-    warm = belt.heat()
-    lost = belt.advance(10.0, uniform_flux(belt, 0.0))
-    assert belt.heat() / warm == pytest.approx(np.exp(-10.0 * 30.0 / (RHO * C * D)), rel=0.03)
-    assert lost == pytest.approx(warm - belt.heat(), rel=1e-12)
 
 
 def test_diffusion_along_the_belt():

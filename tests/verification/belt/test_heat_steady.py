@@ -129,20 +129,6 @@ def test_long_steps_follow_the_transient(length, speed):
     assert state.belt_share_so_far == pytest.approx(model.outputs()["belt_share"], abs=1e-3)
 
 
-def test_heat_of_the_steady_state_leaves_by_the_films():
-    """All heat to the belt: mean rise F v/(2 h w L), less the film that the block covers."""
-    h, force, speed, length = 15.0, 4.03, 0.82, 1.0
-    parameters = ThermalParameters(
-        belt=Belt(length=length, air_heat_transfer=h, conductivity=50.0), ice=Ice(conductivity=1e-6)
-    )
-    sliding = SteadySliding(parameters, speed, force)
-    state = sliding.settle()
-    covered = sliding.footprint.area * sliding.strip_means().mean()
-    open_faces = 2.0 * 0.075 * length * state.belt_mean - covered
-    assert h * open_faces == pytest.approx(force * speed, rel=1e-3)
-    assert state.belt_share == pytest.approx(1.0, abs=1e-4)
-
-
 @pytest.mark.parametrize("railing", [0.0, 0.2])
 def test_a_belt_that_keeps_its_heat_has_no_steady_state(railing):
     belt = Belt(air_heat_transfer=0.0, railing_length=railing)
@@ -151,12 +137,6 @@ def test_a_belt_that_keeps_its_heat_has_no_steady_state(railing):
         SteadySliding(parameters, 0.15, 4.0).settle()
     with pytest.raises(NoSteadyState, match="warms for ever"):
         settle(BeltIceModel(parameters), 0.01, 0.01, 1e-3)
-
-
-def test_a_railing_alone_makes_a_steady_state():
-    belt = Belt(air_heat_transfer=0.0, railing_length=0.2, railing_conductance=50.0)
-    state = SteadySliding(ThermalParameters(belt=belt), 0.15, 1.0).settle()
-    assert 0.0 < state.entry < state.exit
 
 
 def test_ice_that_melts_for_ever_is_told():

@@ -107,15 +107,6 @@ def test_the_jump_is_the_limit():
     np.testing.assert_allclose(a_decade, a_decade.mean(), rtol=0.01)
 
 
-def test_a_slip_begins_with_the_friction_that_held_the_block():
-    run = on_a_line(0.6, 1e-4, 1e-3)
-    first = np.flatnonzero(run["mode"] == 1)[0]
-    slip = slice(first, first + 400)
-    friction, u = run["friction_force_x"][slip] / NORMAL, run["sliding_speed"][slip]
-    assert friction[0] == pytest.approx(MU_S, rel=1e-3)
-    np.testing.assert_allclose(friction, MU_K + (MU_S - MU_K) * np.exp(-u / 1e-3), rtol=1e-12)
-
-
 def test_the_excess_is_on_top_of_what_mu_k_meets():
     """Other laws change mu_k; the excess is mu_s less what they make of mu_k at rest."""
     speeds = np.array([1e-4, 1e-3, 1e-2, 0.1])

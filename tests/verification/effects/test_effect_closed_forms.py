@@ -1,10 +1,11 @@
-"""Effects where a closed form, an equation in one unknown or a published figure says the answer."""
+"""Effects where a closed form or a published figure says the answer.
+
+What acts along x is compared with an independent model, law by law, in `test_effect_one_mass`.
+"""
 
 import numpy as np
 import pytest
 from scipy.interpolate import CubicHermiteSpline
-from scipy.optimize import brentq
-from scipy.special import ellipj
 from stickslip import Parameters, simulate
 
 GRAVITY = 9.81
@@ -65,60 +66,6 @@ def test_leine_extremes(leine):
     assert found == pytest.approx(LEINE_EXTREMES, abs=5.1e-9)  # half the last digit known
 
 
-def test_strengthening_first_break_away():
-    """K v t = N (mu_s + beta log10(1 + t / t_0)) in the first stick, which begins at the start."""
-    beta, hold = 0.03, 0.02
-    run = simulate(unit(static_strengthening={"rate": beta, "hold_time": hold}), 10.0)
-
-    def balance(t):
-        return 0.2 * t - 1.0 - GRAVITY * beta * np.log10(1.0 + t / hold)
-
-    assert run.events[0, 0] == pytest.approx(brentq(balance, 1.0, 50.0, xtol=1e-13), abs=1e-11)
-
-
-def test_saturating_strengthening_first_break_away():
-    """K v t = N (mu_s + rise (1 - exp(-t / t_0))): the load must catch up with the growth."""
-    rise, time = 0.04, 1.5
-    block = {"saturating": rise, "saturation_time": time}
-    run = simulate(unit(static_strengthening=block), 10.0)
-
-    def balance(t):
-        return 0.2 * t - 1.0 - GRAVITY * rise * (1.0 - np.exp(-t / time))
-
-    assert run.events[0, 0] == pytest.approx(brentq(balance, 1.0, 50.0, xtol=1e-13), abs=1e-11)
-
-
-def test_strengthening_counts_from_every_re_stick():
-    beta, hold = 0.03, 0.02
-    run = simulate(
-        unit(
-            static_strengthening={"rate": beta, "hold_time": hold},
-            friction={"mu_s": 1.0 / GRAVITY, "mu_k": 0.5 / GRAVITY},
-        ),
-        60.0,
-    )
-    ends = run.events[run.events[:, 1] == 0][:-1]
-    begins = run.events[run.events[:, 1] == 1][1:]
-    assert len(ends) >= 2
-    for (stop, _, x), (start, _, _) in zip(ends, begins, strict=False):
-        load = x + 0.2 * (start - stop)
-        limit = 1.0 + GRAVITY * beta * np.log10(1.0 + (start - stop) / hold)
-        assert load == pytest.approx(limit, abs=1e-10)
-
-
-def test_structural_damping_is_the_damped_oscillator():
-    c, start = 0.3, 0.5
-    run = simulate(
-        unit(structural_damping={"coefficient": c}, initial={"x": start}, **FREE), 20.0, 0.1
-    )
-    rate, decay = np.sqrt(1.0 - c * c / 4.0), c / 2.0
-    t = run.time
-    exact = start * np.exp(-decay * t) * (np.cos(rate * t) + decay / rate * np.sin(rate * t))
-    np.testing.assert_allclose(run["x"], exact, rtol=0, atol=1e-11)
-    stored = 0.5 * (run["x"] ** 2 + run["vx"] ** 2)
-    np.testing.assert_allclose(run["damping_heat"], 0.5 * start**2 - stored, rtol=0, atol=1e-11)
-
-
 def test_quadratic_damping_takes_its_part_of_every_swing():
     """m x'' + q |x'| x' + K x = 0, m = 1: (1 + 2 q a) exp(-2 q a) = (1 - 2 q b) exp(2 q b).
 
@@ -158,17 +105,6 @@ def test_quadratic_damping_of_a_stick_that_creeps_keeps_the_ledger(surface):
     assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]
 
 
-def test_film_drag_is_the_oscillator_damped_against_the_belt():
-    """Rest position c v / K; heat c (v - x')^2, which the belt pays for."""
-    c, speed = 0.3, 0.2
-    run = simulate(unit(film_drag={"coefficient": c}, initial={}, **FREE), 20.0, 0.1)
-    rate, decay, t = np.sqrt(1.0 - c * c / 4.0), c / 2.0, run.time
-    swing = np.exp(-decay * t) * (np.cos(rate * t) + decay / rate * np.sin(rate * t))
-    np.testing.assert_allclose(run["x"], c * speed * (1.0 - swing), rtol=0, atol=1e-11)
-    late = simulate(unit(film_drag={"coefficient": c}, initial={}, **FREE), 300.0, 100.0)
-    assert late["heat_flow"][-1] == pytest.approx(c * speed**2, rel=1e-9)
-
-
 @pytest.mark.parametrize("block", ["structural_damping", "film_drag"])
 def test_a_spinning_block_comes_down_exponentially(block):
     """No springs, no dry friction: J omega' = -c_r omega; the film's c_r is c a^2 / 2."""
@@ -189,37 +125,6 @@ def test_a_spinning_block_comes_down_exponentially(block):
     brake = size.get("rotational", 0.5 * size.get("coefficient", 0.0) * radius**2)
     decay = brake / (0.5 * mass * radius**2)
     np.testing.assert_allclose(run["omega"], 3.0 * np.exp(-decay * run.time), rtol=0, atol=1e-10)
-
-
-def test_hardening_is_the_duffing_oscillator():
-    """x = A cn(Omega t, n), Omega^2 = (K + K_3 A^2)/m, n = K_3 A^2 / (2 (K + K_3 A^2))."""
-    cubic, reach = 0.75, 0.8
-    run = simulate(unit(spring_hardening={"cubic": cubic}, initial={"x": reach}, **FREE), 30.0, 0.1)
-    hardening = 4.0 * cubic * reach**2
-    rate = np.sqrt(1.0 + hardening)
-    _, cn, _, _ = ellipj(rate * run.time, hardening / (2.0 * (1.0 + hardening)))
-    np.testing.assert_allclose(run["x"], reach * cn, rtol=0, atol=1e-10)
-
-
-@pytest.mark.parametrize("exponent", [-0.5, 0.2, 1.0])
-@pytest.mark.parametrize("mass", [0.5, 2.0])
-def test_load_dependence_in_break_away_and_slip(exponent, mass):
-    """The block breaks away at mu_s N (N/N_0)^-n / K and slips under mu_k N (N/N_0)^-n."""
-    run = simulate(
-        unit(
-            rig=UNIT["rig"] | {"mass": mass},
-            friction={"mu_s": 0.1, "mu_k": 0.07},
-            load_dependence={"exponent": exponent, "reference_force": 8.0},
-        ),
-        30.0,
-    )
-    normal = mass * GRAVITY
-    factor = (normal / 8.0) ** -exponent
-    assert run.events[0, 2] == pytest.approx(0.1 * normal * factor, rel=1e-11)
-    slip = run["mode"] == 1
-    np.testing.assert_allclose(
-        np.abs(run["friction_force_x"][slip]), 0.07 * normal * factor, rtol=1e-12
-    )
 
 
 @pytest.mark.parametrize("mass", [0.5, 2.0])
@@ -245,24 +150,3 @@ def test_adhesion_and_so_much_a_decade_of_the_load(law, factor, mass):
     slip = run["mode"] == 1
     force = np.abs(run["friction_force_x"][slip])
     np.testing.assert_allclose(force, 0.07 * normal * factor(normal), rtol=1e-12)
-
-
-@pytest.mark.parametrize("ratio", [0.25, 0.5, 1.0])
-def test_stick_by_a_part_of_the_springs_breaks_away_later(ratio):
-    """One spring counted of four: break-away at four times the displacement."""
-    run = simulate(unit(stick_stiffness={"ratio": ratio}), 30.0)
-    assert run.events[0, 2] == pytest.approx(1.0 / ratio, abs=1e-10)
-
-
-def test_run_in_follows_the_distance_slid():
-    run = simulate(
-        unit(
-            friction={"mu_s": 1.0 / GRAVITY, "mu_k": 0.5 / GRAVITY},
-            run_in={"change": 0.4, "distance": 3.0},
-        ),
-        60.0,
-    )
-    slip = run["mode"] == 1
-    worn = 1.0 + 0.4 * (1.0 - np.exp(-run["sliding_distance"][slip] / 3.0))
-    assert np.ptp(worn) > 0.2
-    np.testing.assert_allclose(np.abs(run["friction_force_x"][slip]), 0.5 * worn, rtol=1e-12)

@@ -85,40 +85,6 @@ def test_slip_in_the_plane(case):
     np.testing.assert_allclose([run[name][-1] for name in STATE], expected, rtol=0, atol=1e-9)
 
 
-def test_a_slide_without_springs_is_straight():
-    """mu_k g against the motion, whatever its direction; across it kappa^2 as much."""
-    start = {"vx": 0.3, "vy": 0.4}
-    bare = {"springs": {"stiffness": 0.0}, "surface": {"speed": 0.0}, "initial": start}
-    run = simulate(Parameters(lateral_friction={"ratio": 1.0}, **bare), 0.1)
-    speed = 0.5 - MU_K * 9.81 * run.time
-    np.testing.assert_allclose(run["vx"], 0.6 * speed, rtol=0, atol=1e-13)
-    np.testing.assert_allclose(run["vy"], 0.8 * speed, rtol=0, atol=1e-13)
-    first = simulate(Parameters(lateral_friction={"ratio": 0.5}, **bare), 0.1)
-    share = np.hypot(0.3, 0.5 * 0.4)
-    assert first["friction_force_x"][0] == pytest.approx(-MU_K * NORMAL * 0.3 / share, rel=1e-13)
-    assert first["friction_force_y"][0] == pytest.approx(
-        -MU_K * NORMAL * 0.25 * 0.4 / share, rel=1e-13
-    )
-
-
-def test_a_spin_without_springs_stops_at_its_time():
-    """J omega' = -2/3 mu_k N a: the spinning disc's moment under uniform pressure."""
-    omega = 5.0
-    run = simulate(
-        Parameters(
-            lateral_friction={"ratio": 1.0},
-            springs={"stiffness": 0.0},
-            surface={"speed": 0.0},
-            initial={"omega": omega},
-        ),
-        0.2,
-    )
-    inertia = 0.5 * 0.67 * 0.04**2
-    stop = inertia * omega / (2.0 / 3.0 * MU_K * NORMAL * 0.04)
-    assert run.events[-1, 0] == pytest.approx(stop, abs=1e-11)
-    assert run.events[-1, 1] == 0
-
-
 def test_a_block_at_rest_on_a_slab_goes_round_with_it():
     """Stick on a turning surface: phi = v t/R, x = R sin phi, y = R (1 - cos phi)."""
     radius, speed = 0.5, 0.15

@@ -6,7 +6,6 @@ from stickslip import Parameters, simulate
 from stickslip.kernel.friction.coefficient import surface_factor
 from stickslip.kernel.layout import U_SIZE, W_SIZE, W_STATE, X
 
-PLANAR = {"lateral_friction": {"ratio": 1.0}}
 X_ONLY = {"rig": {"degrees_of_freedom": ("x",)}}
 MU_K, NORMAL = 0.2086, 0.67 * 9.81
 
@@ -59,23 +58,6 @@ def test_ripple_of_the_speed(ramp):
     np.testing.assert_array_equal(run["vx"][stick], run["surface_speed_actual"][stick])
 
 
-def test_pattern_belongs_to_the_place_on_the_surface():
-    wavelength, amplitude = 0.03, 0.25
-    run = simulate(
-        Parameters(
-            surface_pattern={"amplitude": amplitude, "wavelength": wavelength, "phase_deg": 70.0},
-            **X_ONLY,
-        ),
-        4.0,
-    )
-    slip = run["mode"] == 1
-    place = (run["x"] - run["surface_travel"])[slip]
-    wave = 1.0 + amplitude * np.cos(2.0 * np.pi * place / wavelength + np.radians(70.0))
-    np.testing.assert_allclose(
-        np.abs(run["friction_force_x"][slip]), MU_K * NORMAL * wave, rtol=1e-12
-    )
-
-
 def test_scatter_belongs_to_the_place_on_the_surface():
     parameters = scattered()
     run = simulate(parameters, 4.0)
@@ -106,30 +88,11 @@ def test_scatter_has_its_mean_deviation_and_correlation():
     np.testing.assert_allclose(correlation, np.exp(-0.5 * gap**2), atol=4.0 * np.sqrt(2.0) * noise)
 
 
-def test_scatter_along_one_surface():
-    """One seed, long travel: waves of one field have the mean and nearly the deviation too."""
-    along = field(scattered(seed=3), np.linspace(0.0, 400.0, 20001)) - 1.0
-    assert abs(along.mean()) < 0.003
-    assert along.std() == pytest.approx(0.1, rel=0.01)
-
-
 def test_seeds_repeat_and_differ():
     places = np.linspace(0.0, 0.2, 21)
     first, again, other = (field(scattered(seed=seed), places) for seed in (7, 7, 8))
     np.testing.assert_array_equal(first, again)
     assert np.max(np.abs(first - other)) > 0.05
-
-
-@pytest.mark.parametrize("plane", [X_ONLY, PLANAR], ids=["along x", "in the plane"])
-def test_scatter_does_not_depend_on_who_looks(plane):
-    """Bit for bit the same, whatever the output interval."""
-    parameters = Parameters(
-        surface_scatter={"deviation": 0.15, "correlation_length": 0.01, "seed": 5}, **plane
-    )
-    coarse, fine = simulate(parameters, 6.0, 0.25), simulate(parameters, 6.0, 0.001)
-    np.testing.assert_array_equal(coarse.events, fine.events)
-    for name in ("x", "y", "phi", "heat"):
-        np.testing.assert_array_equal(coarse[name], fine[name][::250])
 
 
 def test_scatter_does_not_depend_on_the_step():

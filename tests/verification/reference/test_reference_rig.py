@@ -44,7 +44,7 @@ def test_twenty_disturbed_starts_make_the_same_motion():
         assert figures(turned(REFERENCE, angle)) == pytest.approx(expected, rel=1e-3)
 
 
-@pytest.mark.parametrize("seed", range(1, 9))
+@pytest.mark.parametrize("seed", range(1, 4))
 def test_another_rig_of_the_same_drawing_moves_alike(seed):
     """Springs differ by a hundredth; anchors, by half a millimetre, shift x by as much."""
     imperfections = REFERENCE.imperfections.model_copy(update={"seed": seed})

@@ -64,29 +64,3 @@ def test_springs_and_strips():
     order = np.argsort(arm)
     np.testing.assert_allclose(area[order] / (np.pi * R**2), shares, atol=1e-16)
     np.testing.assert_allclose(arm[order], middles, atol=1e-16)
-
-
-def test_rounding_alone_turns_the_printed_scheme():
-    """No scatter at all: dataset #2 slides straight for some seconds, then rotates as ever."""
-    rows, _ = transcribed(**DATASET_2, cycles=22)
-    turned = np.degrees(np.abs(rows[:, 3]))
-    onset = rows[np.argmax(turned > 1.0), 0]
-    assert 5.0 < onset < 13.0
-    assert turned.max() > 30.0
-    straight, _ = transcribed(**DATASET_2, cycles=22, reach=R)
-    assert np.degrees(np.abs(straight[:, 3])).max() < 1e-6
-    # a start turned by as much does it in the reference, whose mirror images cancel exactly
-    still = Scheme(**DATASET_2, scatter=0.0)
-    assert np.abs(still.run(cycles=22).q[:, 2]).max() == 0.0
-    assert np.degrees(np.abs(still.run(cycles=22, turned=1e-15).q[:, 2]).max()) > 30.0
-
-
-def test_a_hundred_draws_do_as_the_scheme_does():
-    """Each strip its own draw: dataset #2 turns as far, and the mean of x is as negative."""
-    rows, phases = transcribed(**DATASET_2, scatter=0.02, cycles=20)
-    run = Scheme(**DATASET_2, scatter=0.02).run(cycles=20)
-    last = rows[:, 0] > phases[15, 1]
-    steady = run.time > run.phases[15, 1]
-    for x, phi in ((rows[last, 1], rows[last, 3]), (run.q[steady, 0], run.q[steady, 2])):
-        assert 30.0 < np.degrees(np.abs(phi).max()) < 70.0
-        assert x.min() < -0.05  # straight, it would not go below -0.018

@@ -16,15 +16,11 @@ import pytest
 from c_instance import DISCARD, ERROR, functions
 from contradictory import CONTRADICTIONS
 from native_unit import CO_SIMULATION
-from phases import CO_SIMULATION_2
 from stickslip import Parameters
 from stickslip.contradictions import contradiction
 
 NAN, INF = math.nan, math.inf
 NO_KIND = 7
-
-# What can be called at any time stands for itself below.
-TAKEN = CO_SIMULATION_2.taken
 
 
 @pytest.fixture
@@ -281,6 +277,3 @@ def test_the_time_reached_can_be_asked_for(running):
     running.done("GetRealStatus", 2, byref(time))
     running.done("GetBooleanStatus", 3, byref(ended))
     assert time.value == pytest.approx(0.5) and ended.value == 0
-
-
-# --- the motion, where calls decide over it ---

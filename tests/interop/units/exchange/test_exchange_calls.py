@@ -48,49 +48,6 @@ def test_rates_are_those_of_the_variables(host):
     assert host.get("heat_flow") == host.get("der(heat)")
 
 
-def test_rates_in_co_simulation(fmu):
-    """They are the motion's own: differences of what they are the rates of say so."""
-    names = ("x", "vx", "heat", "surface_travel", "sliding_distance")
-    rates = [f"der({name})" for name in names]
-    result = simulate_fmu(
-        str(fmu),
-        fmi_type="CoSimulation",
-        stop_time=0.4,
-        output_interval=1e-3,
-        start_values=values({"initial": {"vx": 0.0}, "surface": {"run_up_time": 0.2}}),
-        output=[*names, *rates, "mode"],
-    )
-    slipping = result["mode"] == 1
-    inside = slipping[:-2] & slipping[1:-1] & slipping[2:]
-    assert inside.sum() > 100
-    at = result["time"][1:-1]
-    inside &= abs(at - 0.2) > 2e-3  # the surface's acceleration jumps
-    for name in names:
-        found = (result[name][2:] - result[name][:-2]) / 2e-3
-        size = np.abs(found).max()
-        assert np.abs(found - result[f"der({name})"][1:-1])[inside].max() < 1e-3 * size, name
-
-
-def test_saved_states_in_continuous_time(host):
-    host.begin()
-    x = host.x()
-    for n in range(10):
-        x = x + 1e-4 * host.rates(n * 1e-4, x)
-    host.be_at(1e-3, x)
-    host.unit.completedIntegratorStep()
-    kept = host.unit.getFMUState()
-    as_bytes = host.unit.serializeFMUState(kept)
-    before, rates = host.everything(), host.rates(1e-3, x)
-    host.rates(0.5, x + 1.0)
-    host.unit.enterEventMode()
-    for state in (kept, host.unit.deserializeFMUState(as_bytes)):
-        host.unit.setFMUState(state)
-        assert host.everything() == before
-        assert (host.rates(1e-3, x) == rates).all()
-        host.rates(0.6, x + 2.0)
-    host.unit.freeFMUState(kept)
-
-
 def test_start_time_is_no_part_of_the_motion(fmu, tmp_path):
     tables = {"surface": {"run_up_time": 0.5}}
     told = []
@@ -125,30 +82,6 @@ def test_directional_derivatives_are_those_of_the_springs(host):
 
 
 # --- inputs and parameters ---
-
-
-def test_inputs_change_at_events(fmu):
-    step = np.array(
-        [(0.0, 0.15, 0.0), (1.0, 0.15, 0.0), (1.0, 0.05, 1.0), (3.0, 0.05, 1.0)],
-        dtype=[("time", float), ("surface_speed", float), ("external_force_x", float)],
-    )
-    common = {
-        "stop_time": 3.0,
-        "output_interval": 0.01,
-        "input": step,
-        "output": ["x", "slip_count"],
-    }
-    result = simulate_fmu(
-        str(fmu),
-        fmi_type="ModelExchange",
-        relative_tolerance=1e-9,
-        record_events=False,
-        start_values=values({}),
-        **common,
-    )
-    own = simulate_fmu(str(fmu), fmi_type="CoSimulation", start_values=values({}), **common)
-    assert np.abs(result["x"] - own["x"]).max() < 1e-6
-    assert (result["slip_count"] == own["slip_count"]).all()
 
 
 def test_a_force_that_grows_with_time_breaks_the_block_away(fmu):

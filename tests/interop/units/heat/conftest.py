@@ -2,21 +2,18 @@
 
 import pytest
 from heat_instance import instance
-from stickslip.generation.platforms import this_platform
 
-from cosim.fmu.build import build_fmu
-from cosim.fmu.thermal import native_unit
-from cosim.fmu.thermal.variables import NAME
+from cosim.fmu.build import THERMAL, THERMAL_PYTHON
 
 
 @pytest.fixture(scope="session")
-def native(tmp_path_factory):
-    return build_fmu(tmp_path_factory.mktemp("heat"), native_unit.FMU, [this_platform()])
+def native(once):
+    return once(THERMAL)
 
 
 @pytest.fixture(scope="session")
-def whole(tmp_path_factory):
-    return build_fmu(tmp_path_factory.mktemp("heat_python"), f"{NAME}-python.fmu")
+def whole(once):
+    return once(THERMAL_PYTHON)
 
 
 @pytest.fixture(params=["native", "whole"])

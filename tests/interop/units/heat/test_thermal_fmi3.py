@@ -4,16 +4,15 @@ import fmpy
 import numpy as np
 import pytest
 from heat_instance import OUTPUTS
-from stickslip.generation.platforms import this_platform
 
 from cosim.coupling.fmu.errors import FmuCallError
 from cosim.coupling.fmu.participant import FmuParticipant
-from cosim.fmu.build import THERMAL_FMI3, build_fmu
+from cosim.fmu.build import THERMAL_FMI3
 
 
 @pytest.fixture(scope="module")
-def native3(tmp_path_factory):
-    return build_fmu(tmp_path_factory.mktemp("heat3"), THERMAL_FMI3, [this_platform()])
+def native3(once):
+    return once(THERMAL_FMI3)
 
 
 def test_it_is_for_co_simulation(native3):

@@ -17,21 +17,15 @@ def trajectory(block, size, stop=3.0, **values):
     return np.array(x)
 
 
-@pytest.mark.parametrize("size", [0.001, 0.0025, 0.05, 0.5])
-def test_the_communication_step_does_not_change_the_motion(block, size):
-    often = trajectory(block, 0.0005)
-    stride = round(size / 0.0005)
-    np.testing.assert_allclose(
-        trajectory(block, size), often[stride - 1 :: stride], rtol=0, atol=1e-10
-    )
-
-
-@pytest.mark.parametrize("contact", [CREEPING, SHEARED])
-def test_the_communication_step_does_not_change_a_creep(block, contact):
-    often = trajectory(block, 0.002, stop=5.0, **contact)
-    (once,) = trajectory(block, 5.0, stop=5.0, **contact)
-    assert once == pytest.approx(often[-1], abs=1e-10)
-    assert block.get("slip_count") > 2
+@pytest.mark.parametrize("contact", [{}, CREEPING, SHEARED])
+def test_the_communication_step_does_not_change_the_motion(block, contact):
+    often = trajectory(block, 0.002, **contact)
+    for size in (0.01, 0.5):
+        stride = round(size / 0.002)
+        np.testing.assert_allclose(
+            trajectory(block, size, **contact), often[stride - 1 :: stride], rtol=0, atol=1e-10
+        )
+    assert block.get("slip_count") > 0
 
 
 def test_heat_flow_is_the_difference_quotient_of_heat(block):
