@@ -212,3 +212,9 @@ def test_awkward_names_of_file_and_folder(tmp_path, monkeypatch, name, version):
         participant.exit_initialisation()
         participant.step(0.0, 0.1)
     assert os.listdir(folder) == [f"{name}.fmu"]
+
+
+def test_a_backslash_in_a_name_is_refused(unit):
+    with zipfile.ZipFile(unit, "a") as file:
+        file.writestr("resources\\x", "x")
+    refused(unit, "has a name that no FMU may hold")

@@ -208,3 +208,10 @@ def test_other_shells_get_every_command(capsys, shell, begins):
     script = printed(capsys, "completion", shell)
     assert script.startswith(begins)
     assert all(name in script for name in COMMANDS) and "reference" in script
+
+
+def test_a_schema_goes_to_a_file_that_is_none_of_somebody_else(capsys):
+    for _ in range(2):
+        assert main(["schema", "campaign", "-o", "deep/campaign.schema.json"]) == 0
+    Path("mine.json").write_text("{}")
+    assert "mine.json: is there" in refusal(capsys, "schema", "-o", "mine.json")

@@ -228,16 +228,6 @@ def test_who_cannot_be_saved_is_named_and_the_run_goes_on(tmp_path, monkeypatch)
     np.testing.assert_array_equal(np.load(folder.record)[:, 0], result.time)
 
 
-def test_who_fails_to_be_saved_is_named_and_the_run_goes_on(tmp_path, monkeypatch):
-    def fail(self):
-        raise RuntimeError("out of memory")
-
-    monkeypatch.setattr("saved_pendulums.Spring.save_state", fail)
-    with pytest.warns(UserWarning, match="no more checkpoints: spring cannot be saved: out of m"):
-        result = go("held", kept(RunFolder.begun(tmp_path, ASKED, {})))
-    assert result.status == "complete"
-
-
 def test_a_checkpoint_that_the_disk_refuses_is_said_and_the_run_goes_on(tmp_path, monkeypatch):
     def refuse(*_):
         raise OutputError("checkpoint.zip: cannot be written: No space left on device")

@@ -23,7 +23,6 @@ from cosim.coupling import (
     Jacobi,
     QuasiNewton,
     Relaxation,
-    Subcycled,
     Tolerance,
     Waveform,
     inputs,
@@ -257,28 +256,6 @@ def test_who_cannot_follow_a_waveform_gets_its_mean():
 
     system_order = ("source", "plain")
     assert math.log2(error(0.02) / error(0.01)) == pytest.approx(2.0, abs=0.1)
-
-
-def test_substeps_follow_the_inputs():
-    """x' = -100 x + u by explicit steps that need a tenth of the macro step."""
-
-    class Euler(Plain):
-        def step(self, time, size):
-            self.x += size * (self.u - 100.0 * self.x)
-
-    source = Linear(
-        "source", [[-1.0]], np.zeros((1, 0)), [[1.0]], ins={}, outs={"x": "m/s"}, x=[1.0]
-    )
-    fast = Subcycled(Euler(), 100)
-    assert fast.name == "plain" and fast.capabilities == Capabilities(waveforms=True)
-    links = [Connection("source.x", "plain.u")]
-    system = CoupledSystem([source, fast], links)
-    result = run(system, GaussSeidel(("source", "plain"), "linear"), stop=1.0, macro_step=0.1)
-    exact = (np.exp(-result.time) - np.exp(-100.0 * result.time)) / 99.0
-    # the first order of Euler with steps of 1 ms, of a value of 0.01
-    assert result["plain.x"][1:] == pytest.approx(exact[1:], rel=2e-3)
-    with pytest.raises(CouplingError, match="plain: substeps = 0: must be at least 1"):
-        Subcycled(Plain(), 0)
 
 
 def test_a_waveform_s_parts_are_the_waveform():

@@ -29,6 +29,7 @@ from cosim.studies.belt_length import (
 from cosim.studies.belt_length.changes import linear_sensitivity
 from cosim.studies.belt_length.lengths import LENGTHS, SPEEDS
 from thermal.belt.air import moving_belt
+from thermal.steady_sliding import SteadySliding
 
 FAST = ("--samples", 0, "--map", 0, "--jobs", 1)
 #: A contact that holds, and starts with the belt.
@@ -255,3 +256,10 @@ def test_verdict_tells_of_melting(coarse):
 def test_verdict_says_when_it_cannot_say(coarse):
     assert verdict(Study(Options(CAMERA))) == ["Nothing was computed, so nothing can be said."]
     assert "1 m was not among the lengths asked for" in verdict(work_through(Case(2.0, 0.5)))[0]
+
+
+def test_the_studys_resolution_is_good_to_half_a_percent():
+    case = Case(1.0, 0.82)
+    fine = SteadySliding(case.thermal(fine=True), case.speed, case.force)
+    fine.ramp(10.0)
+    assert run_drift(case) == pytest.approx(fine.run(20.0).entry, rel=5e-3)

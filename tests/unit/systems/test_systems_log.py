@@ -117,3 +117,12 @@ def test_a_system_runs_without_the_models_of_this_package(system, tmp_path):
     command = [sys.executable, "-P", "-c", program, "couple", system(0), "--json"]
     done = subprocess.run([*command, "-o", str(tmp_path / "out")], capture_output=True, text=True)
     assert done.stdout.splitlines()[-1] == "[] 0", done.stderr
+
+
+def test_a_log_of_somebody_else_is_left_alone(system, tmp_path, capsys):
+    folder = tmp_path / "out"
+    folder.mkdir()
+    (folder / "messages.log").write_text("of somebody else")
+    assert main(["couple", system(0), "-o", str(folder)]) == 2
+    assert "messages.log" in capsys.readouterr().err
+    assert (folder / "messages.log").read_text() == "of somebody else"

@@ -2,12 +2,14 @@
 
 import json
 import shutil
+import zipfile
 from pathlib import Path
 
 import pytest
 from lag_unit import UNITS, lag_unit
 
 from cosim.cli import main
+from cosim.coupling import FmuParticipant
 from cosim.systems.show.diagram import is_legible
 
 LOOP = """
@@ -191,3 +193,29 @@ def test_many_units_are_a_matrix(tmp_path):
 
     width, height = Image.open(tmp_path / "out" / "system.png").size
     assert max(width, height) < 1600
+
+
+def test_a_unit_of_first_derivatives_is_linear_and_that_is_said(loop, tmp_path):
+    """FMI 2.0 says that inputs are interpolated, not to which order."""
+    path = loop('macro_step = 0.25\nextrapolation = "quadratic"')
+    for name in ("a", "b"):
+        smooth = tmp_path / "smooth.fmu"
+        with (
+            zipfile.ZipFile(tmp_path / f"{name}.fmu") as old,
+            zipfile.ZipFile(smooth, "w") as new,
+        ):
+            for entry in old.namelist():
+                content = old.read(entry)
+                if entry == "modelDescription.xml" and name == "a":
+                    content = content.replace(
+                        b"<CoSimulation ", b'<CoSimulation canInterpolateInputs="true" '
+                    )
+                new.writestr(entry, content)
+        shutil.move(smooth, tmp_path / f"{name}.fmu")
+    assert FmuParticipant(tmp_path / "a.fmu").capabilities.input_order == 1
+    _, numbers = couple(path)  # the unit declares it and refuses it: a failed run says so too
+    remarks = [remark for remark in numbers["remarks"] if "first derivatives" in remark]
+    assert remarks == [
+        "a takes no more than first derivatives of its inputs: they are linear over a step there,"
+        " not quadratic"
+    ]

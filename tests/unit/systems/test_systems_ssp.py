@@ -479,3 +479,10 @@ def test_what_is_unpacked_is_removed(write):
         files = [unit.file for unit in specification.units]
         assert all(file.is_file() for file in files)
     assert not any(file.exists() for file in files)
+
+
+def test_a_prefix_stands_before_all_names(write):
+    bound = values(real("u", 3.0), ' prefix="a."')
+    plain = component("a", "a.fmu") + component("b", "b.fmu")
+    done = run(write(structure(system(plain, CHAIN, bound))))
+    np.testing.assert_allclose(done.result["b.y"], ramps(done)[1], rtol=0, atol=1e-13)

@@ -4,8 +4,6 @@ A drive written in Python gives the speed: half a second up to 3 m/s, a second t
 down, a pause; twice. Its kinks are known, and are communication points of all runs. Compared are
 the temperature of the interface and the melted mass at the kinks. Water comes and goes, the ice
 melts and refreezes, and hardly anything happens for most of the time.
-
-    python tests/verification/coupled/test_belt_with_pauses.py    prints steps and errors
 """
 
 import numpy as np
@@ -114,14 +112,3 @@ def test_adaptive_steps_are_a_fifth_of_fixed_ones_at_equal_error():
     for adapted, plain in zip(errors(chosen, reference), errors(fixed, reference), strict=True):
         assert adapted <= plain
     assert 5 * steps_made(chosen) <= steps_made(fixed)
-
-
-if __name__ == "__main__":
-    exact = adaptive(3e-4)
-    print("| steps | macro steps | made by the heat model | interface | melted mass |")
-    print("|---|---|---|---|---|")
-    runs = {f"fixed, {step} s": belt(step) for step in (0.1, 0.05, 0.025)}
-    runs |= {f"adaptive, {part:g}": adaptive(part) for part in (3e-2, 1e-2, 3e-3)}
-    for name, found in runs.items():
-        kelvin, part = errors(found, exact)
-        print(f"| {name} | {found.steps} | {steps_made(found)} | {kelvin:.1e} K | {part:.1e} |")

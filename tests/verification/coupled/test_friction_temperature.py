@@ -7,7 +7,7 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from scipy.integrate import dblquad, quad, solve_ivp
+from scipy.integrate import dblquad, solve_ivp
 from stickslip import Parameters, friction_coefficient, simulate
 from stickslip.catalogue import CATALOGUE
 from stickslip.kernel.friction.coefficient import holding_coefficient, local_coefficient
@@ -77,21 +77,6 @@ def test_static_friction_is_linear_as_well(temperature):
     expected = 0.3 * (1.0 - 0.06 * (min(temperature, 0.0) + 8.0))
     first_slip = run.events[run.events[:, 1] == 1][0]
     assert first_slip[2] == pytest.approx(expected * MASS * 9.81 / (4.0 * 20.17), rel=1e-12)
-
-
-@pytest.mark.parametrize(
-    "constant, warmed",
-    [
-        # heat that a face held at melting takes up in the passage, sent through it evenly
-        (1.128, lambda: 1.0 / quad(lambda r: 2.0 / sqrt(pi), 0.0, 1.0)[0]),
-        # face under an even flux: int 1 / sqrt(pi (t - s)) ds, mean over the passage, and its end
-        (1.329, lambda: quad(lambda t: quad(lambda r: 2.0 / sqrt(pi), 0.0, sqrt(t))[0], 0, 1)[0]),
-        (0.886, lambda: quad(lambda r: 2.0 / sqrt(pi), 0.0, 1.0)[0]),
-    ],
-)
-def test_the_three_constants_are_those_of_conduction(constant, warmed):
-    """C is 1 over the face's rise for unit flux, effusivity and passage; r is a root of time."""
-    assert constant == pytest.approx(1.0 / warmed(), abs=5e-4)
 
 
 def mean_over_square(peclet):

@@ -8,7 +8,6 @@ from math import pi, sqrt
 import numpy as np
 import pytest
 from kernel_steps import largest_step_difference, memory_of
-from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from stickslip import Parameters, friction_coefficient, simulate
 from stickslip.catalogue import CATALOGUE
@@ -94,37 +93,6 @@ def test_a_film_that_nothing_feels_changes_no_bit():
 def test_a_thickness_must_be_one(film):
     with pytest.raises(ValueError, match="film_thickness = .* at least 0 m"):
         simulate(parameters(), 1.0, film_thickness=film)
-
-
-def couette_film(speed, length, melting):
-    """Mean shear stress and mean thickness of a steady film whose own shear melts it.
-
-    Half the belt's speed carries the water: d(v h / 2)/dx = eta v^2 / (melting h).
-    """
-    scale = sqrt(4.0 * ETA * speed * length / melting)
-    grown = solve_ivp(
-        lambda x, y: [2.0 * ETA * speed / (melting * y[0]), ETA * speed / y[0], y[0]],
-        (0.0, length),
-        [1e-6 * scale, 0.0, 0.0],
-        rtol=1e-10,
-        method="DOP853",
-        atol=1e-12 * np.array([scale, ETA * speed * length / scale, scale * length]),
-    )
-    assert grown.success
-    return grown.y[1, -1] / length, grown.y[2, -1] / length
-
-
-@pytest.mark.parametrize("speed", [0.5, 3.0])
-def test_shear_of_a_film_that_only_its_shear_melts(speed):
-    """sqrt(eta v rho L / l): what the mean thickness sqrt(eta v l / (rho L)) gives is exact."""
-    melting, length = 3.06e8, 0.07
-    stress, mean = couette_film(speed, length, melting)
-    assert stress == pytest.approx(sqrt(ETA * speed * melting / length), rel=1e-5)
-    assert mean == pytest.approx(4.0 / 3.0 * sqrt(ETA * speed * length / melting), rel=1e-5)
-    # water that is carried at the whole speed: sqrt(2 eta v rho L / l), the law of melt_film
-    assert couette_film(2.0 * speed, length, melting)[0] == pytest.approx(
-        sqrt(2.0 * ETA * speed * melting / length), rel=1e-5
-    )
 
 
 @pytest.mark.parametrize(("mass", "speed"), [(40.0, 3.0), (40.0, 0.5), (5.0, 1.0)])
