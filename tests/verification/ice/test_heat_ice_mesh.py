@@ -107,12 +107,6 @@ def test_two_pieces(tmp_path, cube):
     refused(write(tmp_path / "s.vtu", *both), "falls into 2 pieces that share no facet")
 
 
-def test_nodes_that_were_not_merged(tmp_path, cube):
-    points, cells = cube
-    apart = points[cells].reshape(-1, 3), np.arange(cells.size).reshape(-1, 4)
-    refused(write(tmp_path / "s.vtu", *apart), "162 pieces .* merge nodes")
-
-
 def test_an_element_without_volume(tmp_path, cube):
     points, cells = cube[0].copy(), cube[1]
     inner = np.flatnonzero(np.all(np.abs(points - [0, 0, 0.05]) < 0.03, axis=1))[0]

@@ -180,18 +180,6 @@ def test_no_mass_and_no_heat_is_lost():
     assert {1.0, -1.0, ("melting", 1.0), ("melting", -1.0)} <= seen
 
 
-def test_film_of_the_model_is_that_of_its_melt_rate():
-    model = BeltIceModel(COLD_BELT)
-    drive(model, 300)
-    first_loop = model.outputs()
-    expected = (
-        first_loop["melt_rate"]
-        / (WATER_DENSITY * model.footprint.area)
-        * (model.footprint.length / 0.5)
-    )
-    assert first_loop["film_thickness"] == pytest.approx(expected, rel=0.01)
-
-
 def test_water_freezes_on_the_cold_belt_and_warms_it():
     model, dry = BeltIceModel(COLD_BELT), BeltIceModel(COLD_BELT)
     drive(model, 300)
