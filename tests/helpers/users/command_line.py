@@ -3,6 +3,7 @@
 A family of cases goes through a process of its own once, and through this one for the rest.
 """
 
+import argparse
 import contextlib
 import io
 import subprocess
@@ -35,6 +36,13 @@ def stickslip_here(folder, *arguments):
         except SystemExit as stop:  # argparse ends the process
             status = stop.code
     return subprocess.CompletedProcess(words, status, out.getvalue(), err.getvalue())
+
+
+def executed(command, *words):
+    """Exit status of a command's module, given these words; what it refuses is raised."""
+    parser = argparse.ArgumentParser()
+    command.add_arguments(parser)
+    return command.execute(parser.parse_args([str(word) for word in words]))
 
 
 def refusal(capsys, *argv):

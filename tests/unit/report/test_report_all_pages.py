@@ -4,11 +4,9 @@ A command that writes a page belongs in `PAGES`; a check says so where one is mi
 time is what the commands compute, so all but the quickest are slow.
 """
 
-import subprocess
-import sys
-
 import pytest
 from browser import PHONE, WIDE
+from command_line import stickslip
 
 from cosim.cli.arguments import COMMANDS
 
@@ -54,13 +52,6 @@ QUICK = ("effects",)
 WITHOUT = {"build", "completion", "docs", "effect", "explore", "keys", "new", "plot", "schema"}
 
 
-def stickslip(folder, *arguments):
-    done = subprocess.run(
-        [sys.executable, "-m", "cosim", *arguments], cwd=folder, capture_output=True, text=True
-    )
-    assert done.returncode == 0, done.stderr
-
-
 @pytest.mark.parametrize(
     "command",
     [
@@ -72,8 +63,9 @@ def test_page_for_every_eye_and_screen(browser, tmp_path, command):
     (tmp_path / "short.toml").write_text(SHORT, encoding="utf-8")
     arguments, before, file = PAGES[command]
     if before:
-        stickslip(tmp_path, *before)
-    stickslip(tmp_path, *arguments, "-o", "out")
+        assert stickslip(tmp_path, *before).returncode == 0
+    done = stickslip(tmp_path, *arguments, "-o", "out")
+    assert done.returncode == 0, done.stderr
     page = tmp_path / "out" / file
     for width in (WIDE, PHONE):
         browser.open(page, width)

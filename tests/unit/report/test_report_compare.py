@@ -1,10 +1,10 @@
 """`stickslip compare`: numbers side by side, keys that differ, curves, folders without a result."""
 
-import argparse
 import json
 import re
 
 import pytest
+from command_line import executed
 
 from cosim.cli.runs import compare as compare_command
 from cosim.cli.runs import simulate as simulate_command
@@ -24,12 +24,6 @@ duration = {duration}
 """
 
 
-def call(module, *words):
-    parser = argparse.ArgumentParser()
-    module.add_arguments(parser)
-    return module.execute(parser.parse_args([str(word) for word in words]))
-
-
 def scenario(folder, name, mass, duration=3.0):
     file = folder / f"{name}.toml"
     file.write_text(CASE.format(name=name, mass=mass, duration=duration))
@@ -42,13 +36,13 @@ def place(tmp_path_factory):
     folder = tmp_path_factory.mktemp("compare")
     light = scenario(folder, "light", 0.67)
     scenario(folder, "heavy", 1.34)
-    assert call(simulate_command, light, "-o", folder / "results") == 0
+    assert executed(simulate_command, light, "-o", folder / "results") == 0
     return folder
 
 
 def test_a_folder_and_a_scenario_side_by_side(place, capsys):
     out = place / "out"
-    assert call(compare_command, place / "results", place / "heavy.toml", "-o", out) == 0
+    assert executed(compare_command, place / "results", place / "heavy.toml", "-o", out) == 0
     printed = capsys.readouterr()
     assert "rig.mass" in printed.out and "0.67" in printed.out and "1.34" in printed.out
     found = json.loads((out / "compare.json").read_text())
@@ -74,7 +68,9 @@ def test_a_folder_and_a_scenario_side_by_side(place, capsys):
 def test_a_run_beside_itself_is_the_same(place, capsys):
     """A scenario that is run again gives what its folder holds, to the last digit."""
     out = place / "itself"
-    assert call(compare_command, place / "results", place / "light.toml", "-o", out, "--json") == 0
+    assert (
+        executed(compare_command, place / "results", place / "light.toml", "-o", out, "--json") == 0
+    )
     found = json.loads(capsys.readouterr().out)
     assert found["scenario"] == {} and found["remarks"] == []
     both = [one for one in found["numbers"].values() if None not in (one["a"], one["b"])]
@@ -93,12 +89,12 @@ def test_what_is_flat_in_both_is_not_drawn(place):
 def test_runs_of_other_lengths_and_cut_off_ones_are_told_of(place, capsys):
     short = scenario(place, "short", 0.67, duration=2.0)
     folder = place / "cut"
-    assert call(simulate_command, short, "-o", folder) == 0
+    assert executed(simulate_command, short, "-o", folder) == 0
     numbers = json.loads((folder / "summary.json").read_text())
     numbers |= {"status": "interrupted", "reason": "interrupted by the user"}
     (folder / "summary.json").write_text(json.dumps(numbers))
     capsys.readouterr()
-    assert call(compare_command, place / "results", folder, "-o", place / "two") == 0
+    assert executed(compare_command, place / "results", folder, "-o", place / "two") == 0
     said = capsys.readouterr().err
     assert "the run is not complete (interrupted by the user)" in said
     assert "one run is 3 s long, the other 2 s" in said
@@ -129,7 +125,7 @@ def test_a_folder_that_is_no_result_is_refused_in_one_line(place, tmp_path, made
     for name, text in made.items():
         (folder / name).write_text(text)
     with pytest.raises(ValueError) as refused:
-        call(compare_command, place / "results", folder, "-o", tmp_path / "out")
+        executed(compare_command, place / "results", folder, "-o", tmp_path / "out")
     assert says in str(refused.value) and str(folder) in str(refused.value)
     assert "\n" not in str(refused.value) and not (tmp_path / "out").exists()
 
@@ -175,7 +171,7 @@ def test_the_page_begins_with_whether_they_differ(place):
         "light (A) and light (B) are equal within rounding, in all that both have."
     )
     out = place / "first"
-    assert call(compare_command, place / "results", place / "heavy.toml", "-o", out) == 0
+    assert executed(compare_command, place / "results", place / "heavy.toml", "-o", out) == 0
     text = (out / "report.html").read_text()
     places = [text.index(each) for each in ("<h1>", "<figure", 'class="tiles"', "<h2")]
     assert places == sorted(places)

@@ -1,11 +1,12 @@
 """`stickslip belt-length`: cases, table, verdict, files, refusals."""
 
-import argparse
 import json
+from functools import partial
 
 import numpy as np
 import pandas as pd
 import pytest
+from command_line import executed
 
 from cosim.cli.studies import belt_length as belt_length_command
 from cosim.studies.belt_length import (
@@ -37,10 +38,7 @@ HELD = "[friction]\nmu_s = 200.0\n[surface]\nrun_up_time = 2.0"
 NO_RAMP = Protocol(ramp=0.0)
 
 
-def call(*argv):
-    parser = argparse.ArgumentParser()
-    belt_length_command.add_arguments(parser)
-    return belt_length_command.execute(parser.parse_args([str(word) for word in argv]))
+call = partial(executed, belt_length_command)
 
 
 @pytest.fixture

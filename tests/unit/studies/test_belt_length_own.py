@@ -1,10 +1,10 @@
 """`stickslip belt-length SCENARIO`: an own belt, its length, its interval, its page."""
 
-import argparse
 import json
 import re
 
 import pytest
+from command_line import executed
 
 from cosim.cli.studies import belt_length as belt_length_command
 from cosim.scenario import read_scenario
@@ -78,9 +78,7 @@ def steel(tmp_path_factory):
 def results(steel):
     folder = steel.parent / "results"
     words = (steel, "--camera", LIMIT, "--samples", 32, "--map", 0, "--jobs", 1, "-o", folder)
-    parser = argparse.ArgumentParser()
-    belt_length_command.add_arguments(parser)
-    assert belt_length_command.execute(parser.parse_args([str(word) for word in words])) == 0
+    assert executed(belt_length_command, *words) == 0
     return folder
 
 

@@ -1,13 +1,14 @@
 """`stickslip friction-map`: slopes and minimum of known curves, what is left, bad input."""
 
-import argparse
 import csv
 import json
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from command_line import executed
 
 from cosim import read_scenario
 from cosim.cli import is_bad_input
@@ -29,10 +30,7 @@ CASE = read_scenario("melting_friction").changed(
 )
 
 
-def call(*argv):
-    parser = argparse.ArgumentParser()
-    friction_regimes_command.add_arguments(parser)
-    return friction_regimes_command.execute(parser.parse_args([str(word) for word in argv]))
+call = partial(executed, friction_regimes_command)
 
 
 def test_slope_of_a_power_over_each_decade():

@@ -2,12 +2,12 @@
 
 import json
 import math
-from argparse import ArgumentParser
 from dataclasses import replace
 from itertools import product
 
 import numpy as np
 import pytest
+from command_line import executed
 from stickslip.reference.scheme_errors import DESCRIPTIONS
 
 from cosim.cli import main
@@ -187,17 +187,9 @@ def test_page(quick):
     assert drift.index("Both drifts are without bound") < drift.index("<table>")
 
 
-def arguments(*words: str):
-    parser = ArgumentParser()
-    reproduction_command.add_arguments(parser)
-    return parser.parse_args(words)
-
-
 def test_command(tmp_path, capsys):
     folder, result = tmp_path / "out", tmp_path / "numbers.json"
-    status = reproduction_command.execute(
-        arguments("C3", "C1", "-o", str(folder), "--json", str(result))
-    )
+    status = executed(reproduction_command, "C3", "C1", "-o", str(folder), "--json", str(result))
     captured = capsys.readouterr()
     assert status == 0
     lines = captured.out.splitlines()

@@ -1,15 +1,16 @@
 """`stickslip sweep`: text to values, files, last lines, the test plan."""
 
-import argparse
 import os
 import signal
 import subprocess
 import sys
 import time
+from functools import partial
 
 import numpy as np
 import pytest
 import xarray as xr
+from command_line import executed
 
 from cosim import read_scenario
 from cosim.cli.studies import sweep as sweep_command
@@ -19,11 +20,7 @@ from cosim.studies.sweep.combination import model_version
 from cosim.studies.sweep.plan import BELTS, plan_grid, repeats_grid
 from cosim.studies.sweep.store import Store
 
-
-def call(*argv):
-    parser = argparse.ArgumentParser()
-    sweep_command.add_arguments(parser)
-    return sweep_command.execute(parser.parse_args([str(word) for word in argv]))
+call = partial(executed, sweep_command)
 
 
 @pytest.fixture

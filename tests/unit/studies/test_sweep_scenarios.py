@@ -1,11 +1,11 @@
 """Sweeps over any key of a scenario, and over scenarios; what the figure and the page say."""
 
-import argparse
 import json
 
 import numpy as np
 import pytest
 import xarray as xr
+from command_line import executed
 from stickslip.trajectory import counted_break_aways
 
 from cosim import Scenario, run_scenario
@@ -139,10 +139,8 @@ def test_the_command_leaves_a_page_and_a_table(tmp_path, capsys):
     """A block that never sticks has no frequency: neither a curve at 0 Hz nor a number."""
     file, out = tmp_path / "short.toml", tmp_path / "out"
     file.write_text(SHORT.changed({"run.duration": 3.0}).to_toml())
-    parser = argparse.ArgumentParser()
-    sweep_command.add_arguments(parser)
     words = [str(file), "--vary", "surface.speed=0.15,5", "--jobs", "1", "-o", str(out), "--json"]
-    assert sweep_command.execute(parser.parse_args(words)) == 0
+    assert executed(sweep_command, *words) == 0
     rows = json.loads(capsys.readouterr().out)["runs"]
     assert [row["surface.speed"] for row in rows] == [0.15, 5.0]
     assert rows[1]["frequency"] == 0.0 and rows[1]["slip_time"] is None

@@ -157,12 +157,6 @@ def plain(unit):
     return look_up
 
 
-@pytest.fixture(scope="module")
-def rippled(unit):
-    """The motion under the ripple inside."""
-    return motion(unit, lambda _: {"surface_speed": SPEED}, SHOWN, STOP, **INSIDE)[:2]
-
-
 def motion(unit, drive, size, stop, host=None, **values):
     """x every SHOWN seconds, the number of slips, and times of events; without a host, of a unit
     that does not return early."""
@@ -235,21 +229,6 @@ def test_inputs_that_are_held_are_not_taken_for_others_at_an_event(unit, plain, 
     for seed in range(8):
         early = motion(unit, *drives(seed), 6.0, "steps", **CASES[case])
         assert_same(early, plain(case, 0, seed), case)
-
-
-@pytest.mark.parametrize("host", HOSTS)
-@pytest.mark.parametrize(("hold", "finest"), [(0, 6e-5), (1, 1e-5)])
-def test_with_early_return_the_motion_converges_to_that_of_the_ripple_inside(
-    unit, rippled, host, hold, finest
-):
-    errors = []
-    for size in STEPS:
-        x, slips, _ = motion(unit, rippling, size, STOP, host, **{"input.hold": hold})
-        errors.append(np.abs(x - rippled[0]).max())
-        if size <= 0.01:
-            assert slips == rippled[1]
-    assert 0.8 < np.polyfit(np.log(STEPS), np.log(errors), 1)[0] < 1.8  # as above
-    assert errors[-1] < finest
 
 
 @pytest.mark.parametrize("hold", [0, 1])
