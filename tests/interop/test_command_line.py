@@ -160,7 +160,7 @@ def test_a_refused_run_leaves_earlier_results_alone(place):
 
 def test_nobody_listening_is_no_traceback(place):
     process = subprocess.Popen(
-        [*MODULE, "build"], cwd=place, stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        [*MODULE, "keys"], cwd=place, stdout=subprocess.PIPE, stderr=subprocess.PIPE
     )
     process.stdout.close()
     assert process.stderr.read() == b"" and process.wait(60) == 1
