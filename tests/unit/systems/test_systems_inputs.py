@@ -168,6 +168,3 @@ def test_what_is_not_coupled_here_is_refused_by_its_name(tmp_path, changes, line
         assert (code, error) == (0, [])
     else:
         assert code == 2 and len(error) == 1 and said in error[0]
-
-
-# --- a large system ---
