@@ -8,7 +8,7 @@ import time
 
 import pytest
 import xarray as xr
-from command_line import stickslip, stickslip_here
+from command_line import stickslip_here
 from kill_and_resume import SCENARIO, at_rows, begin, check_record, kill_and_resume, kill_in
 
 from cosim.coupling.record import load_checkpoint, save_checkpoint
@@ -91,10 +91,10 @@ def test_ctrl_c_leaves_results_and_what_goes_on(tmp_path):
     is_now = at_rows(results, 100)
     while not is_now():
         time.sleep(0.01)
-    again = stickslip(tmp_path, "run", tmp_path / "case.toml", "-o", results)
+    again = stickslip_here(tmp_path, "run", tmp_path / "case.toml", "-o", results)
     assert again.returncode == 2 and "another process is at work" in again.stderr
     os.kill(process.pid, signal.SIGINT)
-    _, said = process.communicate(timeout=120)
+    _, said = process.communicate(timeout=600)
     assert process.returncode == 1
     *others, line = said.splitlines()
     # a run of more than a minute says so first; a block that has left its belt is told of
