@@ -123,7 +123,7 @@ def test_every_law_changes_the_motion_and_every_shape_is_drawn(name, catalogue):
     rig = "planar" if name == "turning_surface" else rig
     plan = draw_plan(np.random.default_rng(8), rig, "jump", aside=rig == "planar", loads=True)
     laws = [catalogue[name](np.random.default_rng(seed), plan.reference) for seed in range(40)]
-    chosen = {law.shape.split(",")[0]: law for law in laws}
+    chosen = {tuple(law.shape.split(",")[:2]): law for law in laws}
     assert len(chosen) >= 2 and {law.effect for law in laws} == {name}
     run = max(plan.runs, key=lambda run: (run.mass, run.speed))
     short = plan.__class__(**{**vars(plan), "runs": (run,), "duration": 3.0})
