@@ -35,7 +35,7 @@ RESULTS = {"result.nc", "result.csv", "summary.json", "report.html"}
 
 def stickslip(folder, *arguments, program=MODULE):
     return subprocess.run(
-        [*program, *map(str, arguments)], cwd=folder, capture_output=True, text=True, timeout=300
+        [*program, *map(str, arguments)], cwd=folder, capture_output=True, text=True, timeout=900
     )
 
 
