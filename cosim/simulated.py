@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from stickslip import Trajectory, simulate
 
+from cosim.report.scenario_run import ScenarioRun
 from cosim.scenario import Scenario, check_work, read_scenario
 
 if TYPE_CHECKING:
-    import xarray
-    from matplotlib.figure import Figure
+    from cosim.report.columns import Columns
 
 
 @dataclass(frozen=True, repr=False)
-class SimulatedRun:
+class SimulatedRun(ScenarioRun):
     """What was simulated and what came out.
+
+    By name, as `run["x"]` or `run.x`, it has every variable of `to_xarray`.
 
     trajectory: the motion, sampled every `run.output_interval`, and its events.
     """
@@ -28,21 +31,11 @@ class SimulatedRun:
     def __repr__(self) -> str:
         return f"<SimulatedRun of {self.scenario.name}: {self.trajectory!r}>"
 
-    def to_xarray(self) -> xarray.Dataset:
-        """The dataset that `stickslip simulate` writes as ``result.nc``: all outputs over ``time``
-        (n,) and events over ``event_time`` (k,), with units and long names; the scenario."""
-        from cosim.report import trajectory_dataset  # pandas: only for who asks for it
+    @cached_property
+    def _columns(self) -> Columns:
+        from cosim.report.dataset import trajectory_columns
 
-        return trajectory_dataset(self.trajectory, self.scenario, self.scenario.to_toml())
-
-    def plot(self, figure: str = "motion") -> Figure:
-        """One of the figures of the run's page; which there are, the refusal of another name says.
-
-        Raises ValueError for a name that is none.
-        """
-        from cosim.report.figures import figure_of
-
-        return figure_of(self.to_xarray(), figure)
+        return trajectory_columns(self.trajectory, self.scenario, self.scenario.to_toml())
 
 
 def simulate_scenario(scenario: Scenario | str | Path = "reference") -> SimulatedRun:

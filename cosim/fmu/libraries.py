@@ -1,18 +1,25 @@
-"""The libraries of a native unit: the wheel's where they are of today's content, or compiled."""
+"""The libraries of a native unit: the wheel's where they are of today's content, or compiled.
+
+What was compiled once is kept in the user's cache, for whoever builds a unit of the same sources.
+"""
 
 from __future__ import annotations
 
+import hashlib
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import IO
 
+from stickslip import machine_code
 from stickslip.generation.compiler import (
     NO_COMPILER,
+    OPTIONS,
     CompilerError,
     compile_into,
     compiled,
+    has_zig,
     joined,
     possible,
 )
@@ -41,7 +48,28 @@ def libraries(
     made = {each: brought[each].read_bytes() for each in platforms if each in brought}
     lacking = possible([each for each in platforms if each not in made])
     if lacking:
-        made |= compiled(sources(), lacking, name)
+        made |= _compiled(sources(), lacking, name)
+    return made
+
+
+def _compiled(
+    sources: Mapping[str, bytes], platforms: Sequence[Platform], name: str
+) -> dict[Platform, bytes]:
+    """Taken from the user's cache, or compiled and kept there. Raises CompilerError."""
+    digest = hashlib.sha256(repr((OPTIONS, has_zig(), sorted(sources.items()))).encode())
+    files = {
+        each: f"{name}-{each.name}-{digest.hexdigest()[:16]}{each.suffix}" for each in platforms
+    }
+    made = {
+        each: there.read_bytes()
+        for each, file in files.items()
+        if (there := machine_code.kept(file))
+    }
+    if lacking := [each for each in platforms if each not in made]:
+        new = compiled(sources, lacking, name)
+        for each, library in new.items():
+            machine_code.keep(files[each], library)
+        made |= new
     return made
 
 

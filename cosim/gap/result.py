@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from cosim.gap.data import Campaign
 from cosim.gap.windows.fitted import Fitted
+from cosim.result import Result
 
 if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
 #: What draws; loaded when asked for.
-NOTEBOOK = "cosim.gap.notebook"
+NOTEBOOK, NUMBERS = "cosim.gap.notebook", "cosim.gap.show.numbers"
+FILES = "cosim.gap.show.files"
 #: Standard deviations to either side in which a number lies with 90 %.
 NINETY = 1.645
 #: Powers that differ by less make forces that differ by a tenth over a decade.
@@ -202,7 +205,7 @@ class Where:
 
 
 @dataclass(frozen=True)
-class Gap:
+class Gap(Result):
     """The answer.
 
     Attributes
@@ -261,6 +264,29 @@ class Gap:
         """
         drawn: Figure = import_module(NOTEBOOK).figure_of(self, figure)
         return drawn
+
+    def summary(self) -> dict[str, Any]:
+        """What `gap.json` holds."""
+        numbers: dict[str, Any] = import_module(NUMBERS).as_data(self, "")
+        return numbers
+
+    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
+        fit = [f"{self.before.fit:.3g}", f"{self.after.fit:.3g}"]
+        figures = [("verdict", self.verdict), ("gap, 1 is noise", " → ".join(fit))]
+        if self.before.held_out is not None and self.after.held_out is not None:
+            held_out = [f"{self.before.held_out:.3g}", f"{self.after.held_out:.3g}"]
+            figures.append(("of runs held out", " → ".join(held_out)))
+        return self.sentence, figures
+
+    def _page(self) -> str:
+        text: str = import_module(FILES).page_text(self)
+        return text
+
+    def _write(self, folder: Path) -> None:
+        files = import_module(FILES)
+        files.write_data(self, folder / "gap.json", folder / "model.toml")
+        corrected = files.write_corrected(self, folder)
+        files.write_page(self, folder, folder / "report.html", lambda: None, corrected)
 
     @property
     def before(self) -> Score:

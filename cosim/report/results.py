@@ -94,7 +94,7 @@ def write_results(
         done(write_bytes(film, folder / ANIMATION))
         files[ANIMATION] = "temperature of belt and ice over time, an animation"
     if page:
-        text = run_page(dataset, numbers, command=command, files=files)
+        text = run_page(dataset, numbers, command=command, files=OWN_FILES | files)
         done(write_text(text, folder / "report.html"))
     return written
 
@@ -131,7 +131,7 @@ def run_page(
     command: str = "",
     files: Mapping[str, str] | None = None,
 ) -> str:
-    """HTML of a run: numbers of `summary`, its figures, further files to be listed."""
+    """HTML of a run: numbers of `summary`, its figures, the files beside it."""
     from .figures import plates_of
 
     html = render(
@@ -152,7 +152,7 @@ def run_page(
         figures=[plate.picture(dataset) for plate in plates_of(dataset)],
         parameters=parameter_tables(dataset),
         defaults=taken_line(numbers["defaults"]),
-        files=OWN_FILES | dict(files or {}),
+        files=files or {},
         command=command,
         coupled=numbers["case"] == "coupled",
     )

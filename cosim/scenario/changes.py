@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import Any
 
 from cosim.scenario.validation import ScenarioError
@@ -33,6 +33,25 @@ def _value(text: str) -> Any:
     except (ValueError, RecursionError):  # TOMLDecodeError is a ValueError
         return text.strip()
     return tables["value"] if set(tables) == {"value"} else text.strip()
+
+
+def changes_named(named: Mapping[str, Any], tables: Collection[str]) -> dict[str, Any]:
+    """Keywords as `table.key` -> value: `surface_speed=0.2`, or `surface={"speed": 0.2}`.
+
+    >>> changes_named({"run_in_change": 0.1, "rig": {"mass": 1.2}}, ["run", "run_in", "rig"])
+    {'run_in.change': 0.1, 'rig.mass': 1.2}
+    """
+    found: dict[str, Any] = {}
+    for name, value in named.items():
+        if name in tables:
+            entries = value.items() if isinstance(value, Mapping) else ()
+            found |= {f"{name}.{key}": entry for key, entry in entries} or {name: value}
+            continue
+        # of `run` and `run_in` the longer
+        starts = [table for table in tables if name.startswith(f"{table}_")]
+        table = max(starts, key=len, default="")
+        found[f"{table}.{name[len(table) + 1 :]}" if table else name] = value
+    return found
 
 
 def changed_tables(tables: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:

@@ -15,6 +15,7 @@ import math
 import os
 from collections.abc import Mapping
 from functools import cached_property
+from html import escape
 from importlib import resources
 from pathlib import Path
 from typing import Any, Literal, Self
@@ -29,10 +30,10 @@ from stickslip.quantity import Table, quantity
 
 from cosim.names import nearest
 from cosim.scenario import defaults as defaults_of_files
-from cosim.scenario.changes import changed_tables, is_of_change
+from cosim.scenario.changes import changed_tables, changes_named, is_of_change
 from cosim.scenario.method import Method
 from cosim.scenario.toml_file import parsed, text_of
-from cosim.scenario.validation import ScenarioError, checked
+from cosim.scenario.validation import ScenarioError, checked, known_keys, unit_of
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
 from thermal.materials import ICE, MATERIALS
 
@@ -43,6 +44,8 @@ SUFFIX = ".toml"
 MOST_STEPS = 10_000_000
 #: Two intervals that differ by less than this part of themselves are the same: 0.3 / 0.1.
 ROUNDING = 1e-9
+#: Most lines of what a scenario shows of itself where it is looked at, beside its name.
+MOST_LINES = 18
 #: An hour of computing, s: longer is meant seldom, and then said.
 PATIENCE = 3600.0
 #: What a material is, and no shape.
@@ -276,12 +279,22 @@ class Scenario(Parameters):
             )
         return round(ratio)
 
-    def changed(self, changes: Mapping[str, Any]) -> Self:
-        """A variant, `block.key` -> value; ScenarioError in one line when it cannot be.
+    def changed(self, changes: Mapping[str, Any] | None = None, /, **named: Any) -> Self:
+        """A variant, `block.key` -> value, or as keywords; ScenarioError in one line when it cannot
+        be.
 
-        >>> Scenario().changed({"rig.mass": 1.2, "run.duration": 5.0}).rig.mass
+        A keyword is `block_key`, or a block with a mapping of its keys:
+
+        >>> scenario = Scenario()
+        >>> scenario.changed({"rig.mass": 1.2, "run.duration": 5.0}).rig.mass
         1.2
+        >>> scenario.changed(rig_mass=1.2, surface={"speed": 0.2}).surface.speed
+        0.2
+        >>> scenario.changed(surface_sped=0.2)
+        Traceback (most recent call last):
+        cosim.scenario.validation.ScenarioError: surface.sped: unknown key, nearest known: ...
         """
+        changes = dict(changes or {}) | changes_named(named, type(self).model_fields)
         # what was not said stays so: some studies ask which numbers are known
         said = {"name": self.name} | self.model_dump(exclude_unset=True)
         variant = self.from_tables(changed_tables(said, changes))
@@ -320,6 +333,39 @@ class Scenario(Parameters):
         if not self.effects:
             del tables["effects"]
         return {"name": tables.pop("name")} | tables
+
+    def __repr__(self) -> str:
+        """What differs from the plain model, in at most 20 lines."""
+        lines = [f"{key} = {value}" for key, value, _ in self._differing()]
+        more = len(lines) - MOST_LINES
+        if more > 0:
+            lines[MOST_LINES:] = [f"and {more} more, see to_toml()"]
+        return "\n  ".join([f"<Scenario {self.name}", *lines]) + ">"
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        """The same as a table, for a notebook."""
+        rows = "".join(
+            f"<tr><th>{escape(key)}</th><td>{escape(value)}</td><td>{escape(said)}</td></tr>"
+            for key, value, said in self._differing()
+        )
+        return f"<p><strong>Scenario {escape(self.name)}</strong></p><table>{rows}</table>"
+
+    def _differing(self) -> list[tuple[str, str, str]]:
+        """Key, value with unit, and description of what is not as in the plain model."""
+        found = []
+        for key, field in known_keys(type(self)).items():
+            table, _, entry = key.partition(".")
+            if not entry or (table == "block" and "block" not in self.model_fields_set):
+                continue
+            value = getattr(getattr(self, table), entry)
+            if value != field.get_default(call_default_factory=True):
+                unit = unit_of(field)
+                found.append(
+                    (key, f"{value}{'' if unit == '1' else f' {unit}'}", field.description)
+                )
+        return [(key, value, said or "") for key, value, said in found]
 
     def to_toml(self) -> str:
         """The text of a file that `read_scenario` reads as this scenario."""

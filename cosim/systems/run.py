@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ from cosim.coupling import CoupledResult, Message, run
 from cosim.coupling.methods import control_of, scheme_of, smallest_step
 from cosim.coupling.record import Keep, RunFolder
 from cosim.names import unknown_name
+from cosim.result import RunResult
 from cosim.systems.assembly import Assembly, assemble, record_every
 from cosim.systems.specification import Start, SystemSpecification
 from cosim.systems.ssp.reader import read_ssp
@@ -32,8 +34,8 @@ STEPS = "steps.log"
 
 
 @dataclass(frozen=True)
-class SystemRun:
-    """What was run, and what came out.
+class SystemRun(RunResult):
+    """What was run, and what came out; by name, as `run["unit.port"]`, what `to_xarray` has.
 
     assembly: its participants are closed, their ports can be asked for. steps: their sizes.
     """
@@ -51,11 +53,17 @@ class SystemRun:
         """The dataset that `stickslip couple` writes as ``result.nc``: every output and connected
         input as `unit.port` over ``time`` (n,), with units, and the macro steps over
         ``step_time``."""
-        dataset: xarray.Dataset = self._columns().to_xarray()
+        dataset: xarray.Dataset = self._columns.to_xarray()
         return dataset
 
+    @cached_property
     def _columns(self) -> Any:
         return import_module(f"{SHOW}.dataset").system_columns(self)
+
+    def summary(self) -> dict[str, Any]:
+        """The numbers of ``summary.json``: status, ledger, outputs, how it was coupled."""
+        numbers: dict[str, Any] = import_module(f"{SHOW}.summary").summary(self, self._columns)
+        return numbers
 
     def plot(self, figure: str = "signals") -> Figure:
         """One of the figures of the run's page: signals, system, energy or steps.
@@ -63,8 +71,20 @@ class SystemRun:
         Raises ValueError for a name that is none, or of which the run has nothing to show.
         """
         figures = import_module(f"{SHOW}.figures")
-        drawn: Figure = figures.figure_of(self, self._columns(), figure)
+        drawn: Figure = figures.figure_of(self, self._columns, figure)
         return drawn
+
+    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
+        page, numbers = import_module(f"{SHOW}.page"), self.summary()
+        return page.sentence(numbers), page.tiles(numbers)
+
+    def _page(self) -> str:
+        pictures = import_module(f"{SHOW}.figures").pictures(self, self._columns)
+        text: str = import_module(f"{SHOW}.page").page(self.summary(), pictures)
+        return text
+
+    def _write(self, folder: Path) -> None:
+        import_module(SHOW).write_system(self, folder)
 
 
 def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> SystemSpecification:

@@ -58,14 +58,13 @@ class Code:
         here = this_machine()
         name = self.file(here)
         brought = Path(__file__).with_name(PREBUILT) / name
-        kept = [folder / name for folder in _folders() if _is_private(folder)]
-        for file in [*filter(Path.is_file, [brought]), *filter(_is_whole, kept)]:
+        if file := brought if brought.is_file() else kept(name):
             LOG.info("mechanical model: machine code in %s", file)
             return ctypes.CDLL(str(file))
         require_compiler(here)
         LOG.warning("compiling the mechanical model for this machine, once: a few seconds")
         made = compiled(self.sources(), [here], self.name, CALLED_BY_NAME, stays=True)[here]
-        if there := _kept(name, made):
+        if there := keep(name, made):
             return ctypes.CDLL(str(there))
         # Windows removes no library that is loaded
         with scratch_folder("code") as scratch:
@@ -74,7 +73,13 @@ class Code:
             return ctypes.CDLL(str(file))
 
 
-def _kept(name: str, content: bytes) -> Path | None:
+def kept(name: str) -> Path | None:
+    """A library that was kept, as it was written; None where there is none."""
+    files = [folder / name for folder in _folders() if _is_private(folder)]
+    return next(filter(_is_whole, files), None)
+
+
+def keep(name: str, content: bytes) -> Path | None:
     """The file, written where it will be found again; None for nowhere. Processes may race."""
     for folder in _folders():
         with suppress(OSError):

@@ -16,6 +16,10 @@ class Table(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
 
+    def __dir__(self) -> list[str]:
+        """Its own names: what pydantic has beside them is not for whoever looks for a key."""
+        return [name for name in super().__dir__() if not hasattr(BaseModel, name)]
+
 
 def quantity(
     default: Any,

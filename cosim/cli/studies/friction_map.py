@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import sys
 import time
 from argparse import ArgumentParser, Namespace
-from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,15 +16,12 @@ from cosim.cli.arguments import add_force, add_json, add_output, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import writable, write_atomically, write_bytes, write_text
+from cosim.files import writable
 from cosim.manifest import made_by, require_own, results_in
 
-if TYPE_CHECKING:
-    from cosim.studies.friction_map import FrictionMap
-
 EXAMPLE = "stickslip friction-map melting_friction --ambient -8 -o results/friction"
-RESULT, TABLE, FIGURE = "friction_map.json", "friction_map.csv", "friction_map.png"
-PAGE = "report.html"
+RESULT, PAGE = "friction_map.json", "report.html"
+TABLE, FIGURE = "friction_map.csv", "friction_map.png"
 #: By which keys RESULT is known.
 KEYS = ("scenario", "regimes", "points")
 #: Three speeds a decade, m/s, up to those of skates and sleds.
@@ -84,6 +79,7 @@ def execute(arguments: Namespace) -> int:
     """Run, write, print a line a temperature; 0."""
     from cosim.fmu.build import own_fmu
     from cosim.studies.friction_map import friction_map
+    from cosim.studies.friction_map.page import write
 
     began = time.perf_counter()
     scenario = given_scenario(arguments.scenario, arguments.changes)
@@ -100,7 +96,7 @@ def execute(arguments: Namespace) -> int:
         )
     made = made_by(scenario=scenario.to_toml())
     with results_in(folder, made, force=arguments.force) as results:
-        _write(found, folder, made["command"])
+        write(found, folder, made["command"])
         results.complete = True
     if asked.give(json.dumps(found.as_json(), indent=1)):
         return DONE
@@ -129,22 +125,3 @@ def _print(regimes: dict[str, Any]) -> None:
     lowest = regimes["minimum"]
     if lowest is not None:
         print(f"    minimum: {lowest['friction']:.4f} at {lowest['speed']:.3g} m/s")
-
-
-def _write(found: FrictionMap, folder: Path, command: str) -> None:
-    """Numbers first, then the figure and the page."""
-    from cosim.studies.friction_map.page import draw_map, page
-
-    write_text(json.dumps(found.as_json(), indent=1), folder / RESULT)
-    write_atomically(folder / TABLE, lambda path: _write_table(found, path))
-    drawn = draw_map(found)
-    write_bytes(drawn.png, folder / FIGURE)
-    write_text(page(found, drawn, command), folder / PAGE)
-
-
-def _write_table(found: FrictionMap, path: Path) -> None:
-    rows = [asdict(point) for point in found.points]
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, fieldnames=list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 from hashlib import sha256
 from importlib.metadata import version
 from pathlib import Path
@@ -26,13 +27,13 @@ from cosim.coupling.methods import control_of, scheme_of, smallest_step
 from cosim.coupling.record import Keep, RunFolder
 from cosim.files import OutputError
 from cosim.fmu.build import own_fmu
+from cosim.report.scenario_run import ScenarioRun
 from cosim.scenario import Scenario, check_work, read_scenario
 from cosim.scenario.scenario import FILE_KEYS
 from thermal import BeltIceModel
 
 if TYPE_CHECKING:
-    import xarray
-    from matplotlib.figure import Figure
+    from cosim.report.columns import Columns
 
 MECHANICS, THERMAL = "mechanics", "thermal"
 CONNECTIONS = (
@@ -47,8 +48,10 @@ RESIDUALS = (f"{MECHANICS}.energy_residual", f"{THERMAL}.heat_residual")
 
 
 @dataclass(frozen=True, repr=False)
-class CoupledRun:
+class CoupledRun(ScenarioRun):
     """What a coupled run was made of and what came out.
+
+    By name, as `run["x"]` or `run.x`, it has every variable of `to_xarray`.
 
     result: every output of both sides at the recorded times, as `mechanics.x`,
     `thermal.interface_temperature`, ..., status and energy ledger. snapshots: the belt's
@@ -65,28 +68,12 @@ class CoupledRun:
         ended = f" ({result.reason})" if result.reason else ""
         return f"<CoupledRun of {name}, {result.status}{ended}: {reached} in {result.steps} steps>"
 
-    def to_xarray(self) -> xarray.Dataset:
-        """The dataset that `stickslip run` writes as ``result.nc``: all outputs over ``time`` (n,)
-        with units and long names, the belt's temperature over time and place, the scenario."""
-        from cosim.report import run_dataset  # matplotlib, pandas: only for who asks for them
+    @cached_property
+    def _columns(self) -> Columns:
+        from cosim.report.dataset import run_columns
 
-        return run_dataset(
-            self.result, self.scenario, self.scenario.to_toml(), snapshots=self.snapshots
-        )
-
-    def plot(self, figure: str = "motion") -> Figure:
-        """One of the figures of the run's page; which there are, the refusal of another name says.
-
-        Raises ValueError for a name that is none.
-
-        >>> from cosim import read_scenario
-        >>> run = run_scenario(read_scenario("reference").changed({"run.duration": 0.5}))
-        >>> run.plot("temperatures")
-        <Figure size ... with 3 Axes>
-        """
-        from cosim.report.figures import figure_of
-
-        return figure_of(self.to_xarray(), figure)
+        toml = self.scenario.to_toml()
+        return run_columns(self.result, self.scenario, toml, snapshots=self.snapshots)
 
 
 def run_scenario(

@@ -15,7 +15,7 @@ from cosim.files import write_bytes, write_text
 from cosim.gap.plan import data
 from cosim.gap.plan.plan import Plan
 from cosim.gap.plan.sizes import Size
-from cosim.report.page import number, render, unit_text
+from cosim.report.page import Picture, number, render, unit_text
 from cosim.report.style import BLUE, INK, ORANGE, RED, logarithmic_x, panels, picture
 
 #: Pairs on the first screens of the page; the rest is folded.
@@ -28,12 +28,17 @@ def write_page(plan: Plan, folder: Path, file: Path) -> None:
     """The picture into the folder, and the page with it inside."""
     drawn = draw_sizes(plan)
     write_bytes(drawn.png, folder / f"{drawn.name}.png")
-    text = render(
+    write_text(page_text(plan, drawn), file)
+
+
+def page_text(plan: Plan, drawn: Picture | None = None) -> str:
+    """The page; drawn: its picture, where that has been drawn already."""
+    drawn = draw_sizes(plan) if drawn is None else drawn
+    return render(
         "plan.html.j2", "cosim.gap.plan", plan=plan, campaign=plan.planned.campaign, data=data,
         picture=drawn, tiles=tiles(plan), next_run=_next_run(plan), at=_at, value=_value,
         most=MOST_PAIRS,
     )  # fmt: skip
-    write_text(text, file)
 
 
 def tiles(plan: Plan) -> list[tuple[str, str]]:

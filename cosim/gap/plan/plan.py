@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib import import_module
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 
+from cosim.files import write_text
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.plan.laws import Law, laws_of, silent
 from cosim.gap.plan.next_run import NextRun, best_next_run
 from cosim.gap.plan.planned import PlannedCampaign, as_measured, asked_as_planned
 from cosim.gap.plan.sizes import Design, Size, false_names, sizes_of
+from cosim.result import Result
 
+#: What shows an answer; loaded when asked for.
+DATA, PAGE = "cosim.gap.plan.data", "cosim.gap.plan.page"
 #: Chance that what is there is named: the usual one of a test (Cohen 1988).
 WANTED = 0.8
 #: Two effects are a pair where one is named beside the other, or for it, in more than this part of
@@ -26,7 +33,7 @@ ROUNDS, NEAR, LEAP = 4, 0.07, 1.25
 
 
 @dataclass(frozen=True)
-class Plan:
+class Plan(Result):
     """The answer.
 
     Attributes
@@ -45,6 +52,23 @@ class Plan:
     silent: Mapping[str, str] = field(repr=False)
     false: float
     next_run: NextRun | None
+
+    def summary(self) -> dict[str, Any]:
+        """What `plan.json` holds."""
+        numbers: dict[str, Any] = import_module(DATA).as_data(self)
+        return numbers
+
+    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
+        return import_module(DATA).sentence(self), import_module(PAGE).tiles(self)
+
+    def _page(self) -> str:
+        text: str = import_module(PAGE).page_text(self)
+        return text
+
+    def _write(self, folder: Path) -> None:
+        json_text = import_module("cosim.report.files").json_text
+        write_text(json_text(self.summary()), folder / "plan.json")
+        import_module(PAGE).write_page(self, folder, folder / "report.html")
 
     @property
     def pairs(self) -> list[tuple[str, str, float]]:

@@ -56,6 +56,12 @@ def write_page(
     write_text(html, file)
 
 
+def page_text(gap: Gap) -> str:
+    """The page alone, no file beside it."""
+    pictures = [replace(draw(), name=name) for name, draw in drawers(gap).items()]
+    return _page(gap, pictures, ())
+
+
 def write_pictures(
     draws: Mapping[str, Callable[[], Picture]], folder: Path, drawn: Callable[[], object]
 ) -> list[Picture]:

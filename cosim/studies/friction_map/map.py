@@ -12,6 +12,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,8 +22,11 @@ from stickslip import Parameters, friction_coefficient
 from stickslip.packing import GRAVITY
 
 from cosim.coupling.case import run_scenario
+from cosim.result import Result
 from cosim.scenario import Scenario
 
+#: What shows a map; loaded when asked for.
+PAGE = "cosim.studies.friction_map.page"
 #: Damping over what the fall of friction with the speed drives.
 DAMPING = 3.0
 #: Steady is friction that changes by less than this part in the last tenth of a run: the interface
@@ -190,7 +195,7 @@ MELTING_POINT = 0.0  # degC
 
 
 @dataclass(frozen=True)
-class FrictionMap:
+class FrictionMap(Result):
     """Points of all ambient temperatures (warmest last), each with the speeds growing.
 
     failed: a line for each point at which the block does not slide steadily, with the reason.
@@ -247,6 +252,27 @@ class FrictionMap:
         lowest = lowest_friction(speed, friction) if changes else None
         found["minimum"] = lowest and {"speed": lowest[0], "friction": lowest[1]}
         return found
+
+    def __repr__(self) -> str:
+        """How many points of which temperatures, in a line."""
+        air = ", ".join(f"{ambient:g}" for ambient in self.ambients)
+        return f"<FrictionMap of {self.scenario.name}: {len(self.points)} points, air {air} degC>"
+
+    def summary(self) -> dict[str, Any]:
+        """What `friction_map.json` holds."""
+        return self.as_json()
+
+    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
+        page = import_module(PAGE)
+        return page.sentence(self), page.tiles(self)
+
+    def _page(self) -> str:
+        page = import_module(PAGE)
+        text: str = page.page(self, page.draw_map(self), "")
+        return text
+
+    def _write(self, folder: Path) -> None:
+        import_module(PAGE).write(self, folder)
 
     def as_json(self) -> dict[str, Any]:
         """Everything as plain data."""

@@ -12,7 +12,7 @@ from cosim.report.columns import write_columns, write_columns_as_csv
 from cosim.report.files import PAGE_ALONE, Shown, write_json
 from cosim.systems.run import SystemRun
 from cosim.systems.show.dataset import system_columns
-from cosim.systems.show.page import page
+from cosim.systems.show.page import OWN_FILES, page
 from cosim.systems.show.summary import summary
 
 __all__ = ["FILES", "write_system"]
@@ -47,9 +47,11 @@ def write_system(
     from cosim.systems.show.figures import pictures  # matplotlib: after the data are on disk
 
     figures = pictures(run, columns)
+    listed = OWN_FILES | dict(files or {})
     for name, picture in figures.items() if shown["figures"] else ():
         progress(write_bytes(picture.png, folder / f"{name}.png").name)
+        listed[f"{name}.png"] = "figure, as above"
     if shown["page"]:
-        text = page(numbers, figures, command=command, files=files or {})
+        text = page(numbers, figures, command=command, files=listed)
         progress(write_text(text, folder / "report.html").name)
     return numbers

@@ -29,8 +29,7 @@ def page(
     command: str = "",
     files: Mapping[str, str] | None = None,
 ) -> str:
-    """HTML of a run: the numbers of `summary`, figures by their names, further files to list."""
-    own = OWN_FILES | {f"{name}.png": "figure, as above" for name in figures}
+    """HTML of a run: the numbers of `summary`, figures by their names, the files beside it."""
     return render(
         "couple.html.j2",
         "cosim.systems.show",
@@ -43,7 +42,7 @@ def page(
         units=_units(numbers["participants"]),
         steps=step_rows(numbers["coupling"]),
         figures={**dict.fromkeys(PICTURES), **figures},
-        files=own | dict(files or {}),
+        files=files or {},
         example=next(iter(numbers["outputs"]), "time"),
         command=command,
     )

@@ -219,7 +219,7 @@ KILLED = {
     "compiler.compiled({'a.c': b''}, [platforms.this_machine()], 'a')",
     "machine code": "import tempfile; from stickslip import machine_code; Path.replace = die\n"
     "machine_code._folders = lambda: [Path(tempfile.gettempdir())]\n"
-    "machine_code._kept('a.so', b'')",
+    "machine_code.keep('a.so', b'')",
 }
 DIE = """import os, signal, sys
 from pathlib import Path

@@ -7,6 +7,7 @@ import struct
 import subprocess
 
 import pytest
+from stickslip import machine_code
 from stickslip.generation.compiler import compiled, has_zig
 from stickslip.generation.platforms import PLATFORMS, this_platform
 
@@ -70,6 +71,31 @@ def test_libraries_call_themselves_as_their_files_are_called():
         elif platform.suffix == ".dll":
             assert b"\0Named.dll\0" in library
         assert platform.name.encode() not in library
+
+
+def test_what_was_compiled_once_is_taken_from_the_cache(tmp_path, monkeypatch):
+    """And compiled again where the sources are others, or what was kept is damaged."""
+    times = []
+
+    def compile_anew(sources, platforms, name):
+        times.append(name)
+        return {each: sources["a.c"] for each in platforms}
+
+    monkeypatch.setattr(machine_code, "_folders", lambda: [tmp_path / "cache"])
+    monkeypatch.setattr(libraries, "compiled", compile_anew)
+    monkeypatch.setattr(libraries, "possible", list)
+    here = this_platform()
+
+    def made(content):
+        libraries.libraries.cache_clear()  # as another process
+        return libraries.libraries("Unit", "guid", lambda: {"a.c": content}, (here,))
+
+    assert made(b"one") == made(b"one") == {here: b"one"} and len(times) == 1
+    assert made(b"two") == {here: b"two"} and len(times) == 2
+    for file in (tmp_path / "cache").glob(f"*{here.suffix}"):
+        file.write_bytes(b"damaged")
+    assert made(b"one") == {here: b"one"} and len(times) == 3
+    libraries.libraries.cache_clear()
 
 
 # --- where there is no compiler ---

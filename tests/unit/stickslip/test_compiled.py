@@ -69,7 +69,7 @@ def keeps(tmp_path, monkeypatch):
     monkeypatch.setattr(machine_code.tempfile, "gettempdir", lambda: str(tmp_path))
 
     def keep():
-        file = machine_code._kept("kernel", b"machine code")
+        file = machine_code.keep("kernel", b"machine code")
         return None if file is None else file.parent
 
     return keep, tmp_path / "stickslip", tmp_path / f"stickslip-{os.getuid()}"
