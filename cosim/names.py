@@ -29,9 +29,14 @@ def nearest_key(key: str, keys: Iterable[str]) -> str | None:
     """
     keys = list(keys)
     table, _, entry = key.rpartition(".")
-    namesakes = (known for known in keys if known.rpartition(".")[2] == entry)
+    ends: dict[str, str] = {}
+    for known in keys:
+        ends.setdefault(known.rpartition(".")[2], known)
+    if entry in ends:
+        return ends[entry]
     siblings = [known for known in keys if known.rpartition(".")[0] == table]
-    return next(namesakes, None) or nearest(key, siblings) or nearest(key, keys)
+    near = nearest(key, siblings) or nearest(key, keys)
+    return near or ends.get(nearest(entry, ends) or "")
 
 
 def listed(names: Iterable[str], most: int = 4) -> str:

@@ -63,6 +63,9 @@ COMMANDS = {
         "measurements",
         "what model and measurement disagree on: names the missing effect, adds it, shows it",
     ),
+    "campaign": Command(
+        "measurements", "a folder of tracker files as a campaign for gap, its settings guessed"
+    ),
     "plan": Command(
         "measurements",
         "what a campaign could name before it is made: smallest sizes, pairs, the next run",

@@ -20,6 +20,8 @@ DRAFT = "http://json-schema.org/draft-07/schema#"
 DIRECTIVE = "#:schema ./{file}"
 #: Name of the schema of scenarios as a file beside them.
 SCENARIO_FILE = "scenario.schema.json"
+#: Of a number that is written with its unit.
+WITH_UNIT = r"^\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*[A-Za-zµ°]"
 #: What pydantic says beyond what an editor shows: names made of keys, and our own remarks.
 _OWN_WORDS = ("title", "unit", "typical", "tried")
 
@@ -66,6 +68,8 @@ def _plainer(node: Any) -> Any:
     unit = node.get("unit", "1")
     if unit != "1" and "description" in told:
         told["description"] += f" [{unit}]"
+        if told.get("type") == "number":  # or with a unit, as "870 g"
+            told |= {"type": ["number", "string"], "pattern": WITH_UNIT}
     kinds = told.pop("prefixItems", [])
     if kinds:
         told["items"] = kinds[0] if all(kind == kinds[0] for kind in kinds) else kinds

@@ -11,6 +11,7 @@ from typing import Any, Literal, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
+from stickslip.units import in_unit
 
 from cosim.names import nearest_key
 
@@ -50,7 +51,7 @@ class ScenarioError(ValueError):
 def checked(model: type[Model], tables: Mapping[str, Any]) -> Model:
     """A model from the tables of a TOML file; ScenarioError in one line."""
     try:
-        return model.model_validate(_tuples(tables), strict=True)
+        return model.model_validate(_in_si(_tuples(tables), model), strict=True)
     except ValidationError as report:
         raise ScenarioError(describe_faults(report, model)) from None
 
@@ -60,6 +61,27 @@ def _tuples(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {key: _tuples(entry) for key, entry in value.items()}
     return tuple(_tuples(entry) for entry in value) if isinstance(value, list) else value
+
+
+def _in_si(tables: Any, model: type[BaseModel]) -> Any:
+    """The tables with "870 g" as the number that the key takes; what is no such text stays."""
+    if not isinstance(tables, Mapping):
+        return tables
+    made = dict(tables)
+    for key, field in model.model_fields.items():
+        value, table = made.get(key), _table(field.annotation) or _entries(field.annotation)
+        if isinstance(value, str) and (number := in_unit(value, unit_of(field))) is not None:
+            made[key] = number
+        elif table is not None and isinstance(value, tuple):
+            made[key] = tuple(_in_si(each, table) for each in value)
+        elif table is not None:
+            made |= {key: _in_si(value, table)} if key in made else {}
+    return made
+
+
+def _entries(kind: Any) -> type[BaseModel] | None:
+    """What a list of tables is made of."""
+    return _table(get_args(kind)[0]) if get_origin(kind) is tuple else None
 
 
 def known_keys(model: type[BaseModel]) -> dict[str, FieldInfo]:

@@ -8,6 +8,9 @@ from pydantic import BaseModel, ConfigDict, Field
 from pydantic.fields import FieldInfo
 
 
+_OF_PYDANTIC = frozenset(dir(BaseModel))
+
+
 class Table(BaseModel):
     """A table of parameters: unknown keys, NaN and infinities are refused; nothing changes later.
 
@@ -18,7 +21,7 @@ class Table(BaseModel):
 
     def __dir__(self) -> list[str]:
         """Its own names: what pydantic has beside them is not for whoever looks for a key."""
-        return [name for name in super().__dir__() if not hasattr(BaseModel, name)]
+        return [name for name in super().__dir__() if name not in _OF_PYDANTIC]
 
 
 def quantity(

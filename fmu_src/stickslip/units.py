@@ -1,7 +1,9 @@
-"""The units that variables are in, by their base units, as FMI defines them."""
+"""The units that variables are in, by their base units, as FMI defines them, and others as they are
+written into a file."""
 
 from __future__ import annotations
 
+import re
 from math import pi
 
 # FMI 2 unit name -> exponents of its base units, factor and offset; None: the exponents are not
@@ -47,3 +49,83 @@ UNITS: dict[str, dict[str, float] | None] = {
     "1/s": {"s": -1},
     "m/s2": {"m": 1, "s": -2},
 }
+
+
+#: Letter or letters before a unit -> factor.
+PREFIXES = {"": 1.0, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6}
+#: What a unit is put together of, beside those of `UNITS` that are a word: name -> as there.
+_WRITTEN: dict[str, dict[str, float]] = {
+    "g": {"kg": 1, "factor": 1e-3},
+    "min": {"s": 1, "factor": 60.0},
+    "h": {"s": 1, "factor": 3600.0},
+    "bar": {"kg": 1, "m": -1, "s": -2, "factor": 1e5},
+    "°C": {"K": 1, "offset": 273.15},
+    "°": {"rad": 1, "factor": pi / 180},
+}
+_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\W\d].*|°.*)")
+#: Operator, bracket that opens, name, exponent, bracket that closes.
+_PART = re.compile(r"\s*([*/.·]?)\s*(\(?)\s*([^\W\d]+|°C?)(?:(?:\^|\*\*)?(-?\d))?\s*(\)?)")
+
+
+def in_unit(text: str, unit: str) -> float | None:
+    """The number of a quantity as it is written, in a unit of `UNITS`; None where it is no such.
+
+    Units are written as pint reads them.
+
+    >>> in_unit("870 g", "kg"), in_unit("60 mm/s", "m/s"), in_unit("2 N/mm", "N/m")
+    (0.87, 0.06, 2000.0)
+    >>> in_unit("1.2 g/cm**3", "kg/m3"), in_unit("265.15 K", "degC"), in_unit("3 mm", "kg")
+    (1200.0, -8.0, None)
+    """
+    found, wanted = _QUANTITY.fullmatch(text), UNITS.get(unit)
+    written = _composed(found[2]) if found and wanted else None
+    if found is None or not wanted or written is None:
+        return None
+    sizes = [{"factor": 1.0, "offset": 0.0} | each for each in (written, wanted)]
+    (factor, offset), (own, own_offset) = [(one.pop("factor"), one.pop("offset")) for one in sizes]
+    # a difference of temperatures is in K, and in nothing else
+    if sizes[0] != sizes[1] or (offset and not own_offset):
+        return None
+    value = float(found[1]) * factor + offset - own_offset
+    return float(f"{value / own:.15g}")
+
+
+def _composed(text: str) -> dict[str, float] | None:
+    """Base units and factor of what is written behind a number; None for what is no unit."""
+    whole: dict[str, float] = {"factor": 1.0}
+    at, group, depth = 0, 1, 0
+    while at < len(text):
+        part = _PART.match(text, at)
+        base = _named(part[3]) if part else None
+        if part is None or base is None or (part[2] and depth):
+            return None
+        operator, opens, _, exponent, closes = part.groups()
+        sign = -1 if operator == "/" else 1
+        if opens:
+            group, depth, sign = sign, 1, 1
+        power = group * sign * int(exponent or 1)
+        if "offset" in base and (power != 1 or len(text) != part.end() or at):
+            return None
+        for name, value in base.items():
+            if name == "factor":
+                whole["factor"] *= value**power
+            else:
+                whole[name] = whole.get(name, 0) + (value if name == "offset" else value * power)
+        if closes:
+            if not depth:
+                return None
+            group, depth = 1, 0
+        at = part.end()
+    return None if depth else {name: value for name, value in whole.items() if value}
+
+
+def _named(name: str) -> dict[str, float] | None:
+    """A unit that is a word, with or without a prefix."""
+    words = {key: base for key, base in UNITS.items() if base and key.isalpha()} | _WRITTEN
+    if name in words:
+        return words[name]
+    for prefix, factor in PREFIXES.items():
+        base = words.get(name.removeprefix(prefix)) if name.startswith(prefix) else None
+        if base is not None and "offset" not in base:
+            return base | {"factor": base.get("factor", 1.0) * factor}
+    return None

@@ -53,8 +53,10 @@ def build(folder: Path, gallery: Path, executed: Executed, jobs: int = 1) -> Pat
 
 def for_sphinx(text: str) -> str:
     """A page as Sphinx takes it. On a code host its tree of contents is a comment, which shows
-    nothing there, and its pictures lie where the README has them."""
-    text = re.sub(r"<!--\n(```\{toctree\}\n.*?^```)\n-->", r"\1", text, flags=re.S | re.M)
+    nothing there, in place of what the build makes there is a line, and its pictures lie where the
+    README has them."""
+    shown = r"(?:^\*Made from the code [^\n]*\n\n)?<!--\n(```\{(?:toctree|include)\}.*?^```)\n-->"
+    text = re.sub(shown, r"\1", text, flags=re.S | re.M)
     return re.sub(r"\]\((\.\./)+\.readme/", "](/readme/", text)
 
 

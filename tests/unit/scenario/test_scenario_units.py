@@ -4,7 +4,7 @@ import pytest
 from stickslip import Parameters
 
 from cosim.cli import main
-from cosim.scenario import packaged_scenarios, read_scenario
+from cosim.scenario import ScenarioError, packaged_scenarios, read_scenario
 from cosim.scenario.units import doubted
 
 
@@ -41,3 +41,27 @@ def test_it_is_said_in_one_line(tmp_path, capsys):
     main(["simulate", "reference", "-q", *settings, "-o", str(tmp_path / "out")])
     (line,) = [line for line in capsys.readouterr().err.splitlines() if "SI units" in line]
     assert line.startswith("warning: surface.speed = 150: ") and line.endswith("are these mm/s?")
+
+
+@pytest.mark.parametrize(
+    ("key", "text", "value"),
+    [
+        ("rig.mass", "870 g", 0.87),
+        ("surface.speed", "60 mm/s", 0.06),
+        ("springs.stiffness", "2 N/mm", 2000.0),
+        ("ambient.temperature_degC", "265.15 K", -8.0),
+        ("belt.air_heat_transfer", "15 W/(m^2 K)", 15.0),
+        ("run.duration", "2 min", 120.0),
+    ],
+)
+def test_a_number_may_have_its_unit(key, text, value):
+    """As pint reads it; in a file, in Python, or behind --set."""
+    table, _, name = key.partition(".")
+    scenario = read_scenario("reference", {key: text})
+    assert getattr(getattr(scenario, table), name) == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["870 mm", "870", "heavy", "870 g g", "1 g/", "0.87 furlong"])
+def test_a_unit_of_another_kind_is_refused(text):
+    with pytest.raises(ScenarioError, match=r"rig\.mass: not a number .*greater than 0 kg"):
+        read_scenario("reference", {"rig.mass": text})

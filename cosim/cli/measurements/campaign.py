@@ -1,0 +1,75 @@
+"""`stickslip campaign`: a folder of tracker files becomes a campaign."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace
+from pathlib import Path
+
+from cosim.cli import DONE, BadInput
+from cosim.cli.arguments import add_force
+
+EXAMPLE = "stickslip campaign tracks --set mass=870g --set stiffness=38.5"
+
+
+def add_arguments(parser: ArgumentParser) -> None:
+    """The arguments of the command."""
+    parser.add_argument(
+        "folder",
+        metavar="FOLDER",
+        help="of a file for each run: CSV or text with a header, Excel, or as Tracker and "
+        "DeepLabCut export them; names such as 870g_60mm-s_k38.5.csv say mass, speed and stiffness",
+    )
+    parser.add_argument(
+        "--set",
+        metavar="KEY=VALUE",
+        action="append",
+        default=[],
+        dest="changes",
+        help="mass, stiffness, surface_speed or ambient_degC of the runs whose names do not say it,"
+        " in SI units or with the unit",
+    )
+    parser.add_argument(
+        "--frames", metavar="RATE", type=float, help="pictures a second, of tracks in pixels"
+    )
+    parser.add_argument(
+        "--pixel", metavar="LENGTH", help='of a pixel, as "0.2 mm", of tracks in pixels'
+    )
+    add_force(parser)
+
+
+def execute(arguments: Namespace) -> int:
+    """Guess, write, show; 0."""
+    from cosim.gap.from_folder import campaign_of, shown
+
+    known = dict(_setting(change) for change in arguments.changes)
+    frames, pixel = arguments.frames, arguments.pixel
+    if frames is not None and not frames > 0.0:
+        raise BadInput(f"--frames {frames:g}: allowed is a number above 0")
+    length = None if pixel is None else _quantity("--pixel", pixel, "m")
+    folder = Path(arguments.folder)
+    file, found = campaign_of(folder, known, frames=frames, pixel=length, force=arguments.force)
+    print("\n".join(shown(found)))
+    print(f"{file}: correct what was guessed wrong or is missing, then: stickslip gap {folder}")
+    return DONE
+
+
+def _setting(change: str) -> tuple[str, float]:
+    from cosim.gap.from_folder import SETTINGS
+
+    key, _, value = change.partition("=")
+    if key not in SETTINGS:
+        raise BadInput(f"--set {change}: allowed are {', '.join(SETTINGS)}")
+    return key, _quantity(f"--set {key}", value, SETTINGS[key][0])
+
+
+def _quantity(what: str, text: str, unit: str) -> float:
+    """A number in a unit; BadInput for what is none."""
+    from stickslip.units import in_unit
+
+    try:
+        return float(text)
+    except ValueError:
+        value = in_unit(text, unit)
+    if value is None:
+        raise BadInput(f"{what} {text}: allowed is a number of {unit}, or one with its unit")
+    return value
