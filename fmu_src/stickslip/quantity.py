@@ -7,7 +7,6 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field
 from pydantic.fields import FieldInfo
 
-
 _OF_PYDANTIC = frozenset(dir(BaseModel))
 
 
