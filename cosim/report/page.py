@@ -100,9 +100,32 @@ def asset(file: str) -> str:
 _TABLE = re.compile(r'(?<!<div class="wide">)(?<!<div class="wide">\n)(<table\b.*?</table>)', re.S)
 
 
+#: A table that is a list where the window is narrow, and what is told of its cells.
+_LISTED = re.compile(r'<table class="listed">.*?</table>', re.S)
+_HEAD, _ROW = (
+    re.compile(r"<th\b[^>]*>(.*?)</th>", re.S),
+    re.compile(r"<tr>(?:(?!<th).)*?</tr>", re.S),
+)
+
+
 def _scrolling(html: str) -> str:
     """The page with every table in a box of its own that scrolls where the window is narrow."""
-    return _TABLE.sub(r'<div class="wide">\1</div>', html)
+    return _TABLE.sub(r'<div class="wide">\1</div>', _LISTED.sub(_with_heads, html))
+
+
+def _with_heads(table: re.Match[str]) -> str:
+    """A table whose cells know what stands above them, but for the first."""
+    heads = [Markup(head).striptags() for head in _HEAD.findall(table[0])]
+
+    def row(found: re.Match[str]) -> str:
+        _, *cells = re.split(r"(?=<td)", found[0])
+        told = (
+            cell.replace("<td", f'<td data-head="{Markup.escape(head)}"', 1) if head else cell
+            for head, cell in zip(["", *heads[1:]], cells, strict=True)
+        )
+        return "<tr>" + "".join(told)
+
+    return _ROW.sub(row, table[0])
 
 
 @cache

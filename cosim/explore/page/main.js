@@ -305,6 +305,7 @@ function still(value) {
 /* The file that "Save as scenario" gives, what "Copy link" puts behind the #, the kernel's `v`. */
 explorer.toml = () => toml(explorer.scenario);
 explorer.address = () => addressOf(explorer.scenario);
+explorer.python = () => python(explorer.scenario);
 explorer.values = () => kernelValues(explorer.scenario);
 
 /* What a text means for a key, as it is typed; undefined for what is no value of it. */
@@ -316,7 +317,10 @@ function prepareBar() {
   byId("reset").addEventListener("click", () => begin(explorer.scenario.preset));
   byId("freeze").addEventListener("click", keep);
   byId("save").addEventListener("click", save);
-  byId("share").addEventListener("click", share);
+  byId("share").addEventListener("click", () => copy(
+    location.href.replace(/#.*$/, "") + explorer.address(), "a link that opens this page with these numbers"));
+  byId("copy-toml").addEventListener("click", () => copy(explorer.toml(), "a scenario file"));
+  byId("copy-python").addEventListener("click", () => copy(explorer.python(), "Python that gives this motion"));
   byId("name").addEventListener("change", (event) => rename(event.target.value));
   byId("find").addEventListener("input", (event) => explorer.controls.find(event.target.value));
   window.addEventListener("hashchange", (event) => {
@@ -364,13 +368,12 @@ function save() {
   say(`saved as ${scenario.name}.toml: stickslip simulate ${scenario.name}.toml`);
 }
 
-async function share() {
-  const link = location.href.replace(/#.*$/, "") + addressOf(explorer.scenario);
+async function copy(text, said) {
   try {
-    await navigator.clipboard.writeText(link);
-    say("link copied: it opens this page with these numbers");
+    await navigator.clipboard.writeText(text);
+    say(`copied: ${said}`);
   } catch {
-    say(link);
+    say(text);
   }
 }
 

@@ -125,6 +125,21 @@ function tomlValue(value) {
   return String(value); // of a number, the shortest digits that give it back
 }
 
+/* The same for whoever goes on in Python. */
+function python(scenario) {
+  const text = toml(scenario).replace(/^#.*\n/gm, "").trim();
+  return `import tomllib
+
+from cosim import Scenario, simulate_scenario
+
+scenario = Scenario.from_tables(tomllib.loads(r"""
+${text}
+"""))
+run = simulate_scenario(scenario)
+run.plot("motion")
+`;
+}
+
 /* --- the address --------------------------------------------------------------------------- */
 
 /* What was changed, behind the # of the page's address. */

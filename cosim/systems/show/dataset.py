@@ -6,13 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cosim.coupling import Causality
-from cosim.coupling.conversion import told_dimension
+from cosim.coupling.conversion import NO_UNIT, told_dimension
 from cosim.report.columns import Column, Columns
 from cosim.report.files import provenance
 from cosim.systems.run import SystemRun
 
 Array = NDArray[np.float64]
 RESIDUAL = "coupling_residual"
+#: Size of a signal that is none: of what its participant has in the same unit, and of its nominal.
+OF_ALIKE, OF_NOMINAL = 1e-11, 1e-13
 
 
 def system_columns(run: SystemRun) -> Columns:
@@ -84,3 +86,17 @@ def _attributes(run: SystemRun, name: str, sources: dict[str, str]) -> dict[str,
 
 def _sources(run: SystemRun) -> dict[str, str]:
     return {str(each.sink): str(each.source) for each in run.assembly.system.connections}
+
+
+def is_rounding(columns: Columns, name: str) -> bool:
+    """Whether it is never more than rounding of what its participant computes with."""
+    own = columns[name].attrs
+    size = float(np.max(np.abs(columns[name].values)))
+    alike = [
+        float(np.max(np.abs(each.values)))
+        for each in columns.data_vars.values()
+        if each.attrs.get("participant") == own["participant"]
+        and each.attrs["units"] == own["units"] != NO_UNIT
+    ]
+    found: bool = 0.0 < size < max(OF_NOMINAL * own["nominal"], OF_ALIKE * max(alike, default=0.0))
+    return found

@@ -29,6 +29,7 @@ from cosim.report.style import (
     shown,
 )
 from cosim.systems.run import SystemRun
+from cosim.systems.show.dataset import is_rounding
 from cosim.systems.show.diagram import colour_key, diagram, is_legible
 from cosim.systems.show.matrix import matrix
 
@@ -38,8 +39,6 @@ FIRST_PANELS, MOST_PANELS = 4, 24
 PREFIXED = ("m", "s", "N", "J", "W", "Pa", "A", "V", "rad", "m/s", "m/s2", "rad/s", "N.m", "J/kg")
 #: Change of a signal that is none, as a part of it.
 NOTHING = 1e-6
-#: Size of a signal that is none: of what its participant has in the same unit, and of its nominal.
-OF_ALIKE, OF_NOMINAL = 1e-11, 1e-13
 #: Figures over time: caption, and what a reader hears who does not see it.
 OVER_TIME = {
     "signals": (
@@ -139,7 +138,7 @@ def _signal(columns: Columns, name: str) -> tuple[str, NDArray[np.float64], floa
     Else the last bits of what stays the same would fill the panel.
     """
     values, unit = columns[name].values, columns[name].attrs["units"]
-    if _is_rounding(columns, name):
+    if is_rounding(columns, name):
         values = np.zeros_like(values)  # of a figure that has nothing else
     scaled = readable(values, unit) if unit in PREFIXED else Scaled(1.0, unit)
     least = NOTHING * scaled.factor * float(np.max(np.abs(values)))
@@ -157,7 +156,7 @@ def _drawn(columns: Columns) -> tuple[list[str], str]:
     ]
     connected = [name for name in outputs if columns[name].attrs["long_name"] in sources]
     ordered = [*connected, *(name for name in outputs if name not in connected)]
-    noise = [name for name in ordered if _is_rounding(columns, name)]
+    noise = [name for name in ordered if is_rounding(columns, name)]
     flat = [name for name in ordered if name not in noise and _is_flat(columns[name].values)]
     # a figure of nothing at all would be less than one of something flat
     shown = [name for name in ordered if name not in (*flat, *noise)] or ordered[:1]
@@ -171,20 +170,6 @@ def _drawn(columns: Columns) -> tuple[list[str], str]:
 
 def _is_flat(values: NDArray[np.float64]) -> bool:
     return bool(np.ptp(values) <= NOTHING * np.max(np.abs(values)))
-
-
-def _is_rounding(columns: Columns, name: str) -> bool:
-    """Whether it is never more than rounding of what its participant computes with."""
-    own = columns[name].attrs
-    size = float(np.max(np.abs(columns[name].values)))
-    alike = [
-        float(np.max(np.abs(each.values)))
-        for each in columns.data_vars.values()
-        if each.attrs.get("participant") == own["participant"]
-        and each.attrs["units"] == own["units"] != NO_UNIT
-    ]
-    found: bool = 0.0 < size < max(OF_NOMINAL * own["nominal"], OF_ALIKE * max(alike, default=0.0))
-    return found
 
 
 def _constant(columns: Columns, name: str) -> str:

@@ -20,6 +20,7 @@ from cosim.report.coupling import efforts, step_numbers
 from cosim.report.files import results_line
 from cosim.report.page import number
 from cosim.systems.run import SystemRun
+from cosim.systems.show.dataset import is_rounding
 
 #: Remarks that the terminal shows.
 MOST_NOTES = 4
@@ -207,6 +208,7 @@ def _outputs(columns: Columns) -> dict[str, dict[str, Any]]:
                 "end": _last(values),
                 "lowest": _number(float(np.min(values))) if values.size else None,
                 "highest": _number(float(np.max(values))) if values.size else None,
+                "rounding": bool(values.size) and is_rounding(columns, str(name)),
             }
     return found
 

@@ -181,6 +181,16 @@ def test_every_preset_comes_back_from_its_file(page, tmp_path):
         assert back.model_dump() == read_scenario(preset).model_dump()
 
 
+def test_what_is_copied_as_python_is_the_scenario_that_is_seen(page):
+    changes = {"rig.mass": 1.2, "rig.degrees_of_freedom": ["x", "phi"], "surface.speed": 0.21}
+    page.ended(address_of("slab", changes))
+    told = page.tell("return explorer.python()")
+    said = {}
+    exec(told.partition("run = ")[0], said)  # what is behind it computes and draws
+    assert said["scenario"].model_dump() == read_scenario("slab", changes).model_dump()
+    assert told.splitlines()[-2:] == ["run = simulate_scenario(scenario)", 'run.plot("motion")']
+
+
 # --- in use: keys, words for what is refused, folds, sizes, and who cannot see it ---
 
 REFUSED = [
