@@ -118,12 +118,14 @@ def _with_heads(table: re.Match[str]) -> str:
     heads = [Markup(head).striptags() for head in _HEAD.findall(table[0])]
 
     def row(found: re.Match[str]) -> str:
-        _, *cells = re.split(r"(?=<td)", found[0])
+        begin, *cells = re.split(r"(?=<td)", found[0])
+        if len(cells) != len(heads):  # some go over several columns
+            return found[0]
         told = (
-            cell.replace("<td", f'<td data-head="{Markup.escape(head)}"', 1) if head else cell
-            for head, cell in zip(["", *heads[1:]], cells, strict=True)
+            cell.replace("<td", f'<td data-head="{Markup.escape(head)}"', 1)
+            for head, cell in zip(heads[1:], cells[1:], strict=True)
         )
-        return "<tr>" + "".join(told)
+        return "".join([begin, cells[0], *told])
 
     return _ROW.sub(row, table[0])
 

@@ -36,7 +36,8 @@ def _of_own_rig(answer: Answer) -> str:
     if not (run.median and run.high):
         return f"{told}."
     half, most = (level.in_words.removesuffix(" m") for level in (run.median, run.high))
-    return f"{told}; half of the rigs that it may be need {half} m, and 95 % {most} m."
+    sure = f"to be sure of half of the rigs that it may be takes {half} m, of 95 % {most} m"
+    return f"{told}; {sure}."
 
 
 def tiles(study: Study) -> list[tuple[str, str]]:
@@ -63,7 +64,7 @@ def _tiles_of_own_rig(answer: Answer) -> list[tuple[str, str]]:
     needed = "none" if run.shortest is None else f"{rounded_up(run.shortest)[0]} m"
     told = [("shortest belt, as the rig is given", needed)]
     told += [
-        (f"in {part} of the rigs that it may be", level.in_words)
+        (f"enough for {part} of the rigs that it may be", level.in_words)
         for part, level in (("half", run.median), ("95 %", run.high))
         if level is not None
     ]

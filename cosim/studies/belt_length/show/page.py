@@ -6,6 +6,8 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
+from markupsafe import Markup, escape
+
 from cosim.report.material import page_of_material
 from cosim.report.page import Picture, render
 
@@ -27,6 +29,12 @@ FILES = {
 }
 
 
+def _on_page(sentence: str) -> Markup:
+    """A sentence of the terminal as a page has it: signs, units, what is typed."""
+    text = escape(_MINUS.sub("−", sentence).replace("W/m2K", "W/(m² K)"))
+    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", text))
+
+
 def page(
     study: Study,
     pictures: Sequence[Picture],
@@ -45,7 +53,7 @@ def page(
         limit=study.options.limit,
         headline=headline(study),
         tiles=tiles(study),
-        sentences=[_MINUS.sub("−", sentence) for sentence in verdict(study)],
+        sentences=[_on_page(sentence) for sentence in verdict(study)],
         most=MOST_SENTENCES,
         answers=answers,
         rows=study.rows,

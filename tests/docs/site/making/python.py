@@ -11,7 +11,7 @@ from .markdown import code, heading, table
 MODULES = {
     "stickslip": "The mechanics: parameters, simulation, the catalogue of effects.",
     "thermal": "The heat in belt and ice, by itself.",
-    "cosim": "Scenarios, and runs of them that show themselves.",
+    "cosim": "The way in: scenarios, runs, studies, campaigns and systems, all from here.",
     "cosim.coupling": "The master: participants, connections, schemes, the energy ledger.",
     "cosim.systems": "Systems of units from SSP and TOML files.",
     "cosim.gap": "Measured campaigns, and what the model lacks of them.",
@@ -30,6 +30,8 @@ def text() -> str:
 
 def _section(module: str, said: str) -> str:
     public = {name: getattr(import_module(module), name) for name in names_of(module)}
+    elsewhere = {name: home for name, what in public.items() if (home := _home(module, name, what))}
+    public = {name: what for name, what in public.items() if name not in elsewhere}
     tables = {name for name, what in public.items() if _is_table(what)}
     parts = [heading(2, module, f"python-{module}"), f"{said}\n\n"]
     for name, what in public.items():
@@ -39,7 +41,16 @@ def _section(module: str, said: str) -> str:
         rows = [(code(name), (public[name].__doc__ or "").split("\n\n")[0]) for name in tables]
         parts.append("Tables of parameters; their keys: [Keys of a scenario](scenario.md).\n\n")
         parts.append(table(("class", "is"), sorted(rows)))
+    if elsewhere:
+        rows = [(code(name), code(home)) for name, home in sorted(elsewhere.items())]
+        parts.append(table(("also here", "told of at"), rows))
     return "".join(parts)
+
+
+def _home(module: str, name: str, what: object) -> str:
+    """The other module here that tells of a name; "" where this one does."""
+    others = [other for other in MODULES if other != module and other.startswith(f"{module}.")]
+    return next((o for o in others if getattr(import_module(o), name, None) is what), "")
 
 
 def names_of(module: str) -> list[str]:
