@@ -292,7 +292,7 @@ class Scenario(Parameters):
         0.2
         >>> scenario.changed(surface_sped=0.2)
         Traceback (most recent call last):
-        cosim.scenario.validation.ScenarioError: surface.sped: unknown key, nearest known: ...
+        cosim.scenario.validation.ScenarioError: surface.sped: no such key, nearest known: ...
         """
         changes = dict(changes or {}) | changes_named(named, type(self).model_fields)
         # what was not said stays so: some studies ask which numbers are known

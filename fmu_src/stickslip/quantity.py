@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field
 from pydantic.fields import FieldInfo
@@ -16,7 +16,9 @@ class Table(BaseModel):
     A table that takes what TOML or JSON give for a tuple sets ``strict=False`` for itself.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False, strict=True)
+    model_config: ClassVar[ConfigDict] = ConfigDict(
+        extra="forbid", frozen=True, allow_inf_nan=False, strict=True
+    )
 
     def __dir__(self) -> list[str]:
         """Its own names: what pydantic has beside them is not for whoever looks for a key."""

@@ -17,7 +17,17 @@ pytestmark = pytest.mark.usefixtures("elsewhere")
 
 
 #: Commands that compute no figures.
-NO_FIGURES = {"build", "completion", "docs", "effect", "explore", "new", "plot", "schema"}
+NO_FIGURES = {
+    "campaign",
+    "build",
+    "completion",
+    "docs",
+    "effect",
+    "explore",
+    "new",
+    "plot",
+    "schema",
+}
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
