@@ -49,7 +49,18 @@ PAGES = {
 }
 QUICK = ("effects",)
 #: Those that write no page, and the explorer, whose page has a room of its own (interop/explorer).
-WITHOUT = {"build", "completion", "docs", "effect", "explore", "keys", "new", "plot", "schema"}
+WITHOUT = {
+    "build",
+    "campaign",
+    "completion",
+    "docs",
+    "effect",
+    "explore",
+    "keys",
+    "new",
+    "plot",
+    "schema",
+}
 
 
 @pytest.mark.parametrize(

@@ -191,14 +191,13 @@ def test_the_page_says_how_warm_it_gets_in_the_end():
 
 
 def test_every_page_has_the_dark_look_of_the_shared_style_and_none_of_its_own():
-    """But the explorer: its drawings and keys have colours for white paper."""
     package = Path(page_module.__file__).parents[1]
     templates = [
         path for path in package.rglob("*.j2") if "page.html.j2" in path.read_text("utf-8")
     ]
     assert len(templates) > 10
     own = [path.name for path in templates if "block dark" in path.read_text("utf-8")]
-    assert own == ["explorer.html.j2"]
+    assert own == []
     assert not [path for path in templates if "prefers-color-scheme" in path.read_text("utf-8")]
     assert "prefers-color-scheme: dark" in page_module.asset("page.html.j2")
 
