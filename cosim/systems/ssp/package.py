@@ -6,7 +6,6 @@ Nothing is unpacked but the members that are asked for, and nowhere but into a f
 from __future__ import annotations
 
 import shutil
-import stat
 import tempfile
 import zipfile
 import zlib
@@ -16,14 +15,13 @@ from urllib.parse import unquote, urlsplit
 from lxml import etree
 from stickslip.scratch import scratch_folder
 
+from cosim.coupling.fmu.archive import check_members
 from cosim.systems.system_errors import SystemFault
 
 STRUCTURE = "SystemStructure.ssd"
 #: Bytes of an archive's contents, of one of its XML files, and how much smaller all may be packed.
 MOST_BYTES, MOST_XML, MOST_RATIO = 8 << 30, 64 << 20, 500
 MOST_MEMBERS = 20_000
-#: Below this (bytes) a high ratio is only a file of zeros.
-HARMLESS = 64 << 20
 
 
 class Package:
@@ -165,37 +163,11 @@ def _opened(path: Path) -> zipfile.ZipFile:
             f"{path}: is no SSP, or truncated ({error}), allowed is a zip archive"
         ) from None
     try:
-        _check_members(path, archive.infolist())
+        check_members(path, archive, (MOST_BYTES, MOST_MEMBERS, MOST_RATIO), SystemFault)
     except SystemFault:
         archive.close()
         raise
     return archive
-
-
-def _check_members(path: Path, members: list[zipfile.ZipInfo]) -> None:
-    if len(members) > MOST_MEMBERS:
-        raise SystemFault(f"{path}: has {len(members)} members, allowed are {MOST_MEMBERS}")
-    for member in members:
-        if _leads_out(member.filename):
-            raise SystemFault(
-                f"{path}: its member {member.filename!r} points outside the package,"
-                " allowed are paths within"
-            )
-        if stat.S_ISLNK(member.external_attr >> 16):
-            raise SystemFault(
-                f"{path}: its member {member.filename!r} is a link, allowed are files"
-            )
-        if member.flag_bits & 1:
-            raise SystemFault(
-                f"{path}: its member {member.filename!r} is encrypted, allowed are plain files"
-            )
-    whole = sum(member.file_size for member in members)
-    packed = max(path.stat().st_size, 1)
-    if whole > MOST_BYTES or (whole > HARMLESS and whole > MOST_RATIO * packed):
-        raise SystemFault(
-            f"{path}: would unpack to {whole >> 20} MiB from {packed >> 10} KiB, which no system"
-            " does; allowed is less"
-        )
 
 
 def _leads_out(name: str) -> bool:

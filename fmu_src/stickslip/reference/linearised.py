@@ -197,11 +197,6 @@ class SchemeRun:
         """Slips that ended in stick."""
         return len(self.slip_phases)
 
-    @property
-    def cuts(self) -> int:
-        """Slips that were cut off in motion (fault F14)."""
-        return int(np.sum(self.phases[:, 3] == CUT))
-
 
 def _result(motion: Motion) -> SchemeRun:
     rows = motion.rows

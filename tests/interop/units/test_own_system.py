@@ -16,7 +16,8 @@ from stickslip.generation.platforms import this_platform
 
 from cosim import read_scenario, run_scenario
 from cosim.cli import main
-from cosim.coupling.record import CheckpointError, RunFolder
+from cosim.coupling.record import RunFolder
+from cosim.coupling.record.checkpoint import CheckpointError
 from cosim.fmu.build import SYSTEM, build_fmu
 from cosim.fmu.thermal import structure
 from cosim.systems import read_system, run_system

@@ -8,10 +8,10 @@ import zipfile
 import numpy as np
 import pytest
 
-from cosim.coupling.record import (
+from cosim.coupling.record import RunFolder
+from cosim.coupling.record.checkpoint import (
     Checkpoint,
     CheckpointError,
-    RunFolder,
     differences,
     load_checkpoint,
     require_same_setup,

@@ -10,7 +10,8 @@ import time
 import numpy as np
 import pytest
 
-from cosim.coupling.record import GrowingTable, Place, write_columns
+from cosim.coupling.record import GrowingTable, Place
+from cosim.coupling.record.table import write_columns
 from cosim.files import OutputError
 
 #: Writes rows of (n, n, ...) for ever; every third stays. argv: path, columns.

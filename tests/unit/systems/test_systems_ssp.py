@@ -447,7 +447,7 @@ def test_members_that_point_outside_are_refused(tmp_path, name):
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("SystemStructure.ssd", structure(system(BOTH, CHAIN)))
         archive.writestr(name, "x")
-    with pytest.raises(SystemFault, match="points outside the package"):
+    with pytest.raises(SystemFault, match="points outside the folder"):
         run(path)
 
 
@@ -465,7 +465,7 @@ def test_links_in_a_package_are_refused(tmp_path):
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("SystemStructure.ssd", structure(system(BOTH, CHAIN)))
         archive.writestr(link, "/etc/passwd")
-    with pytest.raises(SystemFault, match="is a link, allowed are files"):
+    with pytest.raises(SystemFault, match="is a symbolic link"):
         run(path)
 
 
@@ -476,7 +476,7 @@ def test_a_zip_bomb_is_not_opened(tmp_path):
         with archive.open("resources/zeros", "w") as member:
             for _ in range(80):
                 member.write(bytes(1 << 20))
-    with pytest.raises(SystemFault, match="would unpack to 80 MiB from"):
+    with pytest.raises(SystemFault, match=r"times as large unpacked \(80 MiB\)"):
         run(path)
 
 

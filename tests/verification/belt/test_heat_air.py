@@ -100,7 +100,7 @@ def test_constant_properties_of_ice_cost_half_a_percent(length, speed):
             ),
             speed,
             4.03,
-        ).until(20.0)
+        ).run(20.0)
         for temperature in (-16.0, 0.0)
     ]
     assert states[0].entry == pytest.approx(states[1].entry, rel=6e-3)

@@ -67,12 +67,12 @@ def entries(table):
 
 @pytest.mark.parametrize(("length", "speed", "h", "rise"), entries(SHARED))
 def test_heat_shared_with_the_ice(length, speed, h, rise):
-    assert sliding(length, speed, h).until(DURATION).entry == close(rise)
+    assert sliding(length, speed, h).run(DURATION).entry == close(rise)
 
 
 @pytest.mark.parametrize(("length", "speed", "h", "rise"), entries(ALL_TO_BELT))
 def test_all_heat_to_the_belt(length, speed, h, rise):
-    assert sliding(length, speed, h, ice=NO_ICE).until(DURATION).entry == close(rise)
+    assert sliding(length, speed, h, ice=NO_ICE).run(DURATION).entry == close(rise)
 
 
 @pytest.mark.parametrize(("length", "speed", "h", "rise"), entries(STEADY_ALL_TO_BELT))
@@ -99,9 +99,7 @@ def test_the_true_disc_differs_by_what_the_prototype_left_out():
             parameters = ThermalParameters(
                 belt=Belt(cell_length=2e-3, railing_length=railing), ice=ice, **blocks
             )
-            whole[name, ice is NO_ICE] = (
-                SteadySliding(parameters, 0.82, FORCE).until(DURATION).entry
-            )
+            whole[name, ice is NO_ICE] = SteadySliding(parameters, 0.82, FORCE).run(DURATION).entry
     assert whole["disc", False] / whole["prototype", False] == pytest.approx(1.05, abs=0.01)
     assert whole["disc", True] / whole["prototype", True] == pytest.approx(0.97, abs=0.01)
 

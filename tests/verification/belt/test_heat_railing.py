@@ -22,7 +22,7 @@ APART = Contact(conductance=1e-9)
 def ramped(speed, **belt):
     """A run of 20 s at constant speed on 1 m, W/m2K 15."""
     sliding = SteadySliding(ThermalParameters(belt=Belt(cell_length=4e-3, **belt)), speed, 4.03)
-    return sliding.until(20.0)
+    return sliding.run(20.0)
 
 
 def test_an_insulated_belt_keeps_all_of_its_share():
@@ -116,7 +116,7 @@ def test_long_steps_and_small_steps_agree_on_railing_and_rollers(speed):
     for _ in range(1000):
         model.step(0.02, 4.03 * speed * 0.02, speed * 0.02)
     outputs = model.outputs()
-    state = SteadySliding(ThermalParameters(belt=belt), speed, 4.03).until(20.0)
+    state = SteadySliding(ThermalParameters(belt=belt), speed, 4.03).run(20.0)
     assert (state.entry, state.ice_face) == pytest.approx(
         (outputs["belt_entry_temperature"] + 8.0, outputs["ice_face_temperature"] + 8.0), rel=5e-3
     )
