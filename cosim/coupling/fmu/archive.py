@@ -42,7 +42,7 @@ def read_xml(path: Path, member: str) -> bytes | None:
         if archive.getinfo(member).file_size > MOST_XML:
             raise FmuError(f"{path}: its {member} has more than {MOST_XML >> 20} MiB")
         content = archive.read(member)
-    _check_prolog(path, member, content)
+    check_xml(f"{path}: its {member}", content)
     return content
 
 
@@ -155,29 +155,21 @@ def _check_room(path: Path, archive: zipfile.ZipFile, folder: str) -> None:
         )
 
 
-class _Root(Exception):
-    """The first element has come: what may hold entities lies behind."""
+def check_xml(place: str, content: bytes, refused: type[ValueError] = FmuError) -> None:
+    """Refuse what is no XML, and a document type: entities, which can grow without end or fetch
+    files, live there.
 
-
-def _check_prolog(path: Path, member: str, content: bytes) -> None:
-    """Refuse a document type: entities, which can grow without end or fetch files, live there."""
+    Names need not have a known namespace.
+    """
 
     def refuse(*_: object) -> None:
-        raise FmuError(
-            f"{path}: its {member} has a document type (DTD, entities), which no FMU needs"
-        )
-
-    def end(*_: object) -> None:
-        raise _Root
+        raise refused(f"{place} has a document type (DTD, entities), which nothing here needs")
 
     parser = expat.ParserCreate()
     parser.StartDoctypeDeclHandler = refuse
-    parser.StartElementHandler = end
     try:
         parser.Parse(content, True)  # at once: in pieces, a long attribute is begun with each anew
-    except _Root:
-        pass
     except (expat.ExpatError, ValueError, LookupError) as error:
-        if isinstance(error, FmuError):
+        if isinstance(error, refused):
             raise
-        raise FmuError(f"{path}: its {member} is not valid: {one_line(error)}") from error
+        raise refused(f"{place} is not valid: {one_line(error)}") from error
