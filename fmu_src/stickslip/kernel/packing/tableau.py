@@ -8,17 +8,7 @@ takes any explicit tableau of this shape from the parameter vector.
 from __future__ import annotations
 
 from .. import Floats
-from ..layout import (
-    ALL_STAGES,
-    EXTRA_POWERS,
-    P_TABLEAU,
-    STAGES,
-    T_A,
-    T_C,
-    T_D,
-    T_E3,
-    T_E5,
-)
+from ..layout import *
 
 # weights of the stages before stage i, one row after the other: i of them
 STAGE_WEIGHTS = (
