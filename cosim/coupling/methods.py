@@ -11,12 +11,7 @@ from cosim.coupling.schemes.iterated import Iterated
 from cosim.coupling.schemes.scheme import Scheme
 from cosim.coupling.step_control.adaptive import AdaptiveStep
 from cosim.coupling.step_control.control import StepControl
-from cosim.coupling.step_control.estimates import (
-    Defect,
-    Doubling,
-    EnergyResidual,
-    Estimate,
-)
+from cosim.coupling.step_control.estimates import Defect, Doubling, EnergyResidual, Estimate
 from cosim.coupling.step_control.fixed import FixedStep
 from cosim.coupling.step_control.power_bond import PowerBond
 from cosim.coupling.tolerance import Tolerance

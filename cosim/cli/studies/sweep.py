@@ -15,12 +15,7 @@ from cosim.cli.arguments import add_force, add_json, add_output, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import (
-    OutputError,
-    not_taken,
-    write_bytes,
-    write_text,
-)
+from cosim.files import OutputError, not_taken, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:

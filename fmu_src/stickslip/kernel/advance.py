@@ -14,13 +14,7 @@ from .bristles.events import settle_bristles
 from .bristles.law import has_bristles
 from .bristles.step import choose_bristles, fast_slip_bound, finish_bristle_step, stable_step
 from .contact import rest_speed, scaled_sliding_speed
-from .events import (
-    break_away,
-    choose_sliding,
-    keep_direction_steady,
-    set_direction,
-    settle,
-)
+from .events import break_away, choose_sliding, keep_direction_steady, set_direction, settle
 from .friction.coefficient import holding_coefficient, is_felt
 from .interpolant import copy_instant, look_inside, set_interpolant
 from .layout import *

@@ -5,12 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 from . import Floats
-from .contact import (
-    rest_speed,
-    scaled_sliding_speed,
-    set_holding_load,
-    set_onset_direction,
-)
+from .contact import rest_speed, scaled_sliding_speed, set_holding_load, set_onset_direction
 from .friction.coefficient import age_left, holding_coefficient
 from .layout import *
 from .motion import kinetic_energy

@@ -18,14 +18,7 @@ from math import isfinite
 from . import Floats
 from .bristles.law import has_bristles
 from .layout import *
-from .runge_kutta import (
-    add_stage,
-    begin_step,
-    finish_stick,
-    load_instant,
-    state_scale,
-    take_step,
-)
+from .runge_kutta import add_stage, begin_step, finish_stick, load_instant, state_scale, take_step
 
 
 def copy_instant(z: Floats, source: int, target: int) -> None:

@@ -5,13 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 from . import Floats
-from .contact import (
-    holding_ratio,
-    rest_speed,
-    scaled_sliding_speed,
-    set_contact,
-    set_holding_load,
-)
+from .contact import holding_ratio, rest_speed, scaled_sliding_speed, set_contact, set_holding_load
 from .friction.force import friction_in_slip
 from .layout import *
 from .rig.surface import set_surface_phase
