@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from cosim.systems.specification import SystemSpecification
 
 EXAMPLE = "stickslip couple StickSlipThermal.ssp --set coupling.macro_step=0.01 -o results/pair"
+IMPORTS = ("cosim.cli.runs.run_io", "cosim.systems.show")
 RESULTS = "results"
 #: By which keys the JSON of a system is known.
 KEYS = ("name", "status", "coupling")
@@ -50,12 +51,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_shown(parser)
     add_output(parser, "folder of the results; made when missing (default: results/NAME)")
     add_force(parser, ", and begin anew where an unfinished run could be resumed")
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.cli.runs.run_io
-    import cosim.systems.show  # noqa: F401
 
 
 def _resume(system: str, results: Path) -> str:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from cosim.scenario import Scenario
 
 EXAMPLE = "stickslip run my_case.toml -o results/first"
+IMPORTS = ("cosim.cli.runs.running", "cosim.coupling.case")
 SCENARIO = "scenario.toml"
 
 
@@ -60,12 +61,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="with --resume: the custom effects that the run has. Code is run only of files"
         " that are named here, and whose SHA-256 is still that of when the run began",
     )
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.cli.runs.running
-    import cosim.coupling.case  # noqa: F401
 
 
 class Case(NamedTuple):

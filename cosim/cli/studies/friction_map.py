@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from cosim.studies.friction_map import FrictionMap
 
 EXAMPLE = "stickslip friction-map melting_friction --ambient -8 -o results/friction"
+IMPORTS = ("cosim.studies.friction_map",)
 RESULT, TABLE, FIGURE = "friction_map.json", "friction_map.csv", "friction_map.png"
 PAGE = "report.html"
 #: By which keys RESULT is known.
@@ -73,11 +74,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         default="results/friction-map",
     )
     add_force(parser)
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.studies.friction_map  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

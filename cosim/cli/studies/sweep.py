@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from cosim.studies.sweep import Grid, Run
 
 EXAMPLE = "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82"
+IMPORTS = ("cosim.studies.sweep.figure",)
 RESULT, FIGURE, TABLE, PAGE = "sweep.nc", "sweep.png", "sweep.csv", "report.html"
 OWN = (RESULT, FIGURE, TABLE, PAGE)
 #: Group of the result file that holds the test plan's repeats.
@@ -92,11 +93,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         "that are finished there are not run again",
     )
     add_force(parser)
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.studies.sweep.figure  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:
