@@ -71,11 +71,11 @@ def first_step(p: Floats, mode: float) -> float:
     return h
 
 
-def sliding_along(p: Floats, z: Floats, w: Floats) -> float:
-    """Sliding velocity in ``w`` along the direction in HERE, m/s: below 0 if reversed."""
-    along = w[W_SLIDING] * z[HERE + DIRECTION]
-    along += p[P_LATERAL] * w[W_SLIDING + 1] * z[HERE + DIRECTION + 1]
-    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[HERE + DIRECTION + 2]
+def sliding_along(p: Floats, z: Floats, w: Floats, at: int) -> float:
+    """Sliding velocity in ``w`` along the direction of an instant, m/s: below 0 if reversed."""
+    along = w[W_SLIDING] * z[at + DIRECTION]
+    along += p[P_LATERAL] * w[W_SLIDING + 1] * z[at + DIRECTION + 1]
+    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[at + DIRECTION + 2]
     return along
 
 
@@ -104,7 +104,7 @@ def try_step(p: Floats, u: Floats, z: Floats, w: Floats, bound: float, grip: flo
         elif z[HERE + MODE] == SLIP:
             look_at(p, u, z, w, NEXT)
             moves = scaled_sliding_speed(p, w) > rest_speed(p, u)
-            if sliding_along(p, z, w) < 0.0 and grip > 0.0 and moves and h > 16.0 * finest:
+            if sliding_along(p, z, w, HERE) < 0.0 and grip > 0.0 and moves and h > 16.0 * finest:
                 error = 2.0
                 h *= 0.5
                 load_instant(p, z, w, HERE)
@@ -120,7 +120,7 @@ def finish_slip_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> N
     Takes the contact at NEXT that `try_step` has left in ``w``.
     """
     speed = scaled_sliding_speed(p, w)
-    if sliding_along(p, z, w) < 0.0:
+    if sliding_along(p, z, w, HERE) < 0.0:
         settle(p, u, z, w, e, NEXT)
     elif z[NEXT + QUASI_STEADY] == 1.0:
         keep_direction_steady(p, u, z, w, NEXT)

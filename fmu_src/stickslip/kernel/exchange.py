@@ -31,7 +31,7 @@ of the surface, come from their past, see `rig.history`.
 from __future__ import annotations
 
 from . import Floats
-from .advance import settle_contact
+from .advance import settle_contact, sliding_along
 from .bristles.events import mode_excess
 from .bristles.law import has_bristles
 from .contact import (
@@ -82,14 +82,6 @@ def load_moment(p: Floats, z: Floats, w: Floats) -> None:
     w[W_RUNNING_UP] = z[Z_RAMPING]
 
 
-def along_direction(p: Floats, z: Floats, w: Floats) -> float:
-    """Sliding velocity in ``w`` along the direction of the slip, m/s: below 0 if reversed."""
-    along = w[W_SLIDING] * z[SHOWN + DIRECTION]
-    along += p[P_LATERAL] * w[W_SLIDING + 1] * z[SHOWN + DIRECTION + 1]
-    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[SHOWN + DIRECTION + 2]
-    return along
-
-
 def put_states(z: Floats, s: Floats) -> None:
     """The host's continuous states ``s`` become those of SHOWN."""
     for i in range(STATES):
@@ -131,7 +123,7 @@ def slowest_slip(p: Floats, u: Floats) -> float:
 def set_rates_in_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Slopes of a slip, into ``w[W_SLOPES:]``; of one that has turned back, of its mirror image."""
     set_contact(p, u, w, W_STATE)
-    along = along_direction(p, z, w)
+    along = sliding_along(p, z, w, SHOWN)
     if along < 0.0:
         back = 2.0 * along
         w[W_STATE + VX] -= back * z[SHOWN + DIRECTION]
@@ -263,7 +255,7 @@ def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats) -> Non
     set_contact(p, u, w, W_STATE)
     slow = slowest_slip(p, u)
     speed = scaled_sliding_speed(p, w)
-    g[0] = along_direction(p, z, w)
+    g[0] = sliding_along(p, z, w, SHOWN)
     if z[Z_SLIDING] == SLIDING_BEGINS:
         g[0] += TURNED_BACK * slow
     g[0] /= speed_scale(p, u)
@@ -303,7 +295,7 @@ def settle_sliding(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     speed = scaled_sliding_speed(p, w)
     if speed > slowest_slip(p, u):
         slide_on(p, u, z, speed)
-    if speed > 0.0 and along_direction(p, z, w) < 0.0:  # nothing has stopped it: no friction
+    if speed > 0.0 and sliding_along(p, z, w, SHOWN) < 0.0:  # nothing has stopped it: no friction
         set_direction(p, z, w, SHOWN, speed)
 
 
@@ -336,7 +328,7 @@ def end_part_of_slip(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> N
     look_at(p, u, z, w, SHOWN)
     slow = slowest_slip(p, u)
     speed = scaled_sliding_speed(p, w)
-    along = along_direction(p, z, w)
+    along = sliding_along(p, z, w, SHOWN)
     grip = holding_coefficient(p, u, w)  # without it nothing comes to rest
     if along < -REVERSED * speed and grip > 0.0:
         stop_sliding(p, u, z, w, SHOWN, 0.0)
@@ -398,7 +390,7 @@ def complete_step(p: Floats, u: Floats, z: Floats, w: Floats) -> int:
     if z[SHOWN + MODE] == SLIP and z[Z_SLIDING] == SLIDING_GOES_ON and not has_bristles(p):
         look_at(p, u, z, w, SHOWN)
         speed = scaled_sliding_speed(p, w)
-        if along_direction(p, z, w) > 0.0 and speed > slowest_slip(p, u):
+        if sliding_along(p, z, w, SHOWN) > 0.0 and speed > slowest_slip(p, u):
             set_direction(p, z, w, SHOWN, speed)
             if z[Z_FASTER] == 0.0 or z[Z_FASTER] > FASTER * speed:
                 slide_on(p, u, z, speed)
