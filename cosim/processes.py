@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
 from concurrent.futures import Future, wait
 from contextlib import contextmanager, suppress
+from itertools import starmap
 from multiprocessing.connection import Connection
 from queue import Empty, Queue, SimpleQueue
 from typing import Any, TypeVar
@@ -29,8 +30,7 @@ __all__ = [
     "Map",
     "apart",
     "as_finished",
-    "is_stopped",
-    "map_here",
+    "stop_if_told",
     "pool",
     "processes",
 ]
@@ -55,31 +55,17 @@ Result = TypeVar("Result")
 Map = Callable[[Callable[..., Any], Iterable[tuple[Any, ...]]], Iterator[Any]]
 
 
-def map_here(function: Callable[..., Any], arguments: Iterable[tuple[Any, ...]]) -> Iterator[Any]:
-    """A map over this process alone."""
-    return (function(*each) for each in arguments)
-
-
 @contextmanager
-def processes(jobs: int, first: Callable[[], object] | None = None) -> Iterator[Map]:
-    """A map over ``jobs`` processes; over this one for 1, or where it must not have children.
-
-    first : a task for each as it starts; until all are done, this process does the work itself
-    """
+def processes(jobs: int) -> Iterator[Map]:
+    """A map over ``jobs`` processes; over this one for 1, or where it must not have children."""
     if _alone(jobs):
-        yield map_here
+        yield starmap
         return
     with pool(jobs) as submit:
-        with held_interrupts(), unheard_by_children():
-            starting = [submit(first) for _ in range(jobs)] if first else []
 
         def mapped(
             function: Callable[..., Any], arguments: Iterable[tuple[Any, ...]]
         ) -> Iterator[Any]:
-            if not all(future.done() for future in starting):
-                return map_here(function, arguments)
-            for future in starting:
-                future.result()  # raises what went wrong there
             with held_interrupts(), unheard_by_children():
                 futures = [submit(function, *each) for each in arguments]
             return (future.result() for future in futures)
@@ -219,9 +205,10 @@ def _forget_waiting(executor: ProcessPoolExecutor) -> None:
 _STOPPED = threading.Event()
 
 
-def is_stopped() -> bool:
-    """In a process of the pool: whether it is to end."""
-    return _STOPPED.is_set()
+def stop_if_told(time: float = 0.0) -> None:
+    """Leave the work, in a process of the pool that is to end. time: of a run, which this hears."""
+    if _STOPPED.is_set():
+        raise KeyboardInterrupt
 
 
 def _listen(line: Connection, parent: int) -> None:

@@ -62,12 +62,7 @@ class StickSlip3DOF(UnitSlave):
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
-        for port in INPUTS:
-            self.add_input(*port)
-        for port in OUTPUTS:
-            self.add_output(*port)
-        for entry in PARAMETERS:
-            self.add_parameter(entry)
+        self.declare(INPUTS, OUTPUTS, PARAMETERS)
         by_name = {name: reference for reference, name in self.parameter_names.items()}
         self.limits = [by_name[name] for name in LIMITS]
         self.said = []  # of what the user has been warned

@@ -32,12 +32,7 @@ class BeltIceThermal(UnitSlave):
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
-        for port in INPUTS:
-            self.add_input(*port)
-        for port in OUTPUTS:
-            self.add_output(*port)
-        for entry in PARAMETERS:
-            self.add_parameter(entry)
+        self.declare(INPUTS, OUTPUTS, PARAMETERS)
         self.model = self.fresh = self.made_of = None
         # heat (J), travel of the belt (m) and x (m): in all, and as far as the model has them
         self.now = self.taken = [0.0, 0.0, 0.0]

@@ -32,15 +32,7 @@ import sys
 from abc import abstractmethod
 from math import inf, isfinite, nan, ulp
 
-from pythonfmu import (
-    Boolean,
-    Fmi2Causality,
-    Fmi2Initial,
-    Fmi2Slave,
-    Fmi2Variability,
-    Integer,
-    Real,
-)
+from pythonfmu import Boolean, Fmi2Causality, Fmi2Initial, Fmi2Slave, Fmi2Variability, Integer, Real
 from pythonfmu.enums import Fmi2Status
 
 # A host computes its communication points in one way or another and may miss the end of the last
@@ -114,7 +106,7 @@ class UnitSlave(Fmi2Slave):
 
     It says of itself, as attributes of its class, `build` and `guid_of_build`, what it is a build
     of, and as `tunable` the names of parameters that may change in the run; it declares its
-    variables by `add_input`, `add_output` and `add_parameter`; and it has the methods here.
+    variables by `declare`; and it has the methods here.
     """
 
     build, guid_of_build = "", ""
@@ -165,6 +157,15 @@ class UnitSlave(Fmi2Slave):
         self.stepped = False  # before the first step all follows from parameters and inputs
         self.stale = True
         self.retuned = False  # tunable parameters have changed since the last step
+
+    def declare(self, inputs, outputs, parameters):
+        """All variables, in the order of their references."""
+        for port in inputs:
+            self.add_input(*port)
+        for port in outputs:
+            self.add_output(*port)
+        for entry in parameters:
+            self.add_parameter(entry)
 
     def add_input(self, name, slot, start, low, high, nominal):
         """An input, its bounds and a size of it that counts."""

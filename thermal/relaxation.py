@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Generic, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 Numbers = TypeVar("Numbers", NDArray[np.float64], NDArray[np.complex128])
-T = TypeVar("T")
 
 #: Below this x the closed forms cancel; their Taylor series of 16 terms are then exact.
 _SERIES_BELOW = 0.7
 _TERMS = 16
+
+#: Step durations of which what a body does in one is kept.
+STEP_SIZES = 8
 
 
 def decay(x: Numbers) -> Numbers:
@@ -38,20 +39,3 @@ def mean_response(x: Numbers) -> Numbers:
         series = (1.0 - small * series) / n
     result[is_small] = series
     return result
-
-
-class LastDurations(Generic[T]):
-    """What was computed for the last few step durations (s); the oldest is forgotten first."""
-
-    def __init__(self, compute: Callable[[float], T], kept: int = 8) -> None:
-        self._compute = compute
-        self._kept = kept
-        self._known: dict[float, T] = {}
-
-    def __call__(self, duration: float) -> T:
-        known = self._known.get(duration)
-        if known is None:
-            if len(self._known) >= self._kept:
-                del self._known[next(iter(self._known))]
-            known = self._known[duration] = self._compute(duration)
-        return known

@@ -180,10 +180,6 @@ class SteadySliding:
         """Mean rise of the two faces over the contact, K."""
         return 0.5 * (float(self.belt.strip_means().mean()) + self.ice.face())
 
-    def until(self, time: float, coarseness: float = 1.0) -> SlidingState:
-        """Advance to a time (s) at the constant speed; the state there."""
-        return self.run(time - self._time, coarseness)
-
     def run(self, duration: float, coarseness: float = 1.0) -> SlidingState:
         """Advance by a time (s) at the constant speed; the state there.
 
@@ -286,10 +282,6 @@ class SteadySliding:
         self.belt.amplitudes = snapshot.belt.copy()
         self.ice.restore(snapshot.ice)
         self._fluxes, self._sliding = None, False
-
-    def strip_means(self) -> Array:
-        """Belt face under the strips of the contact, from entry to exit, K: (strips,)."""
-        return self.belt.strip_means()
 
     def face(self, x: Array) -> Array:
         """Contact face at places (n,) m behind the contact's middle, K above the air."""

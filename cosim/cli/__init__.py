@@ -14,6 +14,7 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from errno import EBADF, EIO, ENAMETOOLONG, ENOSPC
+from importlib import import_module
 from typing import TextIO
 
 from cosim.files import OutputError
@@ -70,7 +71,8 @@ def _guarded(argv: Sequence[str]) -> int:
 
             arguments = parser(argv).parse_args(argv)
             command = command_module(arguments.command)
-            getattr(command, "prepare", lambda: None)()
+            for module in getattr(command, "IMPORTS", ()):
+                import_module(module)
         with saying(arguments.quiet, arguments.verbose), warnings_in_one_line():
             done: int = command.execute(arguments)
         sys.stdout.flush()

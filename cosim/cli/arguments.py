@@ -4,7 +4,8 @@ A command is a line in `COMMANDS` and a module of its name in one of the rooms h
 
     EXAMPLE                 a command line that works
     add_arguments(parser)   its arguments
-    prepare()               imports what it computes with, where Ctrl-C waits; may be left out
+    IMPORTS                 modules that it computes with, imported where Ctrl-C waits; may be
+                            left out
     execute(arguments)      computes, writes, prints; the exit status
 """
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 import sys
 from collections import deque
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from cosim.coupling.conversion import converted
 from cosim.coupling.messages import WARNING
@@ -166,6 +169,10 @@ class Exchange:
             except Exception as error:
                 raise self._blame(name, error) from error
         self.inputs[name] = values
+
+    def values(self, which: Iterable[Address]) -> NDArray[np.float64]:
+        """The newest of some outputs, (n,)."""
+        return np.array([self.outputs[each.participant][each.port] for each in which])
 
     def extrapolated(self, source: Address, degree: int, size: float) -> Waveform:
         """What a connected output may be over the step that begins, from the points before it.

@@ -8,8 +8,7 @@ import numpy as np
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.participant import CouplingError
-from cosim.coupling.schemes.acceleration import QuasiNewton, Vector
-from cosim.coupling.system import Address
+from cosim.coupling.schemes.acceleration import QuasiNewton
 from cosim.coupling.tolerance import bounds, nominals
 
 #: A loop is solved when its values change by less than this part of themselves, or of the nominal
@@ -49,7 +48,7 @@ def _solve_loops(exchange: Exchange, order: Sequence[str], most: int) -> int:
     """Solve for all connected outputs at once; the evaluations that it took."""
     sources = tuple(dict.fromkeys(c.source for c in exchange.system.connections))
     scale, within = nominals(exchange.system, sources), bounds(exchange.system, sources)
-    guess = _values(exchange, sources)
+    guess = exchange.values(sources)
     solver = QuasiNewton()
     solver.begin()
     for evaluation in range(1, most + 1):
@@ -59,16 +58,12 @@ def _solve_loops(exchange: Exchange, order: Sequence[str], most: int) -> int:
             exchange.deliver(name)
         for name in order:
             exchange.collect(name)
-        found = _values(exchange, sources)
+        found = exchange.values(sources)
         change = np.abs(found - guess) / np.maximum(np.abs(found), scale)
         if change.max() <= LOOP:
             return evaluation
         guess = (scale * solver.next(guess / scale, found / scale)).clip(*within)
     raise _not_settled(most, dict(zip(map(str, sources), change.tolist(), strict=True)))
-
-
-def _values(exchange: Exchange, sources: Sequence[Address]) -> Vector:
-    return np.array([exchange.outputs[s.participant][s.port] for s in sources])
 
 
 def _not_settled(sweeps: int, changes: dict[str, float]) -> CouplingError:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Protocol
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from cosim.coupling.schemes.acceleration import Acceleration, Aitken, QuasiNewton, Relaxation
 from cosim.coupling.schemes.explicit import GaussSeidel, Jacobi
@@ -11,54 +11,19 @@ from cosim.coupling.schemes.iterated import Iterated
 from cosim.coupling.schemes.scheme import Scheme
 from cosim.coupling.step_control.adaptive import AdaptiveStep
 from cosim.coupling.step_control.control import StepControl
-from cosim.coupling.step_control.estimates import (
-    Defect,
-    Doubling,
-    EnergyResidual,
-    Estimate,
-)
+from cosim.coupling.step_control.estimates import Defect, Doubling, EnergyResidual, Estimate
 from cosim.coupling.step_control.fixed import FixedStep
 from cosim.coupling.step_control.power_bond import PowerBond
 from cosim.coupling.tolerance import Tolerance
+
+if TYPE_CHECKING:
+    from cosim.scenario.method import Method
 
 #: Parts and multiples of macro_step that a step control keeps to where nothing is said.
 SMALLEST, LARGEST = 1e-3, 100.0
 
 
-class Settings(Protocol):
-    """The keys of a table [coupling]; `cosim.scenario.method` says what they mean."""
-
-    @property
-    def scheme(self) -> str: ...
-    @property
-    def extrapolation(self) -> str: ...
-    @property
-    def waveform(self) -> str: ...
-    @property
-    def sweep(self) -> str: ...
-    @property
-    def acceleration(self) -> str: ...
-    @property
-    def relaxation(self) -> float: ...
-    @property
-    def relative_tolerance(self) -> float: ...
-    @property
-    def absolute_tolerances(self) -> Mapping[str, float]: ...
-    @property
-    def max_iterations(self) -> int: ...
-    @property
-    def step_control(self) -> str: ...
-    @property
-    def smallest_step(self) -> float: ...
-    @property
-    def largest_step(self) -> float: ...
-    @property
-    def step_tolerance(self) -> float: ...
-    @property
-    def safety(self) -> float: ...
-
-
-def scheme_of(settings: Settings, order: tuple[str, ...]) -> Scheme:
+def scheme_of(settings: Method, order: tuple[str, ...]) -> Scheme:
     """The scheme; order: participant names, each once."""
     if settings.scheme == "gauss_seidel":
         return GaussSeidel(order, settings.extrapolation)
@@ -75,7 +40,7 @@ def scheme_of(settings: Settings, order: tuple[str, ...]) -> Scheme:
 
 
 def control_of(
-    settings: Settings, macro_step: float, bonds: Sequence[tuple[str, str]] = ()
+    settings: Method, macro_step: float, bonds: Sequence[tuple[str, str]] = ()
 ) -> StepControl:
     """The step control; macro_step: of fixed steps, else the first one, s.
 
@@ -92,12 +57,12 @@ def control_of(
     )
 
 
-def smallest_step(settings: Settings, macro_step: float) -> float:
+def smallest_step(settings: Method, macro_step: float) -> float:
     """The shortest step, s, of a control or of halving."""
     return settings.smallest_step or SMALLEST * macro_step
 
 
-def _acceleration(settings: Settings) -> Acceleration:
+def _acceleration(settings: Method) -> Acceleration:
     if settings.acceleration == "none":
         return Relaxation()
     kinds = {"constant": Relaxation, "aitken": Aitken, "iqn_ils": QuasiNewton}
@@ -105,7 +70,7 @@ def _acceleration(settings: Settings) -> Acceleration:
     return found
 
 
-def _estimate(settings: Settings, bonds: Sequence[tuple[str, str]]) -> Estimate:
+def _estimate(settings: Method, bonds: Sequence[tuple[str, str]]) -> Estimate:
     tolerance = Tolerance(settings.step_tolerance, settings.absolute_tolerances)
     if settings.step_control == "doubling":
         return Doubling(tolerance)

@@ -63,11 +63,6 @@ class Waveform:
         return Waveform(tuple(shifted), size)
 
 
-def held(value: float, size: float) -> Waveform:
-    """The same value over the whole step."""
-    return Waveform((value,), size)
-
-
 def through(points: Sequence[tuple[float, float]], size: float) -> Waveform:
     """The polynomial through (time since the step's start in s, value) of at most three points.
 

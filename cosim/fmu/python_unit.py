@@ -36,14 +36,7 @@ from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.extras import extras
 from cosim.fmu.native import DESCRIPTION, NAME
 from cosim.fmu.pythonfmu_library import corrected
-from cosim.fmu.variables import (
-    TUNABLE,
-    WATCHED,
-    Entry,
-    Variable,
-    parameter_table,
-    variables,
-)
+from cosim.fmu.variables import TUNABLE, WATCHED, Entry, Variable, parameter_table, variables
 
 FMU = "StickSlip3DOF-python.fmu"
 MODULE = "stickslip3dof"

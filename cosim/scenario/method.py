@@ -56,3 +56,6 @@ class Method(Table):
     safety: float = quantity(
         0.9, "1", "of a step control: the next step, part of what the error would allow", gt=0, lt=1
     )
+    step_control: Literal["fixed", "doubling", "defect", "energy"] = Field(
+        "fixed", description="steps of one length, or as long as their error allows"
+    )

@@ -22,9 +22,9 @@ from cosim.coupling import (
     Subcycled,
     UnitDefinition,
 )
-from cosim.coupling.conversion import BASE_UNITS, IDENTITY, NO_UNIT, conversion
+from cosim.coupling.conversion import IDENTITY, NO_UNIT, conversion
 from cosim.coupling.fmu.description import describe, faults_of
-from cosim.coupling.fmu.variables import scalars, unit_of
+from cosim.coupling.fmu.variables import definitions_of, scalars, unit_of
 from cosim.coupling.methods import control_of, scheme_of
 from cosim.coupling.participant import Causality
 from cosim.coupling.system import ENERGY_UNIT, Address, find_port
@@ -205,21 +205,6 @@ def _to_own_unit(
         return conversion(given, own)[0]
     except CouplingError as error:
         raise SystemFault(f"{label}: {error}") from None
-
-
-def definitions_of(description: ModelDescription) -> dict[str, UnitDefinition]:
-    """Unit -> what it is made of, of those that an FMU defines."""
-    found = {}
-    for unit in description.unitDefinitions:
-        base = unit.baseUnit
-        if base is not None:
-            first, *others = (int(getattr(base, name)) for name in BASE_UNITS)
-            found[unit.name] = UnitDefinition(
-                (first, *others),  # type: ignore[arg-type]  # eight of them
-                float(base.factor),
-                float(base.offset),
-            )
-    return found
 
 
 def _conversion(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Literal, Self
+from typing import Self
 
 from pydantic import Field, model_validator
 from stickslip.quantity import Table, quantity
@@ -17,9 +17,6 @@ NOT_GIVEN = math.inf
 class Coupling(Method):
     """How the units talk to each other."""
 
-    step_control: Literal["fixed", "doubling", "defect", "energy"] = Field(
-        "fixed", description="steps of one length, or as long as their error allows"
-    )
     power_bonds: tuple[tuple[str, str], ...] = Field(
         (), description="for energy: outputs that feed each other and whose product is a power"
     )

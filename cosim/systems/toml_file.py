@@ -17,14 +17,7 @@ from cosim.scenario.toml_file import parsed, text_of
 from cosim.scenario.validation import ScenarioError
 from cosim.systems.input_table import read_input_table
 from cosim.systems.settings import NOT_GIVEN, Coupling, Run
-from cosim.systems.specification import (
-    Hop,
-    Link,
-    Start,
-    SystemSpecification,
-    UnitEntry,
-    Value,
-)
+from cosim.systems.specification import Hop, Link, Start, SystemSpecification, UnitEntry, Value
 from cosim.systems.system_errors import SystemFault, table_of
 
 #: A name of a participant: part of `unit.port`, of the columns of a table and of file names.

@@ -1,13 +1,8 @@
-/* FMI 2.0: the functions of the standard around an instance, but those of model exchange.
-
-   A call that is refused returns fmi2Error and says why in the log, whether or not the host has
-   switched logging on; the instance has failed then, until it is reset or given an earlier state. But
-   to ask for a value that there is not harms nothing: the standard has fmi2Error for it, and the
-   instance goes on. */
-#include <stdlib.h>
+/* FMI 2.0: the functions of the standard around an instance, but those of model exchange. */
 #include <string.h>
 
-#include "fmi2Component.h"
+#include "component.h"
+#include "fmi2Functions.h"
 
 /* The logger takes a printf format. */
 static void escape(char out[], size_t size, const char *text)
@@ -22,57 +17,12 @@ static void escape(char out[], size_t size, const char *text)
     out[at] = '\0';
 }
 
-static void say(const Component *component, fmi2Status status, const char *category,
-                const char *text)
+static void say(const Component *component, int status, const char *category)
 {
     char message[2 * MESSAGE_SIZE];
-    if (component->log == NULL) {
-        return;
-    }
-    escape(message, sizeof message, text);
-    component->log(component->environment, component->name, status, category, message);
-}
-
-fmi2Status closed(Component *component, bool done)
-{
-    if (done) {
-        return fmi2OK;
-    }
-    component->instance.memory.phase = FAILED;
-    say(component, fmi2Error, "logStatusError", component->instance.message);
-    return fmi2Error;
-}
-
-fmi2Status refused(Component *component, const char *why)
-{
-    strncpy(component->instance.message, why, MESSAGE_SIZE - 1);
-    return closed(component, false);
-}
-
-fmi2Status unread(const Component *component)
-{
-    say(component, fmi2Error, "logStatusError", component->instance.message);
-    return fmi2Error;
-}
-
-Component *entered(fmi2Component handle, const char *call, int phases)
-{
-    Component *component = handle;
-    if (component == NULL || closed(component, is_allowed(&component->instance, call, phases))) {
-        return NULL;
-    }
-    return component;
-}
-
-void warn_once(Component *component)
-{
-    Memory *memory = &component->instance.memory;
-    while (model_warns(&memory->model, memory->values, &memory->warned,
-                       component->instance.message)) {
-        if (component->logs_warnings) {
-            say(component, fmi2Warning, "logStatusWarning", component->instance.message);
-        }
-    }
+    escape(message, sizeof message, component->instance.message);
+    ((fmi2CallbackLogger)component->log)(component->environment, component->name,
+                                         (fmi2Status)status, category, message);
 }
 
 static const int RUNNING = STEPPING | AT_EVENT | CONTINUOUS;
@@ -133,7 +83,8 @@ fmi2Component fmi2Instantiate(fmi2String name, fmi2Type type, fmi2String guid, f
         return NULL;
     }
     strcpy(component->name, name);
-    component->log = functions->logger;
+    component->say = say;
+    component->log = (void (*)(void))functions->logger;
     component->environment = functions->componentEnvironment;
     component->logs_warnings = logging;
     set_up(&component->instance, type == fmi2ModelExchange, false);
@@ -148,13 +99,7 @@ void fmi2FreeInstance(fmi2Component handle)
 fmi2Status fmi2SetDebugLogging(fmi2Component handle, fmi2Boolean logging, size_t count,
                                const fmi2String categories[])
 {
-    ENTER(handle, ANY_PHASE)
-    bool warnings;
-    if (!choose_messages(&component->instance, __func__, count, categories, &warnings)) {
-        return closed(component, false);
-    }
-    component->logs_warnings = logging && warnings;
-    return fmi2OK;
+    return set_logging(handle, __func__, logging, count, categories);
 }
 
 fmi2Status fmi2SetupExperiment(fmi2Component handle, fmi2Boolean has_tolerance, fmi2Real tolerance,
@@ -167,22 +112,17 @@ fmi2Status fmi2SetupExperiment(fmi2Component handle, fmi2Boolean has_tolerance, 
 
 fmi2Status fmi2EnterInitializationMode(fmi2Component handle)
 {
-    ENTER(handle, INSTANTIATED)
-    component->instance.memory.phase = INITIALISING;
-    return fmi2OK;
+    return change_phase(handle, __func__, INSTANTIATED, INITIALISING);
 }
 
 fmi2Status fmi2ExitInitializationMode(fmi2Component handle)
 {
-    ENTER(handle, INITIALISING)
-    return closed(component, begin_run(&component->instance));
+    return end_initialisation(handle, __func__);
 }
 
 fmi2Status fmi2Terminate(fmi2Component handle)
 {
-    ENTER(handle, RUNNING)
-    component->instance.memory.phase = TERMINATED;
-    return fmi2OK;
+    return change_phase(handle, __func__, RUNNING, TERMINATED);
 }
 
 fmi2Status fmi2Reset(fmi2Component handle)
@@ -200,9 +140,7 @@ static bool has_room(Component *component, const char *call, size_t count, const
     if (count == 0 || (references != NULL && values != NULL)) {
         return true;
     }
-    strcpy(component->instance.message, call);
-    strcat(component->instance.message, ": no value references, or no values");
-    return false;
+    return refuse(&component->instance, "%s: no value references, or no values", call);
 }
 
 /* References are unique: some hosts read all variables by fmi2GetReal. */
@@ -275,88 +213,41 @@ fmi2Status fmi2SetString(fmi2Component handle, const fmi2ValueReference referenc
 {
     ENTER(handle, SETTABLE)
     (void)references, (void)values;
-    return count == 0 ? fmi2OK : refused(component, "fmi2SetString: no variable is a text");
+    return count == 0 ? fmi2OK : refused(component, __func__, "no variable is a text");
 }
 
 /* --- saved states --- */
 
 fmi2Status fmi2GetFMUstate(fmi2Component handle, fmi2FMUstate *state)
 {
-    ENTER(handle, ANY_PHASE)
-    if (state == NULL) {
-        return refused(component, "fmi2GetFMUstate: nowhere to put the state");
-    }
-    if (*state == NULL) { /* else it is one that was made before, to be overwritten */
-        *state = malloc(sizeof(Memory));
-    }
-    if (*state == NULL) {
-        return refused(component, "fmi2GetFMUstate: no memory");
-    }
-    memcpy(*state, &component->instance.memory, sizeof(Memory));
-    return fmi2OK;
+    return get_fmu_state(handle, __func__, state);
 }
 
 fmi2Status fmi2SetFMUstate(fmi2Component handle, fmi2FMUstate state)
 {
-    ENTER(handle, ANY_PHASE)
-    if (state == NULL) {
-        return refused(component, "fmi2SetFMUstate: there is no state");
-    }
-    return closed(component, put_back(&component->instance, state));
+    return set_fmu_state(handle, __func__, state);
 }
 
 fmi2Status fmi2FreeFMUstate(fmi2Component handle, fmi2FMUstate *state)
 {
-    ENTER(handle, ANY_PHASE)
-    if (state != NULL) {
-        free(*state);
-        *state = NULL;
-    }
-    return fmi2OK;
+    return free_fmu_state(handle, __func__, state);
 }
 
 fmi2Status fmi2SerializedFMUstateSize(fmi2Component handle, fmi2FMUstate state, size_t *size)
 {
-    ENTER(handle, ANY_PHASE)
-    if (state == NULL || size == NULL) {
-        return refused(component, "fmi2SerializedFMUstateSize: there is no state");
-    }
-    *size = saved_size();
-    return fmi2OK;
+    return get_saved_size(handle, __func__, state, size);
 }
 
 fmi2Status fmi2SerializeFMUstate(fmi2Component handle, fmi2FMUstate state, fmi2Byte bytes[],
                                  size_t size)
 {
-    ENTER(handle, ANY_PHASE)
-    if (state == NULL || bytes == NULL) {
-        return refused(component, "fmi2SerializeFMUstate: no state, or nowhere to put it");
-    }
-    if (size < saved_size()) {
-        return refused(component, "fmi2SerializeFMUstate: there are fewer bytes than "
-                                  "fmi2SerializedFMUstateSize asks for");
-    }
-    save(state, (unsigned char *)bytes);
-    return fmi2OK;
+    return state_to_bytes(handle, __func__, state, bytes, size);
 }
 
 fmi2Status fmi2DeSerializeFMUstate(fmi2Component handle, const fmi2Byte bytes[], size_t size,
                                    fmi2FMUstate *state)
 {
-    ENTER(handle, ANY_PHASE)
-    if (bytes == NULL || state == NULL) {
-        return refused(component, "fmi2DeSerializeFMUstate: no bytes, or nowhere to put the state");
-    }
-    Memory *memory = malloc(sizeof *memory);
-    if (memory == NULL) {
-        return refused(component, "fmi2DeSerializeFMUstate: no memory");
-    }
-    if (!load(&component->instance, (const unsigned char *)bytes, size, memory)) {
-        free(memory);
-        return closed(component, false);
-    }
-    *state = memory; /* what stood there before is not looked at: it need not be a state */
-    return fmi2OK;
+    return state_from_bytes(handle, __func__, bytes, size, state);
 }
 
 /* --- co-simulation --- */
@@ -375,7 +266,7 @@ fmi2Status fmi2DoStep(fmi2Component handle, fmi2Real time, fmi2Real size, fmi2Bo
 fmi2Status fmi2CancelStep(fmi2Component handle)
 {
     ENTER(handle, ANY_PHASE)
-    return refused(component, "fmi2CancelStep: no step is under way; they end before they return");
+    return refused(component, __func__, "no step is under way; they end before they return");
 }
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component handle, const fmi2ValueReference references[],

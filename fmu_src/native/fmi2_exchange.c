@@ -1,23 +1,22 @@
 /* FMI 2.0: the functions of the standard that need the rates of the states, those of model exchange
    and the derivatives of outputs. */
+#include "component.h"
 #include "exchange.h"
-#include "fmi2Component.h"
+#include "fmi2Functions.h"
 
 static const int INTEGRATING = AT_EVENT | CONTINUOUS;
 static const int INFORMING = INITIALISING | INTEGRATING | TERMINATED;
 
 fmi2Status fmi2EnterEventMode(fmi2Component handle)
 {
-    ENTER(handle, INTEGRATING)
-    component->instance.memory.phase = AT_EVENT;
-    return fmi2OK;
+    return change_phase(handle, __func__, INTEGRATING, AT_EVENT);
 }
 
 fmi2Status fmi2NewDiscreteStates(fmi2Component handle, fmi2EventInfo *told)
 {
     ENTER(handle, AT_EVENT)
     if (told == NULL) {
-        return refused(component, "fmi2NewDiscreteStates: nowhere to put what it tells");
+        return refused(component, __func__, "nowhere to put what it tells");
     }
     Update news;
     if (!update(&component->instance, &news)) {
@@ -34,9 +33,7 @@ fmi2Status fmi2NewDiscreteStates(fmi2Component handle, fmi2EventInfo *told)
 
 fmi2Status fmi2EnterContinuousTimeMode(fmi2Component handle)
 {
-    ENTER(handle, AT_EVENT)
-    component->instance.memory.phase = CONTINUOUS;
-    return fmi2OK;
+    return change_phase(handle, __func__, AT_EVENT, CONTINUOUS);
 }
 
 fmi2Status fmi2CompletedIntegratorStep(fmi2Component handle, fmi2Boolean no_way_back,
@@ -45,7 +42,7 @@ fmi2Status fmi2CompletedIntegratorStep(fmi2Component handle, fmi2Boolean no_way_
     ENTER(handle, CONTINUOUS)
     (void)no_way_back;
     if (event == NULL || terminate == NULL) {
-        return refused(component, "fmi2CompletedIntegratorStep: nowhere to put what it tells");
+        return refused(component, __func__, "nowhere to put what it tells");
     }
     *event = *terminate = fmi2False;
     bool wanted = false;
@@ -110,10 +107,10 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component handle, const fmi2ValueRef
 {
     ENTER(handle, STEPPING | TERMINATED)
     if (component->instance.memory.exchanges) {
-        return refused(component, "fmi2GetRealOutputDerivatives: this instance is for model exchange");
+        return refused(component, __func__, "this instance is for model exchange");
     }
     if (count > 0 && (references == NULL || order == NULL || values == NULL)) {
-        return refused(component, "fmi2GetRealOutputDerivatives: no value references, or no values");
+        return refused(component, __func__, "no value references, or no values");
     }
     bool done = true;
     for (size_t i = 0; done && i < count; i++) {

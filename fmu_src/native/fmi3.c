@@ -1,62 +1,15 @@
-/* FMI 3.0: the life of an instance, saved states and co-simulation.
-
-   As in fmi2.c, a call that is refused returns fmi3Error and says why in the log, whether or not
-   the host has switched logging on; the instance has failed then, until it is reset or given an
-   earlier state; but not where a value was asked for that there is not. */
-#include "fmi3Component.h"
-
+/* FMI 3.0: the life of an instance, saved states and co-simulation. */
 #include <stdio.h>
 #include <string.h>
 
+#include "component.h"
 #include "exchange.h"
+#include "fmi3Functions.h"
 
-static void say(const Component3 *component, fmi3Status status, const char *category)
+static void say(const Component *component, int status, const char *category)
 {
-    if (component->log != NULL) {
-        component->log(component->environment, status, category, component->instance.message);
-    }
-}
-
-fmi3Status closed3(Component3 *component, bool done)
-{
-    if (done) {
-        return fmi3OK;
-    }
-    component->instance.memory.phase = FAILED;
-    say(component, fmi3Error, "logStatusError");
-    return fmi3Error;
-}
-
-fmi3Status unread3(const Component3 *component)
-{
-    say(component, fmi3Error, "logStatusError");
-    return fmi3Error;
-}
-
-fmi3Status refused3(Component3 *component, const char *call, const char *why)
-{
-    snprintf(component->instance.message, MESSAGE_SIZE, "%s: %s", call, why);
-    return closed3(component, false);
-}
-
-Component3 *entered3(fmi3Instance handle, const char *call, int phases)
-{
-    Component3 *component = handle;
-    if (component == NULL || closed3(component, is_allowed(&component->instance, call, phases))) {
-        return NULL;
-    }
-    return component;
-}
-
-void warn_once3(Component3 *component)
-{
-    Memory *memory = &component->instance.memory;
-    while (model_warns(&memory->model, memory->values, &memory->warned,
-                       component->instance.message)) {
-        if (component->logs_warnings) {
-            say(component, fmi3Warning, "logStatusWarning");
-        }
-    }
+    ((fmi3LogMessageCallback)component->log)(component->environment, (fmi3Status)status, category,
+                                             component->instance.message);
 }
 
 static const int RUNNING = STEPPING | AT_EVENT | CONTINUOUS;
@@ -81,11 +34,11 @@ static const char *wrong_request(fmi3String name, fmi3String token)
     return NULL;
 }
 
-static Component3 *made(const char *call, const char *why, fmi3String resources,
+static Component *made(const char *call, const char *why, fmi3String resources,
                         fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
                         bool logging)
 {
-    Component3 *component = why == NULL ? calloc(1, sizeof *component) : NULL;
+    Component *component = why == NULL ? calloc(1, sizeof *component) : NULL;
     char message[MESSAGE_SIZE];
     snprintf(message, sizeof message, "%.200s: %.800s", call, why == NULL ? "no memory" : why);
     if (component != NULL && !read_resources(&component->instance, resources, false)) {
@@ -99,7 +52,8 @@ static Component3 *made(const char *call, const char *why, fmi3String resources,
         }
         return NULL;
     }
-    component->log = log;
+    component->say = say;
+    component->log = (void (*)(void))log;
     component->environment = environment;
     component->logs_warnings = logging;
     return component;
@@ -112,7 +66,7 @@ fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi
 {
     (void)visible;
     const char *why = HAS_EXCHANGE ? wrong_request(name, token) : "this unit is for co-simulation";
-    Component3 *component = made(__func__, why, resources, environment, log, logging);
+    Component *component = made(__func__, why, resources, environment, log, logging);
     if (component != NULL) {
         set_up(&component->instance, true, false);
     }
@@ -132,7 +86,7 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
     if (why == NULL && count > 0) {
         why = "this unit has no intermediate update, and no variable can be required for it";
     }
-    Component3 *component = made(__func__, why, resources, environment, log, logging);
+    Component *component = made(__func__, why, resources, environment, log, logging);
     if (component != NULL) {
         set_up(&component->instance, false, has_event_mode);
         component->returns_early = has_event_mode && early_return;
@@ -160,13 +114,7 @@ void fmi3FreeInstance(fmi3Instance handle)
 fmi3Status fmi3SetDebugLogging(fmi3Instance handle, fmi3Boolean logging, size_t count,
                                const fmi3String categories[])
 {
-    ENTER(handle, ANY_PHASE)
-    bool warnings;
-    if (!choose_messages(&component->instance, __func__, count, categories, &warnings)) {
-        return closed3(component, false);
-    }
-    component->logs_warnings = logging && warnings;
-    return fmi3OK;
+    return set_logging(handle, __func__, logging, count, categories);
 }
 
 fmi3Status fmi3EnterInitializationMode(fmi3Instance handle, fmi3Boolean has_tolerance,
@@ -176,7 +124,7 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance handle, fmi3Boolean has_tole
     ENTER(handle, INSTANTIATED)
     if (!set_experiment(&component->instance, start, has_stop, stop,
                         has_tolerance ? tolerance : 0.0)) {
-        return closed3(component, false);
+        return closed(component, false);
     }
     component->instance.memory.phase = INITIALISING;
     return fmi3OK;
@@ -184,15 +132,12 @@ fmi3Status fmi3EnterInitializationMode(fmi3Instance handle, fmi3Boolean has_tole
 
 fmi3Status fmi3ExitInitializationMode(fmi3Instance handle)
 {
-    ENTER(handle, INITIALISING)
-    return closed3(component, begin_run(&component->instance));
+    return end_initialisation(handle, __func__);
 }
 
 fmi3Status fmi3Terminate(fmi3Instance handle)
 {
-    ENTER(handle, RUNNING)
-    component->instance.memory.phase = TERMINATED;
-    return fmi3OK;
+    return change_phase(handle, __func__, RUNNING, TERMINATED);
 }
 
 fmi3Status fmi3Reset(fmi3Instance handle)
@@ -208,94 +153,47 @@ fmi3Status fmi3Reset(fmi3Instance handle)
 fmi3Status fmi3EnterConfigurationMode(fmi3Instance handle)
 {
     ENTER(handle, ANY_PHASE)
-    return refused3(component, __func__, "this unit has no structural parameters");
+    return refused(component, __func__, "this unit has no structural parameters");
 }
 
 fmi3Status fmi3ExitConfigurationMode(fmi3Instance handle)
 {
     ENTER(handle, ANY_PHASE)
-    return refused3(component, __func__, "this unit has no structural parameters");
+    return refused(component, __func__, "this unit has no structural parameters");
 }
 
 /* --- saved states --- */
 
 fmi3Status fmi3GetFMUState(fmi3Instance handle, fmi3FMUState *state)
 {
-    ENTER(handle, ANY_PHASE)
-    if (state == NULL) {
-        return refused3(component, __func__, "nowhere to put the state");
-    }
-    if (*state == NULL) { /* else it is one that was made before, to be overwritten */
-        *state = malloc(sizeof(Memory));
-    }
-    if (*state == NULL) {
-        return refused3(component, __func__, "no memory");
-    }
-    memcpy(*state, &component->instance.memory, sizeof(Memory));
-    return fmi3OK;
+    return get_fmu_state(handle, __func__, state);
 }
 
 fmi3Status fmi3SetFMUState(fmi3Instance handle, fmi3FMUState state)
 {
-    ENTER(handle, ANY_PHASE)
-    if (state == NULL) {
-        return refused3(component, __func__, "there is no state");
-    }
-    return closed3(component, put_back(&component->instance, state));
+    return set_fmu_state(handle, __func__, state);
 }
 
 fmi3Status fmi3FreeFMUState(fmi3Instance handle, fmi3FMUState *state)
 {
-    ENTER(handle, ANY_PHASE)
-    if (state != NULL) {
-        free(*state);
-        *state = NULL;
-    }
-    return fmi3OK;
+    return free_fmu_state(handle, __func__, state);
 }
 
 fmi3Status fmi3SerializedFMUStateSize(fmi3Instance handle, fmi3FMUState state, size_t *size)
 {
-    ENTER(handle, ANY_PHASE)
-    if (state == NULL || size == NULL) {
-        return refused3(component, __func__, "there is no state");
-    }
-    *size = saved_size();
-    return fmi3OK;
+    return get_saved_size(handle, __func__, state, size);
 }
 
 fmi3Status fmi3SerializeFMUState(fmi3Instance handle, fmi3FMUState state, fmi3Byte bytes[],
                                  size_t size)
 {
-    ENTER(handle, ANY_PHASE)
-    if (state == NULL || bytes == NULL) {
-        return refused3(component, __func__, "no state, or nowhere to put it");
-    }
-    if (size < saved_size()) {
-        return refused3(component, __func__, "there are fewer bytes than "
-                                             "fmi3SerializedFMUStateSize asks for");
-    }
-    save(state, bytes);
-    return fmi3OK;
+    return state_to_bytes(handle, __func__, state, bytes, size);
 }
 
 fmi3Status fmi3DeserializeFMUState(fmi3Instance handle, const fmi3Byte bytes[], size_t size,
                                    fmi3FMUState *state)
 {
-    ENTER(handle, ANY_PHASE)
-    if (bytes == NULL || state == NULL) {
-        return refused3(component, __func__, "no bytes, or nowhere to put the state");
-    }
-    Memory *memory = malloc(sizeof *memory);
-    if (memory == NULL) {
-        return refused3(component, __func__, "no memory");
-    }
-    if (!load(&component->instance, bytes, size, memory)) {
-        free(memory);
-        return closed3(component, false);
-    }
-    *state = memory; /* what stood there before is not looked at: it need not be a state */
-    return fmi3OK;
+    return state_from_bytes(handle, __func__, bytes, size, state);
 }
 
 /* --- events --- */
@@ -305,7 +203,7 @@ fmi3Status fmi3EnterEventMode(fmi3Instance handle)
     ENTER(handle, STEPPING | CONTINUOUS)
     Memory *memory = &component->instance.memory;
     if (!memory->exchanges && !memory->has_event_mode) {
-        return refused3(component, __func__, "this instance was made without event mode");
+        return refused(component, __func__, "this instance was made without event mode");
     }
     memory->phase = AT_EVENT;
     return fmi3OK;
@@ -325,11 +223,11 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance handle, fmi3Boolean *again,
     ENTER(handle, AT_EVENT)
     if (again == NULL || terminate == NULL || nominals_changed == NULL || states_changed == NULL ||
         has_next == NULL || next == NULL) {
-        return refused3(component, __func__, "nowhere to put what it tells");
+        return refused(component, __func__, "nowhere to put what it tells");
     }
     Update news;
     if (!update(&component->instance, &news)) {
-        return closed3(component, false);
+        return closed(component, false);
     }
     *again = *terminate = fmi3False; /* one update decides all */
     *nominals_changed = news.nominals_changed;
@@ -345,7 +243,7 @@ fmi3Status fmi3EnterStepMode(fmi3Instance handle)
 {
     ENTER(handle, AT_EVENT)
     if (component->instance.memory.exchanges) {
-        return refused3(component, __func__, "this instance is for model exchange");
+        return refused(component, __func__, "this instance is for model exchange");
     }
     component->instance.memory.phase = STEPPING;
     return fmi3OK;
@@ -358,17 +256,17 @@ fmi3Status fmi3DoStep(fmi3Instance handle, fmi3Float64 time, fmi3Float64 size,
     ENTER(handle, STEPPING)
     (void)no_way_back;
     if (event == NULL || terminate == NULL || early == NULL || reached == NULL) {
-        return refused3(component, __func__, "nowhere to put what it tells");
+        return refused(component, __func__, "nowhere to put what it tells");
     }
     const Memory *memory = &component->instance.memory;
     *event = *terminate = *early = fmi3False;
     bool done = step(&component->instance, time, size, component->returns_early ? event : NULL);
     *reached = memory->time;
     if (!done) {
-        return closed3(component, false);
+        return closed(component, false);
     }
     *early = *event && *reached < time + size;
-    warn_once3(component);
+    warn_once(component);
     return fmi3OK;
 }
 
@@ -378,16 +276,16 @@ fmi3Status fmi3GetOutputDerivatives(fmi3Instance handle, const fmi3ValueReferenc
 {
     ENTER(handle, STEPPING | AT_EVENT | TERMINATED)
     if (component->instance.memory.exchanges) {
-        return refused3(component, __func__, "this instance is for model exchange");
+        return refused(component, __func__, "this instance is for model exchange");
     }
     if (count != many || (many > 0 && (references == NULL || orders == NULL || values == NULL))) {
-        return refused3(component, __func__, "one reference, order and value for each derivative");
+        return refused(component, __func__, "one reference, order and value for each derivative");
     }
     bool done = true;
     for (size_t i = 0; done && i < many; i++) {
         done = get_output_rate(&component->instance, references[i], orders[i], &values[i]);
     }
-    return closed3(component, done);
+    return closed(component, done);
 }
 
 fmi3Status fmi3ActivateModelPartition(fmi3Instance handle, fmi3ValueReference clock,
@@ -395,5 +293,5 @@ fmi3Status fmi3ActivateModelPartition(fmi3Instance handle, fmi3ValueReference cl
 {
     ENTER(handle, ANY_PHASE)
     (void)clock, (void)time;
-    return refused3(component, __func__, "this unit has no clocks");
+    return refused(component, __func__, "this unit has no clocks");
 }

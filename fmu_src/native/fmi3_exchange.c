@@ -1,6 +1,7 @@
 /* FMI 3.0, model exchange: the functions of the standard around an instance. */
+#include "component.h"
 #include "exchange.h"
-#include "fmi3Component.h"
+#include "fmi3Functions.h"
 
 static const int INFORMING = INITIALISING | AT_EVENT | CONTINUOUS | TERMINATED;
 
@@ -8,7 +9,7 @@ fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance handle)
 {
     ENTER(handle, AT_EVENT)
     if (!component->instance.memory.exchanges) {
-        return refused3(component, __func__, "this instance is for co-simulation");
+        return refused(component, __func__, "this instance is for co-simulation");
     }
     component->instance.memory.phase = CONTINUOUS;
     return fmi3OK;
@@ -20,67 +21,67 @@ fmi3Status fmi3CompletedIntegratorStep(fmi3Instance handle, fmi3Boolean no_way_b
     ENTER(handle, CONTINUOUS)
     (void)no_way_back;
     if (event == NULL || terminate == NULL) {
-        return refused3(component, __func__, "nowhere to put what it tells");
+        return refused(component, __func__, "nowhere to put what it tells");
     }
     *event = *terminate = fmi3False;
     bool wanted = false;
     if (!complete_step(&component->instance, &wanted)) {
-        return closed3(component, false);
+        return closed(component, false);
     }
     *event = wanted;
-    warn_once3(component);
+    warn_once(component);
     return fmi3OK;
 }
 
 fmi3Status fmi3SetTime(fmi3Instance handle, fmi3Float64 time)
 {
     ENTER(handle, CONTINUOUS)
-    return closed3(component, set_time(&component->instance, time));
+    return closed(component, set_time(&component->instance, time));
 }
 
 fmi3Status fmi3SetContinuousStates(fmi3Instance handle, const fmi3Float64 states[], size_t count)
 {
     ENTER(handle, CONTINUOUS)
-    return closed3(component, set_states(&component->instance, states, count));
+    return closed(component, set_states(&component->instance, states, count));
 }
 
 fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance handle, fmi3Float64 rates[], size_t count)
 {
     ENTER(handle, INFORMING)
-    return closed3(component, get_rates(&component->instance, rates, count));
+    return closed(component, get_rates(&component->instance, rates, count));
 }
 
 fmi3Status fmi3GetEventIndicators(fmi3Instance handle, fmi3Float64 indicators[], size_t count)
 {
     ENTER(handle, INFORMING)
-    return closed3(component, get_indicators(&component->instance, indicators, count));
+    return closed(component, get_indicators(&component->instance, indicators, count));
 }
 
 fmi3Status fmi3GetContinuousStates(fmi3Instance handle, fmi3Float64 states[], size_t count)
 {
     ENTER(handle, INFORMING)
-    return closed3(component, get_states(&component->instance, states, count));
+    return closed(component, get_states(&component->instance, states, count));
 }
 
 fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance handle, fmi3Float64 nominals[],
                                              size_t count)
 {
     ENTER(handle, INSTANTIATED | INFORMING)
-    return closed3(component, get_nominals(&component->instance, nominals, count));
+    return closed(component, get_nominals(&component->instance, nominals, count));
 }
 
 /* How many there are of something that only model exchange has. */
 static fmi3Status count_of(fmi3Instance handle, const char *call, size_t there, size_t *count)
 {
-    Component3 *component = entered3(handle, call, INSTANTIATED | INFORMING);
+    Component *component = entered(handle, call, INSTANTIATED | INFORMING);
     if (component == NULL) {
         return fmi3Error;
     }
     if (!component->instance.memory.exchanges) {
-        return refused3(component, call, "this instance is for co-simulation");
+        return refused(component, call, "this instance is for co-simulation");
     }
     if (count == NULL) {
-        return refused3(component, call, "nowhere to put the number");
+        return refused(component, call, "nowhere to put the number");
     }
     *count = there;
     return fmi3OK;
@@ -103,9 +104,9 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance handle, const fmi3ValueRefe
 {
     ENTER(handle, INFORMING)
     if (seeds != knowns || outs != unknowns) {
-        return refused3(component, __func__, "one number for each known and unknown variable");
+        return refused(component, __func__, "one number for each known and unknown variable");
     }
-    return closed3(component, directional_derivative(&component->instance, unknown, unknowns, known,
+    return closed(component, directional_derivative(&component->instance, unknown, unknowns, known,
                                                      knowns, seed, out));
 }
 
@@ -117,5 +118,5 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance handle, const fmi3ValueReferenc
     ENTER(handle, INFORMING)
     (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)seed, (void)seeds, (void)out;
     (void)outs;
-    return refused3(component, __func__, "not offered; fmi3GetDirectionalDerivative is");
+    return refused(component, __func__, "not offered; fmi3GetDirectionalDerivative is");
 }

@@ -2,12 +2,12 @@
 
    A variable that is an array has the reference of its first element. Behind the references of all
    elements follow those of what FMI 3 alone asks for: the time, and the event indicators. */
-#include "fmi3Component.h"
-
 #include <stdio.h>
 #include <string.h>
 
+#include "component.h"
 #include "exchange.h"
+#include "fmi3Functions.h"
 
 static const size_t TIME_REFERENCE = VARIABLE_COUNT, FIRST_INDICATOR = VARIABLE_COUNT + 1;
 
@@ -22,7 +22,7 @@ static size_t elements_of(fmi3ValueReference reference)
 }
 
 /* Are there as many values as the variables have? */
-static bool fits(Component3 *component, const char *call, const fmi3ValueReference references[],
+static bool fits(Component *component, const char *call, const fmi3ValueReference references[],
                  size_t many, const void *values, size_t count)
 {
     char *message = component->instance.message;
@@ -55,7 +55,7 @@ static bool is_there(Instance *instance, size_t reference, Type type)
 }
 
 /* `fits`, and all of them are of this type. */
-static bool can_read(Component3 *component, const char *call, const fmi3ValueReference references[],
+static bool can_read(Component *component, const char *call, const fmi3ValueReference references[],
                      size_t many, const void *values, size_t count, Type type)
 {
     bool can = fits(component, call, references, many, values, count);
@@ -107,7 +107,7 @@ static bool set_boolean(Instance *instance, size_t reference, double value)
     {                                                                                              \
         ENTER(handle, READABLE)                                                                    \
         if (!can_read(component, __func__, references, many, values, count, asked)) {              \
-            return unread3(component);                                                             \
+            return unread(component);                                                             \
         }                                                                                          \
         bool done = true;                                                                          \
         for (size_t i = 0; done && i < many; i++) {                                                \
@@ -117,7 +117,7 @@ static bool set_boolean(Instance *instance, size_t reference, double value)
                 *values++ = (fmi3##named)value;                                                    \
             }                                                                                      \
         }                                                                                          \
-        return closed3(component, done);                                                           \
+        return closed(component, done);                                                           \
     }
 GET(Float64, REAL_TYPE)
 GET(Int32, INTEGER_TYPE)
@@ -134,7 +134,7 @@ GET(Boolean, BOOLEAN_TYPE)
                 done = set(&component->instance, references[i] + k, *values++);                    \
             }                                                                                      \
         }                                                                                          \
-        return closed3(component, done);                                                           \
+        return closed(component, done);                                                           \
     }
 SET(Float64, set_real)
 SET(Int32, set_integer)
@@ -145,15 +145,15 @@ SET(Boolean, set_boolean)
 static fmi3Status of_no_variable(fmi3Instance handle, const char *call, size_t many, bool reads)
 {
     static const char *const WHY = "all variables are of the types Float64, Int32 and Boolean";
-    Component3 *component = entered3(handle, call, reads ? READABLE : SETTABLE);
+    Component *component = entered(handle, call, reads ? READABLE : SETTABLE);
     if (component == NULL) {
         return fmi3Error;
     }
     if (many > 0 && reads) {
         snprintf(component->instance.message, MESSAGE_SIZE, "%s: %s", call, WHY);
-        return unread3(component);
+        return unread(component);
     }
-    return many == 0 ? fmi3OK : refused3(component, call, WHY);
+    return many == 0 ? fmi3OK : refused(component, call, WHY);
 }
 
 #define OF_NO_VARIABLE(type)                                                                       \
@@ -197,11 +197,11 @@ fmi3Status fmi3SetBinary(fmi3Instance handle, const fmi3ValueReference reference
 
 static fmi3Status of_no_clock(fmi3Instance handle, const char *call, size_t many)
 {
-    Component3 *component = entered3(handle, call, INSTANTIATED | INITIALISING | RUNNING);
+    Component *component = entered(handle, call, INSTANTIATED | INITIALISING | RUNNING);
     if (component == NULL) {
         return fmi3Error;
     }
-    return many == 0 ? fmi3OK : refused3(component, call, "this unit has no clocks");
+    return many == 0 ? fmi3OK : refused(component, call, "this unit has no clocks");
 }
 
 #define CLOCKS fmi3Instance handle, const fmi3ValueReference clocks[], size_t many
@@ -276,7 +276,7 @@ fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance handle, fmi3ValueRef
 {
     ENTER(handle, ANY_PHASE)
     (void)reference, (void)count;
-    return refused3(component, __func__, "see the dependencies in modelDescription.xml");
+    return refused(component, __func__, "see the dependencies in modelDescription.xml");
 }
 
 fmi3Status fmi3GetVariableDependencies(fmi3Instance handle, fmi3ValueReference dependent,
@@ -288,5 +288,5 @@ fmi3Status fmi3GetVariableDependencies(fmi3Instance handle, fmi3ValueReference d
     ENTER(handle, ANY_PHASE)
     (void)dependent, (void)dependent_elements, (void)independents, (void)independent_elements;
     (void)kinds, (void)count;
-    return refused3(component, __func__, "see the dependencies in modelDescription.xml");
+    return refused(component, __func__, "see the dependencies in modelDescription.xml");
 }

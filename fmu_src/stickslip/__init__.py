@@ -13,15 +13,7 @@ if TYPE_CHECKING:
     from .effects import EFFECTS
     from .friction.law import friction_coefficient
     from .friction.parameters import Friction
-    from .parameters import (
-        Imperfections,
-        Initial,
-        Parameters,
-        Rig,
-        Solver,
-        Springs,
-        Surface,
-    )
+    from .parameters import Imperfections, Initial, Parameters, Rig, Solver, Springs, Surface
     from .simulation import simulate
     from .trajectory import Trajectory
 

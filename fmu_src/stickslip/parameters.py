@@ -356,6 +356,11 @@ class Parameters(EffectTables):
         """
         return math.sqrt(4.0 * self.springs.mean_stiffness / self.rig.mass) / (2.0 * math.pi)
 
+    @property
+    def critical_damping(self) -> float:
+        """N s/m; with it, the block on its springs comes to rest without swinging."""
+        return 4.0 * math.pi * self.natural_frequency * self.rig.mass
+
 
 Kind = TypeVar("Kind", bound=Parameters)
 

@@ -13,13 +13,7 @@ import numpy as np
 
 from .arrays import RunArrays, inputs
 from .catalogue import CATALOGUE, Catalogue
-from .kernel.layout import (
-    O_SIZE,
-    P_MU_K,
-    P_MU_S,
-    P_MU_SCALE,
-    TRACKED,
-)
+from .kernel.layout import O_SIZE, P_MU_K, P_MU_S, P_MU_SCALE, TRACKED
 
 
 class Restarts(NamedTuple):

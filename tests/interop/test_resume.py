@@ -11,7 +11,7 @@ import xarray as xr
 from command_line import stickslip_here
 from kill_and_resume import SCENARIO, at_rows, begin, check_record, kill_and_resume, kill_in
 
-from cosim.coupling.record import load_checkpoint, save_checkpoint
+from cosim.coupling.record.checkpoint import load_checkpoint, save_checkpoint
 
 
 def refused(*arguments):

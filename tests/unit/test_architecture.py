@@ -38,6 +38,8 @@ MAY_IMPORT = {
     **dict.fromkeys(LEAVES, LEAVES),
     "stickslip.scratch": (),
     "cosim.coupling": LEAVES,
+    # the types of a table [coupling], without which it runs
+    "cosim.coupling.methods": ("cosim.coupling", "cosim.scenario.method"),
     "cosim.scenario": ("stickslip", "thermal", *LEAVES),
     "cosim.fmu": ("stickslip", "cosim.report", *LEAVES),
     "cosim.fmu.thermal": (

@@ -12,6 +12,7 @@ the air.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +21,7 @@ from scipy.fft import irfft, rfft
 from scipy.sparse import coo_matrix
 from skfem import BilinearForm, CellBasis, ElementLineP1, MeshLine
 
-from thermal.relaxation import LastDurations, decay, mean_decay, mean_response
+from thermal.relaxation import STEP_SIZES, decay, mean_decay, mean_response
 
 from .parameters import Belt
 from .thickness import thickness_of
@@ -91,7 +92,7 @@ class BeltField:
         self._heat = modes.heat * self.cell
         self._air = modes.air * self.cell
         self.amplitudes: Spectrum = np.zeros(self.rates.shape, dtype=np.complex128)
-        self.response = LastDurations(self._response)
+        self.response = lru_cache(STEP_SIZES)(self._response)
 
     def _response(self, duration: float) -> Response:
         x = self.rates * duration

@@ -9,13 +9,14 @@ is off by `TOLERANCE` of itself. Temperatures are rises above the air.
 
 from __future__ import annotations
 
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-from thermal.relaxation import LastDurations, decay, mean_decay, mean_response
+from thermal.relaxation import STEP_SIZES, decay, mean_decay, mean_response
 
 from .space import IceSpace
 
@@ -80,23 +81,19 @@ class IceBody:
         self.space = space
         self.melted_depth = 0.0
         self._fitted_depth = 0.0
-        self._known: dict[float, tuple[Array, Array]] = {}
+        self._modes = lru_cache(_MOST_KNOWN)(partial(_modes, space))
         self._diagonalise()
         self.amplitudes: Array = np.zeros(self.rates.size)
 
     def _diagonalise(self) -> None:
         """Modes of the present height."""
         space, height_ratio = self.space, self.height_ratio
-        if height_ratio not in self._known:
-            while len(self._known) >= _MOST_KNOWN:
-                del self._known[next(iter(self._known))]
-            self._known[height_ratio] = _modes(space, height_ratio)
-        self.rates, self._shapes = self._known[height_ratio]
+        self.rates, self._shapes = self._modes(height_ratio)
         self._face = space.contact @ self._shapes
         self._heat = space.heat @ self._shapes
         self._air = space.air(height_ratio) @ self._shapes
         self._sinking = self._shapes.T @ space.sinking @ self._shapes
-        self.response = LastDurations(self._response)
+        self.response = lru_cache(STEP_SIZES)(self._response)
 
     @property
     def height_ratio(self) -> float:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from cosim.gap import Campaign
 
 EXAMPLE = "stickslip gap cold_room/campaign.toml -o results/cold_room"
+IMPORTS = ("cosim.gap",)
 RESULT, MODEL, PAGE = "gap.json", "model.toml", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("campaign", "verdict", "ranking")
@@ -74,11 +75,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=0,
         help="of what is drawn where only figures of runs are known (default: 0)",
     )
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.gap  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

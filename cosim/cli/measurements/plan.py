@@ -18,6 +18,7 @@ from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, require_own, results_in
 
 EXAMPLE = "stickslip plan cold_room/campaign.toml -o results/cold_room-plan"
+IMPORTS = ("cosim.gap",)
 RESULT, PAGE = "plan.json", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("campaign", "smallest", "next_runs")
@@ -52,11 +53,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "--no-page", action="store_true", help=f"only {RESULT}: no figures, no page"
     )
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.gap  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

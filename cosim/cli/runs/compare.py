@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from cosim.scenario import Scenario
 
 EXAMPLE = "stickslip compare results/reference results/slab"
+IMPORTS = ("cosim.cli.runs.running", "cosim.report.compare")
 #: Numbers that are on the page only.
 OTHER_STARTS = tuple(f"regimes.{start}." for start in ("disturbed", "rest", "riding", "ramp"))
 #: Curves that the terminal tells of; all are on the page.
@@ -43,12 +44,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_json(parser)
     add_output(parser, "folder of page, numbers and figures (default: results/A-and-B)")
     add_force(parser)
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.cli.runs.running
-    import cosim.report.compare  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

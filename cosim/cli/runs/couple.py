@@ -10,20 +10,22 @@ from argparse import ArgumentParser, Namespace
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
-from cosim.cli import DONE, FAILED, BadInput, Failed, is_bad_input
+from cosim.cli import DONE, FAILED, BadInput
 from cosim.cli.arguments import add_force, add_json, add_output, add_set, add_shown, shown
 from cosim.cli.numbers import Numbers, numbers_asked
-from cosim.interrupts import Patience, patient_interrupts
 
 if TYPE_CHECKING:
-    from cosim.coupling.record import MessageLog, RunFolder
-    from cosim.report.files import Shown
+    from cosim.cli.runs.run_io import Job
+    from cosim.coupling.record import MessageLog
+    from cosim.interrupts import Patience
+    from cosim.manifest import ResultFolder
     from cosim.systems import SystemRun
     from cosim.systems.specification import SystemSpecification
 
 EXAMPLE = "stickslip couple StickSlipThermal.ssp --set coupling.macro_step=0.01 -o results/pair"
+IMPORTS = ("cosim.cli.runs.run_io", "cosim.systems.show")
 RESULTS = "results"
 #: By which keys the JSON of a system is known.
 KEYS = ("name", "status", "coupling")
@@ -51,29 +53,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_force(parser, ", and begin anew where an unfinished run could be resumed")
 
 
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.cli.runs.run_io
-    import cosim.systems.show  # noqa: F401
-
-
-class Job(NamedTuple):
-    """What is to be run, and where; source: its file, as it was begun with."""
-
-    specification: SystemSpecification
-    source: str
-    results: Path
-    folder: RunFolder
-    shown: Shown
-    command: str
-    force: bool
-
-    @property
-    def resume(self) -> str:
-        """What goes on with it once it is cut off."""
-        return _resume(self.source, self.results)
-
-
 def _resume(system: str, results: Path) -> str:
     return shlex.join(["stickslip", "couple", system, "--resume", str(results)])
 
@@ -81,37 +60,38 @@ def _resume(system: str, results: Path) -> str:
 def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
     from cosim.cli.runs import run_io
-    from cosim.cli.runs.run_io import hearing, is_removed, log_files, message_log
-    from cosim.manifest import made_by, results_in
+    from cosim.systems import run_system
 
     began = time.perf_counter()
     numbers = numbers_asked(arguments, KEYS)
-    job = _begun(arguments) if arguments.resume is None else _found(arguments)
-    logging = message_log(job.folder, arguments.verbose)
-    going_on = run_io.going_on(job.folder, job.resume)
-    with going_on, job.specification, patient_interrupts() as patience, logging as log:
-        with units_speak_aside():
-            done = _run(
-                job, patience, heard=hearing(log, arguments.verbose), debug=arguments.verbose
-            )
-        patience.hold()
-        if is_removed(job.results, done.result.time.tolist()):
-            return FAILED
-        goes_on = done.result.status != "complete" and job.folder.checkpoint.is_file()
-        made = made_by(job.command, system=job.source)
-        with results_in(job.results, made, force=job.force) as results:
-            for name in log_files(log):
-                results.add(job.results / name)
-            status = _finish(job, done, began, patience, numbers, goes_on, log)
-            results.complete = status == DONE
-    # only now: had the results not come to the disk, there would still be what they are made of
-    job.folder.release() if goes_on else job.folder.finished()
-    return status
+    specification, job = _begun(arguments) if arguments.resume is None else _found(arguments)
+    start, stop = specification.run.start, specification.run.stop
+
+    def run(patience: Patience, **said: Any) -> SystemRun:
+        with (
+            units_speak_aside(),
+            run_io.progress_over(stop - start) as show,
+            run_io.refusing_units(True),
+        ):
+
+            def progress(reached: float) -> None:
+                patience.hold()
+                show(reached - start)
+
+            return run_system(specification, progress, job.folder, **said)
+
+    def write(
+        done: SystemRun, results: ResultFolder, patience: Patience, resume: str, log: MessageLog
+    ) -> int:
+        return _finish(job, done, began, patience, numbers, resume, log)
+
+    with specification:
+        return run_io.carried_out(job, arguments.verbose, run, write)
 
 
-def _begun(arguments: Namespace) -> Job:
+def _begun(arguments: Namespace) -> tuple[SystemSpecification, Job]:
     """A run from its start."""
-    from cosim.cli.runs.run_io import own_folder
+    from cosim.cli.runs.run_io import Job, own_folder
     from cosim.coupling.record import RunFolder
     from cosim.scenario.changes import changes_of
     from cosim.systems import read_system
@@ -124,26 +104,28 @@ def _begun(arguments: Namespace) -> Job:
     specification = read_system(arguments.system, changes)
     results = Path(arguments.output or Path(RESULTS) / _folder_name(specification.name))
     command = shlex.join(["stickslip", *sys.argv[1:]])
+    resume = _resume(arguments.system, results)
     asked: dict[str, Any] = {
         "system": str(Path(arguments.system).resolve()),
         "changes": changes,
         "command": command,
         "shown": shown(arguments),
-        "resume": _resume(arguments.system, results),
+        "resume": resume,
     }
     with closed_if_refused(specification):
         check_system(specification)  # before what an earlier run left in the folder is gone
         own_folder(results, FILES, arguments.force)
         folder = RunFolder.begun(results, asked, {}, force=arguments.force)
-    return Job(
-        *(specification, asked["system"], results, folder),
-        *(shown(arguments), command, arguments.force),
+    of = {"system": asked["system"]}
+    resume = _resume(asked["system"], results)
+    return specification, Job(
+        results, folder, shown(arguments), command, arguments.force, resume, of
     )
 
 
-def _found(arguments: Namespace) -> Job:
+def _found(arguments: Namespace) -> tuple[SystemSpecification, Job]:
     """A run that was cut off, as it was begun."""
-    from cosim.cli.runs.run_io import refuse_beside_resume
+    from cosim.cli.runs.run_io import Job, refuse_beside_resume
     from cosim.coupling.record import RunFolder
     from cosim.report.files import PAGE_ALONE
     from cosim.systems import read_system
@@ -168,11 +150,9 @@ def _found(arguments: Namespace) -> Job:
         )
     specification = read_system(arguments.system, changes)
     command = f"{asked.get('command', '')} (interrupted and resumed)"
-    return Job(
-        *(specification, arguments.system, folder.results, folder),
-        *(asked.get("shown", PAGE_ALONE), command),
-        force=False,
-    )
+    drawn, resume = asked.get("shown", PAGE_ALONE), _resume(arguments.system, folder.results)
+    of = {"system": arguments.system}
+    return specification, Job(folder.results, folder, drawn, command, False, resume, of)
 
 
 @contextmanager
@@ -209,46 +189,13 @@ def _folder_name(name: str) -> str:
     return kept.strip(" .")[:100] or "system"
 
 
-def _run(job: Job, patience: Patience, **said: Any) -> SystemRun:
-    """Run with a bar; one that does not come to its first step leaves nothing to go on from."""
-    try:
-        return _with_bar(job, patience, **said)
-    except BaseException:
-        if not job.folder.checkpoint.is_file():
-            job.folder.finished()
-        raise
-
-
-def _with_bar(job: Job, patience: Patience, **said: Any) -> SystemRun:
-    """Run; a unit's contents are only unpacked, and refused, when it starts."""
-    from cosim.cli.runs import run_io
-    from cosim.coupling import ParticipantError
-    from cosim.systems import run_system
-
-    start, stop = job.specification.run.start, job.specification.run.stop
-    with run_io.progress_over(stop - start) as show:
-
-        def progress(reached: float) -> None:
-            patience.hold()
-            show(reached - start)
-
-        try:
-            return run_system(job.specification, progress, job.folder, **said)
-        except ParticipantError as error:
-            if is_bad_input(error.__cause__):
-                cause = " ".join(str(error.__cause__).split())
-                named = cause if ".fmu" in cause else f"{error.participant}: {cause}"
-                raise BadInput(named) from error
-            raise Failed(" ".join(str(error).split())) from error
-
-
 def _finish(
     job: Job,
     done: SystemRun,
     began: float,
     patience: Patience,
     asked: Numbers,
-    goes_on: bool,
+    resume: str,
     log: MessageLog,
 ) -> int:
     """Write all and say what came out; 0 when the run is complete, else 1."""
@@ -263,7 +210,7 @@ def _finish(
             patience.release()
 
     folder = job.results
-    further = f", and this goes on from there: {job.resume}" if goes_on else ""
+    further = f", and this goes on from there: {resume}" if resume else ""
     try:
         numbers: dict[str, Any] = write_system(
             done,
@@ -281,7 +228,7 @@ def _finish(
     printed = asked.give(json_text(numbers))
     for said in doubts(numbers["coupling"]):
         print(f"warning: {said}", file=sys.stderr)
-    if say_how_it_ended(numbers, folder, job.resume if goes_on else "", log) == FAILED:
+    if say_how_it_ended(numbers, folder, resume, log) == FAILED:
         return FAILED
     for said in in_few_lines(numbers["warnings"]):
         print(f"warning: {said}", file=sys.stderr)

@@ -9,16 +9,19 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from cosim.cli import DONE, FAILED, BadInput, Failed, is_bad_input
+from cosim.cli import BadInput
 from cosim.cli.arguments import add_run_arguments, shown
 
 if TYPE_CHECKING:
+    from cosim.cli.runs.run_io import Job
     from cosim.coupling.case import CoupledRun
-    from cosim.coupling.record import RunFolder
-    from cosim.report.files import Shown
+    from cosim.coupling.record import MessageLog
+    from cosim.interrupts import Patience
+    from cosim.manifest import ResultFolder
     from cosim.scenario import Scenario
 
 EXAMPLE = "stickslip run my_case.toml -o results/first"
+IMPORTS = ("cosim.cli.runs.running", "cosim.coupling.case")
 SCENARIO = "scenario.toml"
 
 
@@ -60,24 +63,14 @@ def add_arguments(parser: ArgumentParser) -> None:
     )
 
 
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.cli.runs.running
-    import cosim.coupling.case  # noqa: F401
-
-
-class Job(NamedTuple):
-    """What is to be run, and where."""
+class Case(NamedTuple):
+    """What is to be run, and where it goes."""
 
     scenario: Scenario
-    results: Path
-    folder: RunFolder
     fmu: str | None
     views: bool
     fields: bool
-    shown: Shown
-    command: str
-    force: bool
+    job: Job
 
 
 def execute(arguments: Namespace) -> int:
@@ -85,22 +78,22 @@ def execute(arguments: Namespace) -> int:
     from cosim.cli.numbers import numbers_asked
     from cosim.cli.runs import run_io, running
     from cosim.cli.scenarios import note_taken
+    from cosim.coupling.case import run_scenario
     from cosim.files import writable
-    from cosim.interrupts import patient_interrupts
-    from cosim.manifest import made_by, results_in
     from cosim.report.dataset import run_columns
 
     began = time.perf_counter()
     numbers = numbers_asked(arguments, running.KEYS)
-    job = _begun(arguments) if arguments.resume is None else _found(arguments)
+    scenario, fmu, views, with_fields, job = (
+        _begun(arguments) if arguments.resume is None else _found(arguments)
+    )
     # said with the first step, when units, too, are known to be good; of old when it goes on
-    unsaid = [] if arguments.resume else [job.scenario]
-    fields = writable(job.results / run_io.FIELDS) if job.fields else None
-    _ = job.scenario.catalogue.compiled  # before the bar begins to count
-    logging = run_io.message_log(job.folder, arguments.verbose)
-    going_on = run_io.going_on(job.folder, _resume(job.results, job.scenario))
-    with going_on, patient_interrupts() as patience, logging as log:
-        with run_io.progress_over(job.scenario.run.duration) as show:
+    unsaid = [] if arguments.resume else [scenario]
+    fields = writable(job.results / run_io.FIELDS) if with_fields else None
+    _ = scenario.catalogue.compiled  # before the bar begins to count
+
+    def run(patience: Patience, **said: Any) -> CoupledRun:
+        with run_io.progress_over(scenario.run.duration) as show, run_io.refusing_units(False):
 
             def progress(reached: float) -> None:
                 patience.hold()
@@ -108,41 +101,40 @@ def execute(arguments: Namespace) -> int:
                     note_taken(unsaid.pop())
                 show(reached)
 
-            said = {"heard": run_io.hearing(log, arguments.verbose), "debug": arguments.verbose}
-            done = _run(job, fields=fields, progress=progress, **said)
-        patience.hold()
-        if run_io.is_removed(job.results, done.result.time.tolist()):
-            return FAILED
-        dataset = run_columns(
-            done.result, job.scenario, job.scenario.to_toml(), snapshots=done.snapshots
+            given: dict[str, Any] = {
+                "fmu": fmu,
+                "views": views,
+                "fields": fields,
+                "folder": job.folder,
+            }
+            return run_scenario(scenario, progress=progress, **given, **said)
+
+    def write(
+        done: CoupledRun, results: ResultFolder, patience: Patience, resume: str, log: MessageLog
+    ) -> int:
+        text, pictures = scenario.to_toml(), done.snapshots
+        dataset = run_columns(done.result, scenario, text, snapshots=pictures)
+        running.assess_motion(dataset, scenario, patience)
+        for name in run_io.field_files(job.results) if pictures.file else ():
+            results.add(job.results / name)
+        return running.finish(
+            dataset,
+            job.results,
+            began,
+            patience,
+            _field_files(done, job.results),
+            views=pictures.views,
+            command=job.command,
+            resume=resume,
+            log=log,
+            asked=numbers,
+            **job.shown,
         )
-        running.assess_motion(dataset, job.scenario, patience)
-        goes_on = done.result.status != run_io.COMPLETE and job.folder.checkpoint.is_file()
-        made = made_by(job.command, scenario=job.scenario.to_toml())
-        with results_in(job.results, made, force=job.force) as results:
-            taken = run_io.field_files(job.results) if done.snapshots.file else []
-            for name in (*run_io.log_files(log), *taken):
-                results.add(job.results / name)
-            status = running.finish(
-                dataset,
-                job.results,
-                began,
-                patience,
-                _field_files(done, job.results),
-                views=done.snapshots.views,
-                command=job.command,
-                resume=_resume(job.results, job.scenario) if goes_on else "",
-                log=log,
-                asked=numbers,
-                **job.shown,
-            )
-            results.complete = status == DONE
-    # only now: had the results not come to the disk, there would still be what they are made of
-    job.folder.release() if goes_on else job.folder.finished()
-    return status
+
+    return run_io.carried_out(job, arguments.verbose, run, write)
 
 
-def _begun(arguments: Namespace) -> Job:
+def _begun(arguments: Namespace) -> Case:
     """A run from its start."""
     from cosim.cli.plug_ins import digests
     from cosim.cli.runs import run_io, running
@@ -162,8 +154,9 @@ def _begun(arguments: Namespace) -> Job:
     require_own(results, [run_io.COLLECTION], arguments.force)
     command = shlex.join(["stickslip", *sys.argv[1:]])
     fmu = None if arguments.fmu is None else str(Path(arguments.fmu).resolve())
+    resume, text = _resume(results, scenario), scenario.to_toml()
     asked = {
-        "resume": _resume(results, scenario),
+        "resume": resume,
         "command": command,
         "fmu": fmu,
         "views": arguments.animation,
@@ -172,14 +165,13 @@ def _begun(arguments: Namespace) -> Job:
         "taken": dict(scenario.taken),
         "effects": digests(scenario.catalogue.files),
     }
-    folder = RunFolder.begun(results, asked, {SCENARIO: scenario.to_toml()}, force=arguments.force)
-    return Job(
-        *(scenario, results, folder, str(unit), arguments.animation, arguments.fields),
-        *(shown(arguments), command, arguments.force),
-    )
+    force, of = arguments.force, {"scenario": text}
+    folder = RunFolder.begun(results, asked, {SCENARIO: text}, force=force)
+    job = run_io.Job(results, folder, shown(arguments), command, force, resume, of)
+    return Case(scenario, str(unit), arguments.animation, arguments.fields, job)
 
 
-def _found(arguments: Namespace) -> Job:
+def _found(arguments: Namespace) -> Case:
     """A run that was cut off, as it was begun."""
     from cosim.cli.plug_ins import check_resumed
     from cosim.cli.runs import run_io, running
@@ -209,12 +201,12 @@ def _found(arguments: Namespace) -> Job:
         )
     scenario = running.scenario_to_run(str(folder.path / SCENARIO), coupled=True)
     scenario = scenario.with_taken(asked.get("taken", {}))
-    return Job(
-        *(scenario, results, folder, asked.get("fmu")),
-        *(bool(asked.get("views")), bool(asked.get("fields"))),
-        shown=asked.get("shown", PAGE_ALONE),
-        command=f"{asked.get('command', '')} (interrupted and resumed)",
-        force=False,
+    command = f"{asked.get('command', '')} (interrupted and resumed)"
+    resume, of = _resume(results, scenario), {"scenario": scenario.to_toml()}
+    drawn = asked.get("shown", PAGE_ALONE)
+    job = run_io.Job(results, folder, drawn, command, False, resume, of)
+    return Case(
+        scenario, asked.get("fmu"), bool(asked.get("views")), bool(asked.get("fields")), job
     )
 
 
@@ -240,26 +232,3 @@ def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:
         name = thicker.relative_to(folder).as_posix()
         listed[name] = f"the same with the belt drawn {times} times as thick as it is"
     return listed
-
-
-def _run(job: Job, **further: Any) -> CoupledRun:
-    """The coupled run; one that does not come to its first step leaves nothing to go on from."""
-    try:
-        return _coupled(job.scenario, fmu=job.fmu, folder=job.folder, views=job.views, **further)
-    except BaseException:
-        if not job.folder.checkpoint.is_file():
-            job.folder.finished()
-        raise
-
-
-def _coupled(scenario: Scenario, **arguments: Any) -> CoupledRun:
-    """`run_scenario`; an FMU's contents are only unpacked, and refused, when it starts."""
-    from cosim.coupling import ParticipantError
-    from cosim.coupling.case import run_scenario
-
-    try:
-        return run_scenario(scenario, **arguments)
-    except ParticipantError as error:
-        if is_bad_input(error.__cause__):
-            raise BadInput(" ".join(str(error.__cause__).split())) from error
-        raise Failed(" ".join(str(error).split())) from error

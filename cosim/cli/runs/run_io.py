@@ -10,21 +10,93 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from xml.etree import ElementTree
 
-from cosim.cli import DONE, FAILED, BadInput
+from cosim.cli import DONE, FAILED, BadInput, Failed, is_bad_input
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
+from cosim.coupling import ParticipantError
 from cosim.coupling.messages import SMALLEST, UNCONVERGED, Message
 from cosim.coupling.record import LOG, MessageLog, RunFolder
 from cosim.coupling.system import MASTER
 from cosim.files import OutputError, writable
-from cosim.manifest import claim, require_own
+from cosim.interrupts import Patience, patient_interrupts
+from cosim.manifest import ResultFolder, claim, made_by, require_own, results_in
 
+if TYPE_CHECKING:
+    from cosim.report.files import Shown
+
+Done = TypeVar("Done")
 FIELDS = "fields"
 COLLECTION = f"{FIELDS}/temperature.pvd"
 COMPLETE = "complete"
+
+
+class Job(NamedTuple):
+    """Where a coupled run goes, and what it is of: scenario or system, for the list of its files.
+
+    resume: what goes on with it once it is cut off.
+    """
+
+    results: Path
+    folder: RunFolder
+    shown: Shown
+    command: str
+    force: bool
+    resume: str
+    of: Mapping[str, str]
+
+
+def carried_out(
+    job: Job,
+    verbose: bool,
+    run: Callable[..., Done],
+    write: Callable[[Done, ResultFolder, Patience, str, MessageLog], int],
+) -> int:
+    """Run, then write what came out; the exit status.
+
+    run: is given the patience, and `heard` and `debug` as `cosim.coupling` has them; one that does
+    not come to its first step leaves nothing to go on from. write: is given what resumes a run that
+    goes on, "" for one that does not.
+    """
+    logging = message_log(job.folder, verbose)
+    with going_on(job.folder, job.resume), patient_interrupts() as patience, logging as log:
+        try:
+            done: Any = run(patience, heard=hearing(log, verbose), debug=verbose)
+        except BaseException:
+            if not job.folder.checkpoint.is_file():
+                job.folder.finished()
+            raise
+        patience.hold()
+        if is_removed(job.results, done.result.time.tolist()):
+            return FAILED
+        goes_on = done.result.status != COMPLETE and job.folder.checkpoint.is_file()
+        made = made_by(job.command, **job.of)
+        with results_in(job.results, made, force=job.force) as results:
+            for name in log_files(log):
+                results.add(job.results / name)
+            status = write(done, results, patience, job.resume if goes_on else "", log)
+            results.complete = status == DONE
+    # only now: had the results not come to the disk, there would still be what they are made of
+    job.folder.release() if goes_on else job.folder.finished()
+    return status
+
+
+@contextmanager
+def refusing_units(named: bool) -> Iterator[None]:
+    """What a unit refuses before the first step, in one line; named: also whose fault it is.
+
+    A unit's contents are only unpacked, and refused, when it starts.
+    """
+    try:
+        yield
+    except ParticipantError as error:
+        if is_bad_input(error.__cause__):
+            cause = " ".join(str(error.__cause__).split())
+            told = f"{error.participant}: {cause}" if named and ".fmu" not in cause else cause
+            raise BadInput(told) from error
+        raise Failed(" ".join(str(error).split())) from error
 
 
 def own_folder(folder: Path, files: Iterable[str], force: bool) -> Path:

@@ -18,13 +18,7 @@ from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import NOT_ASKED, Numbers
 from cosim.cli.runs.closing_lines import closing_lines
-from cosim.cli.runs.run_io import (
-    COLLECTION,
-    FIELDS,
-    log_files,
-    own_folder,
-    say_how_it_ended,
-)
+from cosim.cli.runs.run_io import COLLECTION, FIELDS, log_files, own_folder, say_how_it_ended
 from cosim.cli.scenarios import given_scenario
 from cosim.coupling.record import LOG, MessageLog
 from cosim.interrupts import Patience

@@ -17,16 +17,12 @@ if TYPE_CHECKING:
     from cosim.scenario import Scenario
 
 EXAMPLE = "stickslip simulate reference -o results/mechanics"
+IMPORTS = ("cosim.cli.runs.running",)
 
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
     add_run_arguments(parser)
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.cli.runs.running  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

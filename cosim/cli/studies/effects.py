@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from cosim.studies.effects import Entry
 
 EXAMPLE = "stickslip effects -o results/effects"
+IMPORTS = ("cosim.studies.effects",)
 RESULT, PAGE = "effects.json", "effects.html"
 
 
@@ -34,11 +35,6 @@ def add_arguments(parser: ArgumentParser) -> None:
     add_json(parser)
     add_output(parser, f"also write {PAGE}, {RESULT} and the figures there")
     add_force(parser)
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.studies.effects  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

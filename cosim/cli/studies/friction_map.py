@@ -20,6 +20,7 @@ from cosim.files import writable
 from cosim.manifest import made_by, require_own, results_in
 
 EXAMPLE = "stickslip friction-map melting_friction --ambient -8 -o results/friction"
+IMPORTS = ("cosim.studies.friction_map",)
 RESULT, PAGE = "friction_map.json", "report.html"
 TABLE, FIGURE = "friction_map.csv", "friction_map.png"
 #: By which keys RESULT is known.
@@ -68,11 +69,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         default="results/friction-map",
     )
     add_force(parser)
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.studies.friction_map  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

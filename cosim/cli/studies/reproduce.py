@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from cosim.studies.reproduction.attributions import Datasets
 
 EXAMPLE = "stickslip reproduce C6 C13 -o results/claims"
+IMPORTS = ("cosim.studies.reproduction.claims",)
 RESULT, PAGE = "reproduction.json", "report.html"
 
 
@@ -35,11 +36,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         default="results/reproduction",
     )
     add_force(parser)
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.studies.reproduction.claims  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from cosim.studies.stability import Case
 
 EXAMPLE = "stickslip stability study --grid 20 -o results/stability"
+IMPORTS = ("cosim.studies.stability",)
 RESULT, PAGE = "stability.json", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("name", "stability", "regime_map")
@@ -61,11 +62,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         default="results/stability",
     )
     add_force(parser)
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.studies.stability  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

@@ -15,12 +15,7 @@ from cosim.cli.arguments import add_force, add_json, add_output, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import (
-    OutputError,
-    not_taken,
-    write_bytes,
-    write_text,
-)
+from cosim.files import OutputError, not_taken, write_bytes, write_text
 from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
@@ -30,6 +25,7 @@ if TYPE_CHECKING:
     from cosim.studies.sweep import Grid, Run
 
 EXAMPLE = "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82"
+IMPORTS = ("cosim.studies.sweep.figure",)
 RESULT, FIGURE, TABLE, PAGE = "sweep.nc", "sweep.png", "sweep.csv", "report.html"
 OWN = (RESULT, FIGURE, TABLE, PAGE)
 #: Group of the result file that holds the test plan's repeats.
@@ -97,11 +93,6 @@ def add_arguments(parser: ArgumentParser) -> None:
         "that are finished there are not run again",
     )
     add_force(parser)
-
-
-def prepare() -> None:
-    """Import what the command computes with."""
-    import cosim.studies.sweep.figure  # noqa: F401
 
 
 def execute(arguments: Namespace) -> int:

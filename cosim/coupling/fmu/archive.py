@@ -36,13 +36,13 @@ def read_xml(path: Path, member: str) -> bytes | None:
     The archive is checked as a whole, and the file for entities.
     """
     with _opened(path) as archive:
-        _check(path, archive)
+        check_members(path, archive, (MOST_BYTES, MOST_MEMBERS, MOST_RATIO))
         if member not in archive.namelist():
             return None
         if archive.getinfo(member).file_size > MOST_XML:
             raise FmuError(f"{path}: its {member} has more than {MOST_XML >> 20} MiB")
         content = archive.read(member)
-    _check_prolog(path, member, content)
+    check_xml(f"{path}: its {member}", content)
     return content
 
 
@@ -57,7 +57,7 @@ def unpack(path: Path) -> tempfile.TemporaryDirectory[str]:
     folder = directory.name
     try:
         with _opened(path, "damaged") as archive:
-            _check(path, archive)
+            check_members(path, archive, (MOST_BYTES, MOST_MEMBERS, MOST_RATIO))
             _check_room(path, archive, folder)
             for member in archive.infolist():
                 _extract(path, archive, member, folder)
@@ -68,6 +68,9 @@ def unpack(path: Path) -> tempfile.TemporaryDirectory[str]:
 
 
 def _extract(path: Path, archive: zipfile.ZipFile, member: zipfile.ZipInfo, folder: str) -> None:
+    name = member.orig_filename
+    if "\\" in name or "\0" in name:
+        raise FmuError(f"{path}: its member {name!r} has a name that no FMU may hold")
     try:
         archive.extract(member, folder)
     except OSError as error:
@@ -92,23 +95,33 @@ def _opened(path: Path, fault: str = "not an FMU, or truncated") -> Iterator[zip
         raise FmuError(f"{path}: cannot be read: {error.strerror or error}") from error
 
 
-def _check(path: Path, archive: zipfile.ZipFile) -> None:
-    """Nothing points outside, nothing is there that only a trap would have."""
+def check_members(
+    path: Path,
+    archive: zipfile.ZipFile,
+    most: tuple[int, int, int],
+    refused: type[ValueError] = FmuError,
+) -> None:
+    """Nothing points outside, nothing is there that only a trap would have; else `refused`.
+
+    most: bytes unpacked, members, and how many times larger than the file all may be unpacked.
+    """
+    most_bytes, most_members, most_ratio = most
     members = archive.infolist()
-    if len(members) > MOST_MEMBERS:
-        raise FmuError(f"{path}: holds {len(members)} files, allowed are {MOST_MEMBERS}")
+    if len(members) > most_members:
+        raise refused(f"{path}: holds {len(members)} files, allowed are {most_members}")
     for member in members:
-        _check_member(path, member)
+        if fault := _fault_of(member):
+            raise refused(f"{path}: its member {member.orig_filename!r} {fault}")
     size, packed = _unpacked(archive), path.stat().st_size
-    if size > MOST_BYTES:
-        raise FmuError(
+    if size > most_bytes:
+        raise refused(
             f"{path}: would take {size / 1024**3:.3g} GiB unpacked, allowed are "
-            f"{MOST_BYTES / 1024**3:g} GiB"
+            f"{most_bytes / 1024**3:g} GiB"
         )
-    if size > FEW_BYTES and size > MOST_RATIO * packed:
-        raise FmuError(
+    if size > FEW_BYTES and size > most_ratio * packed:
+        raise refused(
             f"{path}: would be {size / packed:.0f} times as large unpacked ({size >> 20} MiB), "
-            f"allowed is {MOST_RATIO} times; a zip bomb?"
+            f"allowed is {most_ratio} times; a zip bomb?"
         )
 
 
@@ -116,7 +129,8 @@ def _unpacked(archive: zipfile.ZipFile) -> int:
     return sum(member.file_size for member in archive.infolist())
 
 
-def _check_member(path: Path, member: zipfile.ZipInfo) -> None:
+def _fault_of(member: zipfile.ZipInfo) -> str:
+    """What is wrong with a member; "" where nothing is."""
     # orig_filename: as it is in the file; zipfile itself makes / of \ on Windows, cuts at a NUL
     name = member.orig_filename
     outside = (
@@ -125,13 +139,10 @@ def _check_member(path: Path, member: zipfile.ZipInfo) -> None:
         or ".." in re.split(r"[/\\]", name)
     )
     if outside:
-        raise FmuError(f"{path}: its member {name!r} points outside the folder that it belongs in")
-    if "\\" in name or "\0" in name:
-        raise FmuError(f"{path}: its member {name!r} has a name that no FMU may hold")
+        return "points outside the folder that it belongs in"
     if stat.S_ISLNK(member.external_attr >> 16):
-        raise FmuError(f"{path}: its member {name!r} is a symbolic link, which may point outside")
-    if member.flag_bits & 0x1:
-        raise FmuError(f"{path}: its member {name!r} is encrypted")
+        return "is a symbolic link, which may point outside"
+    return "is encrypted" if member.flag_bits & 0x1 else ""
 
 
 def _check_room(path: Path, archive: zipfile.ZipFile, folder: str) -> None:
@@ -144,29 +155,21 @@ def _check_room(path: Path, archive: zipfile.ZipFile, folder: str) -> None:
         )
 
 
-class _Root(Exception):
-    """The first element has come: what may hold entities lies behind."""
+def check_xml(place: str, content: bytes, refused: type[ValueError] = FmuError) -> None:
+    """Refuse what is no XML, and a document type: entities, which can grow without end or fetch
+    files, live there.
 
-
-def _check_prolog(path: Path, member: str, content: bytes) -> None:
-    """Refuse a document type: entities, which can grow without end or fetch files, live there."""
+    Names need not have a known namespace.
+    """
 
     def refuse(*_: object) -> None:
-        raise FmuError(
-            f"{path}: its {member} has a document type (DTD, entities), which no FMU needs"
-        )
-
-    def end(*_: object) -> None:
-        raise _Root
+        raise refused(f"{place} has a document type (DTD, entities), which nothing here needs")
 
     parser = expat.ParserCreate()
     parser.StartDoctypeDeclHandler = refuse
-    parser.StartElementHandler = end
     try:
         parser.Parse(content, True)  # at once: in pieces, a long attribute is begun with each anew
-    except _Root:
-        pass
     except (expat.ExpatError, ValueError, LookupError) as error:
-        if isinstance(error, FmuError):
+        if isinstance(error, refused):
             raise
-        raise FmuError(f"{path}: its {member} is not valid: {one_line(error)}") from error
+        raise refused(f"{place} is not valid: {one_line(error)}") from error

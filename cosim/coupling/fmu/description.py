@@ -8,7 +8,6 @@ from pathlib import Path
 
 import fmpy
 from fmpy.model_description import ModelDescription, ValidationError
-from lxml.etree import XMLSyntaxError
 
 from cosim.coupling.fmu.archive import DESCRIPTION, read_xml
 from cosim.coupling.fmu.errors import FmuError, one_line
@@ -45,7 +44,7 @@ def _described(path: Path, identity: tuple[int, ...]) -> ModelDescription:
     read_xml(path, "sources/buildDescription.xml")  # which fmpy parses, too
     try:
         description = fmpy.read_model_description(path, validate=not faults_of(path))
-    except (XMLSyntaxError, ValidationError) as error:
+    except ValidationError as error:
         raise FmuError(f"{path}: its {DESCRIPTION} is not valid: {one_line(error)}") from error
     # fmpy raises whatever comes of a reference to nothing, an unknown version, a missing attribute
     except Exception as error:

@@ -10,6 +10,7 @@ from numbers import Real
 
 from fmpy.model_description import ModelDescription, ModelVariable
 
+from cosim.coupling.conversion import BASE_UNITS
 from cosim.coupling.fmu.errors import FmuError
 from cosim.coupling.participant import Causality, Port, UnitDefinition
 from cosim.names import unknown_name
@@ -23,7 +24,6 @@ REALS = ("Real", "Float32", "Float64")
 PLAIN_NUMBER = "1"
 #: Elements of all arrays of a unit, more is no set of ports.
 MOST_ELEMENTS = 100_000
-BASE_UNITS = ("kg", "m", "s", "A", "K", "mol", "cd", "rad")
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ def _elements(variable: ModelVariable) -> list[Scalar]:
 
 def ports_of(description: ModelDescription, table: Mapping[str, Scalar]) -> list[Port]:
     """The numeric inputs and outputs, in the order declared."""
-    definitions = _definitions(description)
+    definitions = definitions_of(description)
     return [
         Port(
             scalar.name,
@@ -131,8 +131,8 @@ def _nominal(variable: ModelVariable) -> float:
     return size if 0.0 < size < math.inf else 1.0
 
 
-def _definitions(description: ModelDescription) -> dict[str, UnitDefinition]:
-    """Unit -> what it is made of, of those that the unit says it of."""
+def definitions_of(description: ModelDescription) -> dict[str, UnitDefinition]:
+    """Unit -> what it is made of, of those that an FMU defines."""
     return {
         unit.name: UnitDefinition(
             tuple(int(getattr(unit.baseUnit, base)) for base in BASE_UNITS),  # type: ignore[arg-type]

@@ -82,7 +82,7 @@ class Doubling(OfOutputs):
         mark = exchange.mark()
         try:
             end = stepper.make(end)
-            whole = values(exchange, which)
+            whole = exchange.values(which)
             exchange.back(mark)
         finally:
             exchange.forget(mark)
@@ -93,7 +93,7 @@ class Doubling(OfOutputs):
         reached = stepper.make(end)
         if reached < end:
             return reached, 0.0
-        halves = values(exchange, which)
+        halves = exchange.values(which)
         difference = np.abs(whole - halves) / (2.0**self._order - 1.0)
         return reached, _largest(exchange, which, difference, halves, self.tolerance)
 
@@ -126,7 +126,7 @@ class Defect(OfOutputs):
         courses = [exchange.extrapolated(source, self._degree, end - began) for source in which]
         reached = stepper.make(end)
         expected = np.array([course.at(reached - began) for course in courses])
-        found = values(exchange, which)
+        found = exchange.values(which)
         return reached, _largest(exchange, which, np.abs(found - expected), found, self.tolerance)
 
 
@@ -193,11 +193,6 @@ class EnergyResidual:
     def restore(self, state: Any) -> None:
         """Go on with it."""
         self._crossed = float(state)
-
-
-def values(exchange: Exchange, which: Sequence[Address]) -> NDArray[np.float64]:
-    """Newest values of some outputs, (n,)."""
-    return np.array([exchange.outputs[each.participant][each.port] for each in which])
 
 
 def _largest(

@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from cosim.coupling.case.thermal_participant import prepared_block
-from cosim.processes import is_stopped
+from cosim.processes import stop_if_told
 from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
 from thermal.belt.air import convection, heated_belt, laminar_span, radiation
 from thermal.belt.frost import Frost, frost
@@ -249,7 +249,7 @@ class Case:
 
         sensitivity: part of the friction lost for each kelvin of the interface's rise, 1/K.
         """
-        _stop_if_told()
+        stop_if_told()
         parameters = self.thermal()
         block = _block(parameters.ice, parameters.contact, parameters.belt.width)
         per_metre = max(WAVES_PER_METRE, WAVES_PER_CONTACT / block[0].length)
@@ -261,7 +261,7 @@ class Case:
     def follow(self, sliding: SteadySliding) -> tuple[SlidingState, SlidingState]:
         """Through all runs of the protocol: the state where the last ramp ends, and at the end."""
         protocol = self.protocol
-        _stop_if_told()
+        stop_if_told()
         for run in range(protocol.runs):
             if run > 0:
                 self.rest(sliding, protocol.pause)
@@ -294,12 +294,6 @@ class Case:
             cooling_rate=2.0 * self.film / capacity,
             ambient_degC=self.ambient_degC,
         )
-
-
-def _stop_if_told() -> None:
-    """Leaves the work, in a process of a pool that is to end: a call is many runs of the model."""
-    if is_stopped():
-        raise KeyboardInterrupt
 
 
 def _block(ice: Ice, contact: Contact, width: float) -> tuple[Footprint, IceBody]:

@@ -17,17 +17,7 @@ from scipy.stats import t as student
 
 from .case import Case
 from .rigs import MOST_MELTING, Rigs
-from .unknowns import (
-    ENTRY,
-    INTERFACE,
-    Melts,
-    Unknown,
-    answers,
-    combined,
-    needs,
-    weights,
-    with_one,
-)
+from .unknowns import ENTRY, INTERFACE, Melts, Unknown, answers, combined, needs, weights, with_one
 
 Array = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from stickslip.quantity import details
 
 from cosim.names import nearest
 
-__all__ = ["Entry", "UnknownEffect", "allowed", "chosen", "described", "snippet"]
+__all__ = ["Entry", "allowed", "chosen", "described"]
 
 
 class UnknownEffect(ValueError):

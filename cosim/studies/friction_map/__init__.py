@@ -4,26 +4,6 @@ Dry, boundary (asperities melt in passing), mixed and hydrodynamic friction (a f
 sheared), as the effects temperature_dependence, asperity_melting and melt_film make them.
 """
 
-from .map import (
-    DecadeSlope,
-    FrictionMap,
-    NotSteady,
-    SteadySliding,
-    decade_slopes,
-    friction_map,
-    lowest_friction,
-    steady_scenario,
-    steady_sliding,
-)
+from .map import FrictionMap, friction_map
 
-__all__ = [
-    "DecadeSlope",
-    "FrictionMap",
-    "NotSteady",
-    "SteadySliding",
-    "decade_slopes",
-    "friction_map",
-    "lowest_friction",
-    "steady_scenario",
-    "steady_sliding",
-]
+__all__ = ["FrictionMap", "friction_map"]

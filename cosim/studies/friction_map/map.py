@@ -9,7 +9,6 @@ damper: neither friction nor its heat is another for it.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from importlib import import_module
@@ -121,14 +120,9 @@ def steady_scenario(
     return case.changed(
         {
             "initial.x": force / (4.0 * case.springs.stiffness),
-            "structural_damping.coefficient": max(DAMPING * fall, _critical_damping(case)),
+            "structural_damping.coefficient": max(DAMPING * fall, case.mechanics.critical_damping),
         }
     )
-
-
-def _critical_damping(case: Scenario) -> float:
-    """With it, N s/m, the block on its springs comes to rest without swinging."""
-    return 4.0 * math.pi * case.mechanics.natural_frequency * case.rig.mass
 
 
 def _friction(parameters: Parameters, speed: float, temperature: float) -> tuple[float, float]:

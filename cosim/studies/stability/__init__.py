@@ -1,14 +1,11 @@
 """Which steady motions a rig has, which of them it can keep to, and where stick-slip stops."""
 
-from .maps import Case, NotAMotion, PretensionMap, RegimeMap, case_of, pretension_map, regime_map
-from .stick_slip_range import NUMBERS, range_sentence, stick_slip_range
+from .maps import Case, NotAMotion, case_of, pretension_map, regime_map
+from .stick_slip_range import range_sentence, stick_slip_range
 
 __all__ = [
-    "NUMBERS",
     "Case",
     "NotAMotion",
-    "PretensionMap",
-    "RegimeMap",
     "case_of",
     "pretension_map",
     "range_sentence",

@@ -204,14 +204,9 @@ def is_coulomb_oscillator(parameters: Parameters) -> bool:
         and parameters.friction.stick_creep == 0.0
         and parameters.friction.transition_speed == 0.0
         and not parameters.friction.has_table
-        and parameters.structural_damping.coefficient < _critical_damping(parameters)
+        and parameters.structural_damping.coefficient < parameters.critical_damping
         and parameters.structural_damping.quadratic == 0.0
     )
-
-
-def _critical_damping(parameters: Parameters) -> float:
-    """Above it, N s/m, the block does not vibrate."""
-    return 4.0 * math.pi * parameters.natural_frequency * parameters.rig.mass
 
 
 def belt_start(parameters: Parameters) -> BeltStart:

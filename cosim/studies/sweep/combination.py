@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from stickslip import Parameters, simulate
 from stickslip.catalogue import CATALOGUE, Catalogue
 
-from cosim.processes import is_stopped
+from cosim.processes import stop_if_told
 from cosim.scenario import Scenario
 
 from . import features as feature_module
@@ -142,12 +142,6 @@ def compute_chunk(work: Work, tasks: Sequence[Task]) -> list[Row]:
         return [compute(work, task) for task in tasks]
 
 
-def _stop_if_told(time: float) -> None:
-    """Leaves a run in its middle, in a process of the pool that is to end."""
-    if is_stopped():
-        raise KeyboardInterrupt
-
-
 def compute(work: Work, task: Task) -> Row:
     """Simulate one combination. What goes wrong is in the row: it never ends a sweep."""
     try:
@@ -163,15 +157,15 @@ def _simulated(parameters: Parameters, run: Run) -> tuple[dict[str, float], str]
     """Features by name; or why there are none."""
     duration, output_interval, coupled = run.of(parameters)
     if not isinstance(parameters, Scenario):
-        trajectory = simulate(parameters, duration, output_interval, progress=_stop_if_told)
+        trajectory = simulate(parameters, duration, output_interval, progress=stop_if_told)
     elif coupled:
-        return coupled_features(parameters, _stop_if_told)
+        return coupled_features(parameters, stop_if_told)
     else:
         trajectory = simulate(
             parameters.mechanics,
             duration,
             output_interval,
             interface_temperature=parameters.ambient.temperature_degC,
-            progress=_stop_if_told,
+            progress=stop_if_told,
         )
     return ({}, trajectory.reason) if trajectory.reason else (features(trajectory), "")

@@ -5,25 +5,24 @@ Nothing is unpacked but the members that are asked for, and nowhere but into a f
 
 from __future__ import annotations
 
+import re
 import shutil
-import stat
 import tempfile
 import zipfile
 import zlib
 from pathlib import Path, PurePosixPath
 from urllib.parse import unquote, urlsplit
+from xml.etree.ElementTree import Element, ParseError, fromstring
 
-from lxml import etree
 from stickslip.scratch import scratch_folder
 
+from cosim.coupling.fmu.archive import check_members, check_xml
 from cosim.systems.system_errors import SystemFault
 
 STRUCTURE = "SystemStructure.ssd"
 #: Bytes of an archive's contents, of one of its XML files, and how much smaller all may be packed.
 MOST_BYTES, MOST_XML, MOST_RATIO = 8 << 30, 64 << 20, 500
 MOST_MEMBERS = 20_000
-#: Below this (bytes) a high ratio is only a file of zeros.
-HARMLESS = 64 << 20
 
 
 class Package:
@@ -49,22 +48,22 @@ class Package:
             self._scratch = scratch_folder("ssp")
             self._root = Path(self._scratch.name)
 
-    def xml(self, name: str) -> etree._Element:
+    def xml(self, name: str) -> Element:
         """The root of an XML file."""
         return self.parsed(self._bytes(name), f"{self.path}: {name}")
 
-    def parsed(self, content: bytes, place: str) -> etree._Element:
-        """The root of an XML text; entities and document types are refused."""
-        parser = _parser(recover=False)
+    def parsed(self, content: bytes, place: str) -> Element:
+        """The root of an XML text; document types are refused, and with them entities."""
+        check_xml(f"{place}:", content, SystemFault)
         try:
-            root = etree.fromstring(content, parser)
-        except etree.XMLSyntaxError as error:
-            root = self._despite_prefixes(content, place, error)
-        if root.getroottree().docinfo.doctype or root.getroottree().docinfo.internalDTD is not None:
-            raise SystemFault(
-                f"{place}: declares a document type, which no SSP has; allowed is XML without"
-            )
-        return root
+            return fromstring(content)
+        except ParseError as error:
+            # some tools write annotations with a prefix that is declared nowhere
+            declared = _declared(content)
+            if declared == content:
+                raise SystemFault(f"{place}: is not valid: {error}") from None
+        self.remarks.append(f"{place}: uses a prefix that it has not declared")
+        return self.parsed(declared, place)
 
     def file(self, source: str) -> Path:
         """A member as a file on disk, unpacked where it has to be."""
@@ -134,25 +133,13 @@ class Package:
             else ", which its structure names, needed is that file"
         )
 
-    def _despite_prefixes(
-        self, content: bytes, place: str, error: etree.XMLSyntaxError
-    ) -> etree._Element:
-        """Some tools write annotations with a prefix declared nowhere; only that is let pass."""
-        parser = _parser(recover=True)
-        root = etree.fromstring(content, parser)
-        faults = [entry for entry in parser.error_log if "NAMESPACE" not in entry.type_name]
-        if root is None or faults:
-            raise SystemFault(
-                f"{place}: is not XML ({error.msg}), allowed is a file that is"
-            ) from None
-        self.remarks.append(f"{place}: uses a prefix that it has not declared")
-        return root
 
-
-def _parser(recover: bool) -> etree.XMLParser:
-    return etree.XMLParser(
-        resolve_entities=False, no_network=True, load_dtd=False, huge_tree=False, recover=recover
-    )
+def _declared(content: bytes) -> bytes:
+    """An XML text in which the root declares every prefix that it does not."""
+    used = set(re.findall(rb"[<\s]/?([A-Za-z_][\w.-]*):[A-Za-z_]", content))
+    unknown = used - {b"xml", b"xmlns", *re.findall(rb"xmlns:([\w.-]+)", content)}
+    names = b"".join(b' xmlns:%b="undeclared:%b"' % (each, each) for each in sorted(unknown))
+    return re.sub(rb"<([A-Za-z_][\w.:-]*)", lambda root: root[0] + names, content, count=1)
 
 
 def _opened(path: Path) -> zipfile.ZipFile:
@@ -165,37 +152,11 @@ def _opened(path: Path) -> zipfile.ZipFile:
             f"{path}: is no SSP, or truncated ({error}), allowed is a zip archive"
         ) from None
     try:
-        _check_members(path, archive.infolist())
+        check_members(path, archive, (MOST_BYTES, MOST_MEMBERS, MOST_RATIO), SystemFault)
     except SystemFault:
         archive.close()
         raise
     return archive
-
-
-def _check_members(path: Path, members: list[zipfile.ZipInfo]) -> None:
-    if len(members) > MOST_MEMBERS:
-        raise SystemFault(f"{path}: has {len(members)} members, allowed are {MOST_MEMBERS}")
-    for member in members:
-        if _leads_out(member.filename):
-            raise SystemFault(
-                f"{path}: its member {member.filename!r} points outside the package,"
-                " allowed are paths within"
-            )
-        if stat.S_ISLNK(member.external_attr >> 16):
-            raise SystemFault(
-                f"{path}: its member {member.filename!r} is a link, allowed are files"
-            )
-        if member.flag_bits & 1:
-            raise SystemFault(
-                f"{path}: its member {member.filename!r} is encrypted, allowed are plain files"
-            )
-    whole = sum(member.file_size for member in members)
-    packed = max(path.stat().st_size, 1)
-    if whole > MOST_BYTES or (whole > HARMLESS and whole > MOST_RATIO * packed):
-        raise SystemFault(
-            f"{path}: would unpack to {whole >> 20} MiB from {packed >> 10} KiB, which no system"
-            " does; allowed is less"
-        )
 
 
 def _leads_out(name: str) -> bool:

@@ -6,8 +6,7 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
-
-from lxml import etree
+from xml.etree.ElementTree import tostring
 
 from cosim.systems.settings import Coupling, Run
 from cosim.systems.specification import SystemSpecification
@@ -54,7 +53,7 @@ def _specified(
         links=flat.links(),
         coupling=coupling,
         run=run,
-        text=etree.tostring(root, encoding="unicode"),
+        text=tostring(root, encoding="unicode"),
         remarks=(*package.remarks, *_variants(package)),
         _held=held,
     )

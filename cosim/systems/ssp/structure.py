@@ -8,8 +8,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-
-from lxml import etree
+from xml.etree.ElementTree import Element as Xml
+from xml.etree.ElementTree import register_namespace
 
 from cosim.coupling import Affine, UnitDefinition
 from cosim.coupling.conversion import BASE_UNITS
@@ -24,6 +24,8 @@ _SPACES = {
         "ssm": "ParameterMapping",
     }.items()
 }
+for _prefix, _space in _SPACES.items():
+    register_namespace(_prefix, _space)
 FMU = "application/x-fmu-sharedlibrary"
 #: Types of a connector or a value that are numbers, in SSP 1.0 and 2.0.
 REALS = ("Real", "Float64", "Float32")
@@ -64,7 +66,7 @@ class Element:
 
     name: str
     connectors: Mapping[str, Connector]
-    node: etree._Element
+    node: Xml
 
 
 @dataclass(frozen=True)
@@ -95,7 +97,7 @@ class Structure:
     step: float | None
 
 
-def read_structure(root: etree._Element, place: str) -> Structure:
+def read_structure(root: Xml, place: str) -> Structure:
     """What the root of an SSD says; SystemFault, with the place, by the name of what cannot be."""
     if root.tag != tag("ssd:SystemStructureDescription"):
         raise SystemFault(
@@ -120,23 +122,23 @@ def read_structure(root: etree._Element, place: str) -> Structure:
 
 
 def tag(name: str) -> str:
-    """`ssd:System` as lxml spells it."""
-    prefix, _, local = name.partition(":")
-    return f"{{{_SPACES[prefix]}}}{local}"
+    """`ssd:System` as ElementTree spells it."""
+    prefix, _, local = name.rpartition(":")
+    return f"{{{_SPACES[prefix]}}}{local}" if prefix else local
 
 
-def below(node: etree._Element, path: str) -> Iterator[etree._Element]:
+def below(node: Xml, path: str) -> Iterator[Xml]:
     """Elements at a path such as `ssd:Elements/ssd:Component`."""
-    found: Iterator[etree._Element] = node.iterfind("/".join(tag(part) for part in path.split("/")))
+    found: Iterator[Xml] = node.iterfind("/".join(tag(part) for part in path.split("/")))
     return found
 
 
-def local(node: etree._Element) -> str:
-    """The name of an element without its namespace; "" for a comment."""
-    return node.tag.rpartition("}")[2] if isinstance(node.tag, str) else ""
+def local(node: Xml) -> str:
+    """The name of an element without its namespace."""
+    return node.tag.rpartition("}")[2]
 
 
-def units_of(root: etree._Element, space: str) -> dict[str, UnitDefinition]:
+def units_of(root: Xml, space: str) -> dict[str, UnitDefinition]:
     """Unit -> what it is made of, of the Units of a file."""
     found = {}
     for unit in below(root, f"{space}:Units/ssc:Unit"):
@@ -154,12 +156,12 @@ def units_of(root: etree._Element, space: str) -> dict[str, UnitDefinition]:
     return found
 
 
-def unit_of(node: etree._Element) -> str | None:
+def unit_of(node: Xml) -> str | None:
     """The unit that a connector or a value names; some tools put it in brackets, or name none."""
     return node.get("unit", "").strip().removeprefix("[").removesuffix("]").strip() or None
 
 
-def transformation_of(node: etree._Element, what: str) -> Affine:
+def transformation_of(node: Xml, what: str) -> Affine:
     """The linear transformation in a connection or a mapping; others are refused by name."""
     for child in node:
         name = local(child)
@@ -171,12 +173,12 @@ def transformation_of(node: etree._Element, what: str) -> Affine:
     return Affine()
 
 
-def converts(node: etree._Element) -> bool:
+def converts(node: Xml) -> bool:
     """Whether units are to be converted."""
     return node.get("suppressUnitConversion", "false").strip() not in ("true", "1")
 
 
-def _system(node: etree._Element) -> System:
+def _system(node: Xml) -> System:
     name = node.get("name", "")
     for word in ("SignalDictionary", "SignalDictionaryReference"):
         places = ("ssd:SignalDictionaries", "ssd:Elements")
@@ -187,7 +189,7 @@ def _system(node: etree._Element) -> System:
                 " of the units themselves"
             )
     elements: dict[str, Component | System] = {}
-    for child in _children(node, "ssd:Elements"):
+    for child in below(node, "ssd:Elements/*"):
         element = _element(child)
         if element.name in elements:
             raise SystemFault(
@@ -198,12 +200,7 @@ def _system(node: etree._Element) -> System:
     return System(name, _connectors(node), node, elements, connections)
 
 
-def _children(node: etree._Element, name: str) -> Iterator[etree._Element]:
-    for parent in below(node, name):
-        yield from (child for child in parent if local(child))
-
-
-def _element(node: etree._Element) -> Component | System:
+def _element(node: Xml) -> Component | System:
     kind, name = local(node), node.get("name", "")
     if not name:
         raise SystemFault(f"a {kind} has no name, needed is one")
@@ -224,7 +221,7 @@ def _element(node: etree._Element) -> Component | System:
     return Component(name, _connectors(node), node, source)
 
 
-def _connectors(node: etree._Element) -> dict[str, Connector]:
+def _connectors(node: Xml) -> dict[str, Connector]:
     found = {}
     for child in below(node, "ssd:Connectors/ssd:Connector"):
         kinds = [inner for inner in child if local(inner) in TYPES]
@@ -239,7 +236,7 @@ def _connectors(node: etree._Element) -> dict[str, Connector]:
     return found
 
 
-def _ends(node: etree._Element) -> Ends:
+def _ends(node: Xml) -> Ends:
     start, end = (
         (node.get(f"{side}Element", ""), node.get(f"{side}Connector", ""))
         for side in ("start", "end")
@@ -248,13 +245,13 @@ def _ends(node: etree._Element) -> Ends:
     return Ends(start, end, transformation_of(node, f"connection {bare}"), bare.converts)
 
 
-def _number(node: etree._Element | None, key: str) -> float | None:
+def _number(node: Xml | None, key: str) -> float | None:
     if node is None or node.get(key) is None:
         return None
     return _finite(node, key, 0.0)
 
 
-def _finite(node: etree._Element, key: str, default: float) -> float:
+def _finite(node: Xml, key: str, default: float) -> float:
     text = node.get(key)
     if text is None:
         return default
@@ -267,11 +264,10 @@ def _finite(node: etree._Element, key: str, default: float) -> float:
     return value
 
 
-def _step(root: etree._Element) -> float | None:
+def _step(root: Xml) -> float | None:
     """The step of a master that the annotations name: OMSimulator's, or that of the OSP tools."""
     for node in root.iter():
         for name, key in (("FixedStepMaster", "stepSize"), ("FixedStepAlgorithm", "baseStepSize")):
-            # a prefix that nobody has declared stays part of the name
-            if isinstance(node.tag, str) and local(node).rpartition(":")[2] == name:
+            if local(node) == name:
                 return _number(node, key)
     return None

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-
-from lxml import etree
+from xml.etree.ElementTree import Element
 
 from cosim.coupling import UnitDefinition
 from cosim.systems.specification import Start
@@ -41,7 +40,7 @@ class Bound:
 
 
 def bound_values(
-    node: etree._Element, package: Package, units: Mapping[str, UnitDefinition]
+    node: Element, package: Package, units: Mapping[str, UnitDefinition]
 ) -> Iterator[Bound]:
     """All that the bindings of a component or a system give, in their order: later ones count.
 
@@ -56,7 +55,7 @@ def bound_values(
 
 
 def _set(
-    binding: etree._Element, package: Package, units: Mapping[str, UnitDefinition]
+    binding: Element, package: Package, units: Mapping[str, UnitDefinition]
 ) -> tuple[dict[str, Start], str]:
     """Name -> value of the set of a binding, and where it stands."""
     _check_form(binding, SET, "parameter set")
@@ -79,7 +78,7 @@ def _set(
 
 
 def _mapped(
-    binding: etree._Element, given: Mapping[str, Start], package: Package, place: str
+    binding: Element, given: Mapping[str, Start], package: Package, place: str
 ) -> Iterator[tuple[str, Start]]:
     """Names and values as the mapping has them; as they are, without one."""
     mapping = binding.find(tag("ssd:ParameterMapping"))
@@ -112,7 +111,7 @@ def _mapped(
         yield target, replace(start, transformation=affine, converts=converts(entry))
 
 
-def _check_form(node: etree._Element, form: str, what: str) -> None:
+def _check_form(node: Element, form: str, what: str) -> None:
     if node.get("type", form) != form:
         raise SystemFault(f"a {what} of type {node.get('type')} is not read, allowed is {form}")
     if node.get("sourceBase", "SSD") != "SSD":
@@ -122,10 +121,10 @@ def _check_form(node: etree._Element, form: str, what: str) -> None:
         )
 
 
-def _value(parameter: etree._Element, units: Mapping[str, UnitDefinition], what: str) -> Start:
+def _value(parameter: Element, units: Mapping[str, UnitDefinition], what: str) -> Start:
     for child in parameter:
         form, text = local(child), child.get("value")
-        if not form or form in ("Annotations", "MetaData", "Dimension"):
+        if form in ("Annotations", "MetaData", "Dimension"):
             continue
         if text is None:
             raise SystemFault(f"{what} has no value, needed is one")

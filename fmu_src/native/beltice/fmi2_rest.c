@@ -1,5 +1,6 @@
 /* FMI 2.0: what every unit has a function for, and this one does not offer. */
-#include "fmi2Component.h"
+#include "component.h"
+#include "fmi2Functions.h"
 
 fmi2Status fmi2GetDirectionalDerivative(fmi2Component handle, const fmi2ValueReference unknown[],
                                         size_t unknowns, const fmi2ValueReference known[],
@@ -7,7 +8,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component handle, const fmi2ValueRef
 {
     ENTER(handle, ANY_PHASE)
     (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)seed, (void)out;
-    return refused(component, "fmi2GetDirectionalDerivative: not offered");
+    return refused(component, __func__, "not offered");
 }
 
 fmi2Status fmi2GetRealOutputDerivatives(fmi2Component handle, const fmi2ValueReference references[],
@@ -15,5 +16,5 @@ fmi2Status fmi2GetRealOutputDerivatives(fmi2Component handle, const fmi2ValueRef
 {
     ENTER(handle, STEPPING | TERMINATED)
     (void)references, (void)order, (void)values;
-    return count == 0 ? fmi2OK : refused(component, "fmi2GetRealOutputDerivatives: not offered");
+    return count == 0 ? fmi2OK : refused(component, __func__, "not offered");
 }

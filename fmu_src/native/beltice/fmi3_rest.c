@@ -1,7 +1,8 @@
 /* FMI 3.0: what every unit has a function for, and this one, which is for co-simulation, does not
    offer. */
+#include "component.h"
 #include "exchange.h"
-#include "fmi3Component.h"
+#include "fmi3Functions.h"
 
 bool update(Instance *instance, Update *told)
 {
@@ -23,9 +24,9 @@ bool get_output_rate(Instance *instance, size_t reference, int order, double *ra
 
 static fmi3Status of_exchange(fmi3Instance handle, const char *call)
 {
-    Component3 *component = entered3(handle, call, ANY_PHASE);
+    Component *component = entered(handle, call, ANY_PHASE);
     return component == NULL ? fmi3Error
-                             : refused3(component, call, "this instance is for co-simulation");
+                             : refused(component, call, "this instance is for co-simulation");
 }
 
 fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance handle)
@@ -83,7 +84,7 @@ fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance handle, size_t *count)
         ENTER(handle, ANY_PHASE)                                                                   \
         (void)unknown, (void)unknowns, (void)known, (void)knowns, (void)seed, (void)seeds;         \
         (void)out, (void)outs;                                                                     \
-        return refused3(component, __func__, "not offered");                                       \
+        return refused(component, __func__, "not offered");                                       \
     }
 DERIVATIVE(fmi3GetDirectionalDerivative)
 DERIVATIVE(fmi3GetAdjointDerivative)

@@ -6,7 +6,7 @@ import ast
 import inspect
 import linecache
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from copy import deepcopy
 from functools import cache, cached_property
 from typing import Any
@@ -79,7 +79,7 @@ class EffectFunctions:
         for name in wanted:  # grows as it goes
             if name not in self._defined:
                 raise ValueError(f"effect {self.effect.id}: {name} is no function of its file")
-            for used in self._names_in(self._defined[name]):
+            for used in dict.fromkeys(node.id for node in names_in(self._defined[name])):
                 if used in self._defined:
                     wanted += [] if used in wanted else [used]
                 elif used in self._imported:
@@ -92,16 +92,8 @@ class EffectFunctions:
         parts = [self._renamed(node) for name, node in self._defined.items() if name in wanted]
         return "\n\n\n".join(parts), imports
 
-    def _names_in(self, function: ast.FunctionDef) -> list[str]:
-        """Names of the file that a function uses; its own arguments and variables hide them."""
-        own = {each.arg for each in function.args.args}
-        inner = [node for part in function.body for node in ast.walk(part)]
-        names = [node for node in inner if isinstance(node, ast.Name)]
-        own |= {node.id for node in names if isinstance(node.ctx, ast.Store)}
-        return list(dict.fromkeys(node.id for node in names if node.id not in own))
-
     def _renamed(self, function: ast.FunctionDef) -> str:
-        used = set(self._names_in(function))
+        used = {node.id for node in names_in(function)}
         calls = {name for name in used if name in self._defined}
         numbers = {name: self._numbers[name] for name in used if name in self._numbers}
 
@@ -118,6 +110,15 @@ class EffectFunctions:
         renamed.body = [Rename().visit(part) for part in renamed.body]
         renamed.name = f"{self.effect.id}_{function.name}"
         return ast.unparse(ast.fix_missing_locations(renamed))
+
+
+def names_in(function: ast.FunctionDef) -> Iterator[ast.Name]:
+    """Names of the file that a function uses; its own arguments and variables hide them."""
+    own = {each.arg for each in function.args.args}
+    inner = [node for part in function.body for node in ast.walk(part)]
+    names = [node for node in inner if isinstance(node, ast.Name)]
+    own |= {node.id for node in names if isinstance(node.ctx, ast.Store)}
+    return (node for node in names if node.id not in own)
 
 
 def arguments(function: Callable[..., object]) -> list[str]:

@@ -14,67 +14,10 @@ from .bristles.events import settle_bristles
 from .bristles.law import has_bristles
 from .bristles.step import choose_bristles, fast_slip_bound, finish_bristle_step, stable_step
 from .contact import rest_speed, scaled_sliding_speed
-from .events import (
-    break_away,
-    choose_sliding,
-    keep_direction_steady,
-    set_direction,
-    settle,
-)
+from .events import break_away, choose_sliding, keep_direction_steady, set_direction, settle
 from .friction.coefficient import holding_coefficient, is_felt
 from .interpolant import copy_instant, look_inside, set_interpolant
-from .layout import (
-    BRISTLES,
-    DIRECTION,
-    DONE,
-    E_COUNT,
-    HEAT,
-    HERE,
-    HOLD_SINCE,
-    INSTANT,
-    MODE,
-    MODE_CHANGED,
-    NEXT,
-    NOT_FINITE,
-    P_INITIAL,
-    P_LATERAL,
-    P_LONGEST_STEP,
-    P_LONGEST_STICK,
-    P_MASS,
-    P_MU_K,
-    P_MU_S,
-    P_NORMAL_FORCE,
-    P_RADIUS,
-    P_RATE,
-    P_RUN_UP,
-    P_SHORTEST,
-    P_TRANSITION_SPEED,
-    QUASI_STEADY,
-    SHOWN,
-    SLIP,
-    SLIPS,
-    SPRING_COLLAPSED,
-    STEP_VANISHED,
-    STEPS_AT_LEAST,
-    STEPS_AT_MOST,
-    STEPS_PER_SECOND,
-    STICK,
-    TIME,
-    TOO_STIFF,
-    U_SIZE,
-    UNKNOWN,
-    W_SLIDING,
-    Z_ENERGY,
-    Z_HAS_NEXT,
-    Z_HEAT_BEFORE,
-    Z_INPUTS,
-    Z_SIZE,
-    Z_STARTED,
-    Z_STATUS,
-    Z_STEP,
-    Z_TIME_BEFORE,
-    X,
-)
+from .layout import *
 from .motion import block_energy
 from .rest import look_at, time_to_rest
 from .rig.springs import shortest_spring
@@ -128,11 +71,11 @@ def first_step(p: Floats, mode: float) -> float:
     return h
 
 
-def sliding_along(p: Floats, z: Floats, w: Floats) -> float:
-    """Sliding velocity in ``w`` along the direction in HERE, m/s: below 0 if reversed."""
-    along = w[W_SLIDING] * z[HERE + DIRECTION]
-    along += p[P_LATERAL] * w[W_SLIDING + 1] * z[HERE + DIRECTION + 1]
-    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[HERE + DIRECTION + 2]
+def sliding_along(p: Floats, z: Floats, w: Floats, at: int) -> float:
+    """Sliding velocity in ``w`` along the direction of an instant, m/s: below 0 if reversed."""
+    along = w[W_SLIDING] * z[at + DIRECTION]
+    along += p[P_LATERAL] * w[W_SLIDING + 1] * z[at + DIRECTION + 1]
+    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[at + DIRECTION + 2]
     return along
 
 
@@ -161,7 +104,7 @@ def try_step(p: Floats, u: Floats, z: Floats, w: Floats, bound: float, grip: flo
         elif z[HERE + MODE] == SLIP:
             look_at(p, u, z, w, NEXT)
             moves = scaled_sliding_speed(p, w) > rest_speed(p, u)
-            if sliding_along(p, z, w) < 0.0 and grip > 0.0 and moves and h > 16.0 * finest:
+            if sliding_along(p, z, w, HERE) < 0.0 and grip > 0.0 and moves and h > 16.0 * finest:
                 error = 2.0
                 h *= 0.5
                 load_instant(p, z, w, HERE)
@@ -177,7 +120,7 @@ def finish_slip_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> N
     Takes the contact at NEXT that `try_step` has left in ``w``.
     """
     speed = scaled_sliding_speed(p, w)
-    if sliding_along(p, z, w) < 0.0:
+    if sliding_along(p, z, w, HERE) < 0.0:
         settle(p, u, z, w, e, NEXT)
     elif z[NEXT + QUASI_STEADY] == 1.0:
         keep_direction_steady(p, u, z, w, NEXT)

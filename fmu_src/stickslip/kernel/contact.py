@@ -7,28 +7,7 @@ from math import sqrt
 from . import Floats
 from .friction.coefficient import holding_coefficient, onset_coefficient
 from .friction.disc import disc_friction
-from .layout import (
-    OMEGA,
-    P_FREE_PHI,
-    P_FREE_Y,
-    P_INERTIA,
-    P_LATERAL,
-    P_MASS,
-    P_NORMAL_FORCE,
-    P_RADIUS,
-    P_SPEED_SCALE,
-    P_TOLERANCE,
-    TIME,
-    U_SPEED,
-    VX,
-    VY,
-    W_DIRECTION,
-    W_FRICTION,
-    W_LOAD,
-    W_PAIR,
-    W_SLIDING,
-    W_SURFACE,
-)
+from .layout import *
 from .rig.drive import external_moment, force_across, force_along
 from .rig.springs import add_damping, add_spring_forces
 from .rig.surface import surface_motion

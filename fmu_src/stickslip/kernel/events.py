@@ -5,47 +5,9 @@ from __future__ import annotations
 from math import sqrt
 
 from . import Floats
-from .contact import (
-    rest_speed,
-    scaled_sliding_speed,
-    set_holding_load,
-    set_onset_direction,
-)
+from .contact import rest_speed, scaled_sliding_speed, set_holding_load, set_onset_direction
 from .friction.coefficient import age_left, holding_coefficient
-from .layout import (
-    AGE_AWAY,
-    DIRECTION,
-    DISTANCE,
-    DISTANCE_AWAY,
-    E_CAPACITY,
-    E_COUNT,
-    E_FIRST,
-    E_WIDTH,
-    HERE,
-    HOLD_SINCE,
-    MODE,
-    NEXT,
-    OMEGA,
-    P_FREE_PHI,
-    P_FREE_Y,
-    P_LATERAL,
-    P_NORMAL_FORCE,
-    P_RADIUS,
-    P_TOLERANCE,
-    QUASI_STEADY,
-    SLIP,
-    SLIPS,
-    STICK,
-    TIME,
-    VX,
-    VY,
-    W_DIRECTION,
-    W_SLIDING,
-    W_STATE,
-    W_STEADY,
-    WORK_SURFACE,
-    X,
-)
+from .layout import *
 from .motion import kinetic_energy
 from .rest import come_to_rest, excess_load, look_at, set_contact_in_phase
 from .runge_kutta import begin_step, load_instant, take_step

@@ -31,7 +31,7 @@ of the surface, come from their past, see `rig.history`.
 from __future__ import annotations
 
 from . import Floats
-from .advance import settle_contact
+from .advance import settle_contact, sliding_along
 from .bristles.events import mode_excess
 from .bristles.law import has_bristles
 from .contact import (
@@ -44,56 +44,7 @@ from .contact import (
 )
 from .events import log_event, note_break_away, release, set_direction, settle
 from .friction.coefficient import age_left, holding_coefficient
-from .layout import (
-    BRISTLES,
-    DIRECTION,
-    DONE,
-    HEAT,
-    HOLD_SINCE,
-    MODE,
-    MODE_CHANGED,
-    O_HEAT_FLOW,
-    OMEGA,
-    P_FREE_PHI,
-    P_FREE_Y,
-    P_INERTIA,
-    P_LATERAL,
-    P_MASS,
-    P_PRESLIDING,
-    P_RADIUS,
-    P_RATE,
-    P_RUN_UP,
-    P_SHORTEST,
-    P_STICK_RATIO,
-    P_TOLERANCE,
-    PHI,
-    QUASI_STEADY,
-    SHOWN,
-    SLIDING_BEGINS,
-    SLIDING_ENDS,
-    SLIDING_GOES_ON,
-    SLIP,
-    SLIP_TIME,
-    SPRING_COLLAPSED,
-    STATES,
-    STICK,
-    TIME,
-    VX,
-    VY,
-    W_DIRECTION,
-    W_FRICTION,
-    W_RUNNING_UP,
-    W_SLIDING,
-    W_SLOPES,
-    W_STATE,
-    W_SURFACE,
-    WORK_SURFACE,
-    Z_FASTER,
-    Z_RAMPING,
-    Z_SLIDING,
-    X,
-    Y,
-)
+from .layout import *
 from .motion import set_slopes
 from .outputs import show
 from .rest import excess_load, look_at, stop_sliding
@@ -129,14 +80,6 @@ def load_moment(p: Floats, z: Floats, w: Floats) -> None:
     """Make SHOWN what the laws of motion look at, in the phase of the surface between events."""
     load_instant(p, z, w, SHOWN)
     w[W_RUNNING_UP] = z[Z_RAMPING]
-
-
-def along_direction(p: Floats, z: Floats, w: Floats) -> float:
-    """Sliding velocity in ``w`` along the direction of the slip, m/s: below 0 if reversed."""
-    along = w[W_SLIDING] * z[SHOWN + DIRECTION]
-    along += p[P_LATERAL] * w[W_SLIDING + 1] * z[SHOWN + DIRECTION + 1]
-    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[SHOWN + DIRECTION + 2]
-    return along
 
 
 def put_states(z: Floats, s: Floats) -> None:
@@ -180,7 +123,7 @@ def slowest_slip(p: Floats, u: Floats) -> float:
 def set_rates_in_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Slopes of a slip, into ``w[W_SLOPES:]``; of one that has turned back, of its mirror image."""
     set_contact(p, u, w, W_STATE)
-    along = along_direction(p, z, w)
+    along = sliding_along(p, z, w, SHOWN)
     if along < 0.0:
         back = 2.0 * along
         w[W_STATE + VX] -= back * z[SHOWN + DIRECTION]
@@ -312,7 +255,7 @@ def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats) -> Non
     set_contact(p, u, w, W_STATE)
     slow = slowest_slip(p, u)
     speed = scaled_sliding_speed(p, w)
-    g[0] = along_direction(p, z, w)
+    g[0] = sliding_along(p, z, w, SHOWN)
     if z[Z_SLIDING] == SLIDING_BEGINS:
         g[0] += TURNED_BACK * slow
     g[0] /= speed_scale(p, u)
@@ -352,7 +295,7 @@ def settle_sliding(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     speed = scaled_sliding_speed(p, w)
     if speed > slowest_slip(p, u):
         slide_on(p, u, z, speed)
-    if speed > 0.0 and along_direction(p, z, w) < 0.0:  # nothing has stopped it: no friction
+    if speed > 0.0 and sliding_along(p, z, w, SHOWN) < 0.0:  # nothing has stopped it: no friction
         set_direction(p, z, w, SHOWN, speed)
 
 
@@ -385,7 +328,7 @@ def end_part_of_slip(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> N
     look_at(p, u, z, w, SHOWN)
     slow = slowest_slip(p, u)
     speed = scaled_sliding_speed(p, w)
-    along = along_direction(p, z, w)
+    along = sliding_along(p, z, w, SHOWN)
     grip = holding_coefficient(p, u, w)  # without it nothing comes to rest
     if along < -REVERSED * speed and grip > 0.0:
         stop_sliding(p, u, z, w, SHOWN, 0.0)
@@ -447,7 +390,7 @@ def complete_step(p: Floats, u: Floats, z: Floats, w: Floats) -> int:
     if z[SHOWN + MODE] == SLIP and z[Z_SLIDING] == SLIDING_GOES_ON and not has_bristles(p):
         look_at(p, u, z, w, SHOWN)
         speed = scaled_sliding_speed(p, w)
-        if along_direction(p, z, w) > 0.0 and speed > slowest_slip(p, u):
+        if sliding_along(p, z, w, SHOWN) > 0.0 and speed > slowest_slip(p, u):
             set_direction(p, z, w, SHOWN, speed)
             if z[Z_FASTER] == 0.0 or z[Z_FASTER] > FASTER * speed:
                 slide_on(p, u, z, speed)

@@ -17,42 +17,8 @@ from math import isfinite
 
 from . import Floats
 from .bristles.law import has_bristles
-from .layout import (
-    ALL_STAGES,
-    BETWEEN,
-    DISTANCE,
-    EXTRA_POWERS,
-    HEAT,
-    HERE,
-    INSTANT,
-    LATE,
-    MODE,
-    NEXT,
-    P_TABLEAU,
-    POWERS,
-    SHOWN,
-    SLIP,
-    SLIP_TIME,
-    STAGES,
-    STATES,
-    STICK,
-    T_B,
-    T_D,
-    TIME,
-    W_SLOPES,
-    W_SPAN,
-    Z_DENSE,
-    Z_SMOOTH,
-    Z_SPAN,
-)
-from .runge_kutta import (
-    add_stage,
-    begin_step,
-    finish_stick,
-    load_instant,
-    state_scale,
-    take_step,
-)
+from .layout import *
+from .runge_kutta import add_stage, begin_step, finish_stick, load_instant, state_scale, take_step
 
 
 def copy_instant(z: Floats, source: int, target: int) -> None:

@@ -370,6 +370,11 @@ T_E5: int
 T_E3: int
 T_D: int
 T_SIZE: int
+STAGE_WEIGHTS: tuple[float, ...]
+NODES: tuple[float, ...]
+ERROR_WEIGHTS_5: tuple[float, ...]
+ERROR_WEIGHTS_3: tuple[float, ...]
+INTERPOLANT_WEIGHTS: tuple[float, ...]
 Q_STRIP: int
 Q_RAY: int
 Q_DEPTH: int

@@ -6,41 +6,7 @@ from . import Floats
 from .bristles.law import bristle_energy, has_bristles, set_bristle_friction, storing_power
 from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load
 from .friction.force import friction_at_onset, friction_in_slip
-from .layout import (
-    BRISTLES,
-    DAMPED,
-    DISTANCE,
-    HEAT,
-    OMEGA,
-    P_FREE_PHI,
-    P_FREE_Y,
-    P_INERTIA,
-    P_LATERAL,
-    P_MASS,
-    P_PRESLIDING,
-    P_RADIUS,
-    PHI,
-    QUASI_STEADY,
-    SHEAR_X,
-    SLIP,
-    STICK,
-    TIME,
-    TRAVEL,
-    VX,
-    VY,
-    W_DIRECTION,
-    W_FRICTION,
-    W_LOAD,
-    W_MEAN_SPEED,
-    W_SHEARING,
-    W_SLIDING,
-    W_STATE,
-    W_SURFACE,
-    WORK_EXTERNAL,
-    WORK_SURFACE,
-    X,
-    Y,
-)
+from .layout import *
 from .rig.drive import external_moment, force_across, force_along
 from .rig.springs import damping_power, elastic_energy
 from .rig.surface import surface_speed

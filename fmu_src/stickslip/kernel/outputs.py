@@ -4,43 +4,7 @@ from __future__ import annotations
 
 from . import Floats
 from .advance import advance
-from .layout import (
-    DAMPED,
-    DISTANCE,
-    DONE,
-    HEAT,
-    MODE,
-    O_DAMPED,
-    O_DISTANCE,
-    O_ENERGY_RESIDUAL,
-    O_EXTERNAL_WORK,
-    O_FRICTION_X,
-    O_HEAT,
-    O_HEAT_FLOW,
-    O_MODE,
-    O_SIZE,
-    O_SLIDING_SPEED,
-    O_SLIP_TIME,
-    O_SLIPS,
-    O_SURFACE_SPEED,
-    O_SURFACE_WORK,
-    O_TRAVEL,
-    O_X,
-    SHOWN,
-    SLIP_TIME,
-    SLIPS,
-    TIME,
-    TRACKED,
-    TRAVEL,
-    W_FRICTION,
-    W_MEAN_SPEED,
-    WORK_EXTERNAL,
-    WORK_SURFACE,
-    Z_ENERGY,
-    Z_HEAT_BEFORE,
-    Z_TIME_BEFORE,
-    X,
-)
+from .layout import *
 from .motion import block_energy
 from .rig.surface import surface_speed
 from .runge_kutta import begin_step

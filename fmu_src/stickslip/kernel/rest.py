@@ -5,40 +5,9 @@ from __future__ import annotations
 from math import sqrt
 
 from . import Floats
-from .contact import (
-    holding_ratio,
-    rest_speed,
-    scaled_sliding_speed,
-    set_contact,
-    set_holding_load,
-)
+from .contact import holding_ratio, rest_speed, scaled_sliding_speed, set_contact, set_holding_load
 from .friction.force import friction_in_slip
-from .layout import (
-    HEAT,
-    MODE,
-    OMEGA,
-    P_FREE_PHI,
-    P_FREE_Y,
-    P_INERTIA,
-    P_LATERAL,
-    P_LOCAL_LAW,
-    P_LONGEST_STEP,
-    P_MASS,
-    P_PRESLIDING,
-    P_RADIUS,
-    P_STICK_RATIO,
-    SLIP,
-    TIME,
-    VX,
-    VY,
-    W_FRICTION,
-    W_LOAD,
-    W_SLIDING,
-    W_SLOPES,
-    W_STATE,
-    W_SURFACE,
-    WORK_SURFACE,
-)
+from .layout import *
 from .rig.surface import set_surface_phase
 from .runge_kutta import follow_surface, load_instant
 from .stick import set_stick_velocity

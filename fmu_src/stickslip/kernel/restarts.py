@@ -10,31 +10,7 @@ from math import isfinite
 
 from . import Floats
 from .advance import advance
-from .layout import (
-    BRISTLES,
-    HELD,
-    HOLD_SINCE,
-    MODE,
-    P_MU_K,
-    P_MU_S,
-    P_MU_SCALE,
-    R_HOLD_SINCE,
-    R_MU_K,
-    R_MU_S,
-    R_MU_SCALE,
-    R_ROW,
-    R_SIZE,
-    R_STATE,
-    SHOWN,
-    SLIP,
-    STICK,
-    TIME,
-    UNKNOWN,
-    VX,
-    Z_HAS_NEXT,
-    Z_STARTED,
-    X,
-)
+from .layout import *
 from .outputs import record, track
 from .rest import look_at
 from .runge_kutta import follow_surface

@@ -7,49 +7,7 @@ from math import sqrt
 from . import Floats
 from .bristles.law import has_bristles
 from .contact import speed_scale
-from .layout import (
-    ALL_STAGES,
-    DIRECTION,
-    DISTANCE,
-    HEAT,
-    INSTANT,
-    LATE,
-    MODE,
-    MOVING,
-    NORM,
-    OMEGA,
-    P_FEEDING,
-    P_LATERAL,
-    P_MASS,
-    P_PRESLIDING,
-    P_RADIUS,
-    P_RATE,
-    P_TABLEAU,
-    P_TOLERANCE,
-    PHI,
-    SHEARED,
-    SLIP,
-    SLIP_TIME,
-    STAGES,
-    STATES,
-    STICK,
-    T_A,
-    T_B,
-    T_C,
-    T_E3,
-    T_E5,
-    TIME,
-    TRAVEL,
-    VX,
-    VY,
-    W_DIRECTION,
-    W_SLOPES,
-    W_SPAN,
-    W_STATE,
-    WORK_SURFACE,
-    X,
-    Y,
-)
+from .layout import *
 from .motion import set_slopes
 from .rig.surface import set_surface_phase
 from .stick import held_energy, set_stick_velocity

@@ -33,34 +33,7 @@ from .contact import (
 from .friction.coefficient import feels_slow_speed, onset_coefficient, slow_coefficient
 from .friction.disc import disc_friction
 from .friction.force import friction_at_onset, friction_in_slip
-from .layout import (
-    OMEGA,
-    P_CURVATURE,
-    P_FREE_PHI,
-    P_FREE_Y,
-    P_INERTIA,
-    P_LATERAL,
-    P_MASS,
-    P_NORMAL_FORCE,
-    P_RADIUS,
-    P_RATE,
-    PHI,
-    TIME,
-    VX,
-    VY,
-    W_DIRECTION,
-    W_FRICTION,
-    W_LOAD,
-    W_MEAN_SPEED,
-    W_PAIR,
-    W_SLIDING,
-    W_SLOPES,
-    W_STATE,
-    W_STEADY,
-    W_SURFACE,
-    X,
-    Y,
-)
+from .layout import *
 
 # Of the motion's own speed; above it an explicit step is long enough to follow the turning.
 QUASI_STEADY_SPEED = 1e-4

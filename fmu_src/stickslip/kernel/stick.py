@@ -25,30 +25,7 @@ from . import Floats
 from .contact import set_contact, set_holding_load, set_sliding_velocity
 from .friction.coefficient import holding_coefficient
 from .friction.disc import disc_friction
-from .layout import (
-    OMEGA,
-    P_CURVATURE,
-    P_DAMPING_QUADRATIC,
-    P_DAMPING_ROTATION,
-    P_FREE_PHI,
-    P_FREE_Y,
-    P_INERTIA,
-    P_LATERAL,
-    P_MASS,
-    P_NORMAL_FORCE,
-    P_PRESLIDING,
-    P_RADIUS,
-    P_STICK_RATIO,
-    VX,
-    VY,
-    W_FRICTION,
-    W_LOAD,
-    W_MEAN_SPEED,
-    W_PAIR,
-    W_SLIDING,
-    W_STATE,
-    W_SURFACE,
-)
+from .layout import *
 from .rig.springs import damping_per_speed
 from .rig.surface import surface_motion
 

@@ -30,7 +30,9 @@ the effects' declarations name theirs, and `constants` counts.
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 
 from ..effects import EFFECTS
 from ..effects.effect import Effect
@@ -389,6 +391,12 @@ def drawn(effects: Sequence[Effect], places: Mapping[str, int]) -> dict[str, tup
     return {"DRAW_SEED": tuple(seeds), "DRAW_UNIFORM": tuple(uniform)}
 
 
+def tableau() -> dict[str, tuple[float, ...]]:
+    """The method's coefficients, row after row."""
+    rows = tomllib.loads(Path(__file__).with_name("dormand_prince.toml").read_text("utf-8"))
+    return {name: tuple(number for row in table for number in row) for name, table in rows.items()}
+
+
 def constants(
     effects: Sequence[Effect] = EFFECTS,
 ) -> dict[str, int | float | tuple[float, ...]]:
@@ -417,6 +425,7 @@ def constants(
         **_sized(_placed([*DRAWS, *draw_slots(effects)]), "D_SIZE"),
         **drawn(effects, given),
         **_sized(_placed(TABLEAU), "T_SIZE"),
+        **tableau(),
         **_sized(_placed(QUADRATURE), "Q_SIZE"),
         **_sized(_placed(scratch(size, states)), "W_SIZE"),
         **_sized(_placed(EVENTS), "E_FIRST"),

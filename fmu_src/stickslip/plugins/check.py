@@ -11,7 +11,7 @@ from typing import Any, NoReturn
 from ..effects.effect import Effect
 from ..generation.c import c_source
 from ..generation.c_program import BUILTINS, MATH, MATH_NUMBERS
-from ..generation.functions import NAMES, named_numbers
+from ..generation.functions import NAMES, named_numbers, names_in
 from ..generation.slots import functions_in_kernel, packed_terms
 from .errors import PluginError
 
@@ -36,7 +36,7 @@ def check_translatable(effect: Effect, file: Path, text: str) -> None:
     wanted = [_name(function, defined, file) for function in _called_by_kernel(effect)]
     wanted = list(dict.fromkeys(wanted))
     for name in wanted:  # grows as it goes
-        for node in _names_in(defined[name]):
+        for node in names_in(defined[name]):
             if node.id in defined:
                 wanted += [] if node.id in wanted else [node.id]
             elif node.id not in {*numbers, *imported, *NAMES}:
@@ -85,15 +85,6 @@ def _check_signature(node: ast.FunctionDef, file: Path) -> None:
         if spelled is None or ast.unparse(spelled) != "float":
             what = f"what {node.name} returns" if part is None else f"{part.arg} of {node.name}"
             _refuse(file, part or node, f"{what} is not declared as float")
-
-
-def _names_in(function: ast.FunctionDef) -> Iterator[ast.Name]:
-    """Names of the file that a function uses; its own arguments and variables hide them."""
-    own = {each.arg for each in function.args.args}
-    inner = [node for part in function.body for node in ast.walk(part)]
-    names = [node for node in inner if isinstance(node, ast.Name)]
-    own |= {node.id for node in names if isinstance(node.ctx, ast.Store)}
-    return (node for node in names if node.id not in own)
 
 
 def _imported(tree: ast.Module, file: Path) -> Iterator[str]:

@@ -46,11 +46,6 @@ class Faults:
         """These faults and no other; ValueError for an unknown one."""
         return replace(Faults.mended(), **{known(one): True for one in ids})
 
-    @property
-    def present(self) -> tuple[str, ...]:
-        """Ids of the faults that are in."""
-        return tuple(field.name for field in fields(self) if getattr(self, field.name))
-
 
 def known(fault: str) -> str:
     """``fault`` itself, or ValueError with the ids that are allowed."""

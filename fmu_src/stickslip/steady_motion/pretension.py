@@ -43,11 +43,6 @@ class PretensionBorders:
             return 0.0
         return self.windows[0][1]
 
-    @property
-    def further(self) -> tuple[tuple[float, float | None], ...]:
-        """Windows of instability above `least`."""
-        return tuple(window for window in self.windows if window[0] > 0.0)
-
 
 def pretension_borders(
     parameters: Parameters,

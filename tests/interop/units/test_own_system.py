@@ -15,7 +15,8 @@ from fmpy.ssp.ssd import read_ssv
 
 from cosim import read_scenario, run_scenario
 from cosim.cli import main
-from cosim.coupling.record import CheckpointError, RunFolder
+from cosim.coupling.record import RunFolder
+from cosim.coupling.record.checkpoint import CheckpointError
 from cosim.fmu.build import SYSTEM
 from cosim.fmu.thermal import structure
 from cosim.systems import read_system, run_system

@@ -6,10 +6,10 @@ import os
 import numpy as np
 import pytest
 
-from cosim.coupling.record import (
+from cosim.coupling.record import RunFolder
+from cosim.coupling.record.checkpoint import (
     Checkpoint,
     CheckpointError,
-    RunFolder,
     load_checkpoint,
     require_same_setup,
     save_checkpoint,

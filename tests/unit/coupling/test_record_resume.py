@@ -13,7 +13,8 @@ import pytest
 from saved_pendulums import ORDER, pendulums
 
 from cosim.coupling import GaussSeidel, run
-from cosim.coupling.record import CheckpointError, Keep, RunFolder, load_checkpoint
+from cosim.coupling.record import Keep, RunFolder
+from cosim.coupling.record.checkpoint import CheckpointError, load_checkpoint
 from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton
 from cosim.coupling.schemes.explicit import Jacobi
 from cosim.coupling.schemes.iterated import Iterated

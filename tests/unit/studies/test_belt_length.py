@@ -17,17 +17,14 @@ from cosim.studies.belt_length import (
     Protocol,
     Study,
     cases,
-    drift,
     empty_map,
     fill_map,
-    friction_effect,
-    run_drift,
     shortest_belt,
-    steady_drift,
     verdict,
     work_off,
 )
-from cosim.studies.belt_length.changes import linear_sensitivity
+from cosim.studies.belt_length.changes import friction_effect, linear_sensitivity
+from cosim.studies.belt_length.drift import drift, run_drift, steady_drift
 from cosim.studies.belt_length.lengths import LENGTHS, SPEEDS
 from thermal.belt.air import moving_belt
 from thermal.steady_sliding import SteadySliding

@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 
 import cosim.studies.belt_length.case as case_module
-from cosim.studies.belt_length import Case, Protocol, interface_drift, run_drift, uncertainty
+from cosim.studies.belt_length import Case, Protocol
+from cosim.studies.belt_length.drift import interface_drift, run_drift
 from cosim.studies.belt_length.lengths import shortest_in_doubt
 from cosim.studies.belt_length.polynomial import fitted
+from cosim.studies.belt_length.uncertainty import uncertainty
 from cosim.studies.belt_length.unknowns import (
     ENTRY,
     ICE,

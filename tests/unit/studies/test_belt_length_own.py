@@ -12,12 +12,11 @@ from cosim.studies.belt_length import (
     Case,
     StudyError,
     how_long,
-    interface_drift,
-    run_drift,
     scenario_case,
     shortest_belt,
     with_ranges,
 )
+from cosim.studies.belt_length.drift import interface_drift, run_drift
 from cosim.studies.belt_length.lengths import rounded_up
 from cosim.studies.belt_length.show.answer import answered
 from cosim.studies.belt_length.unknowns import UNKNOWNS, unknowns_of

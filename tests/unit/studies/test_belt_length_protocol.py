@@ -10,14 +10,11 @@ from cosim.studies.belt_length import (
     Case,
     Protocol,
     StudyError,
-    changes,
-    drift,
-    interface_drift,
-    run_drift,
     scenario_case,
     shortest_belt,
-    wait,
 )
+from cosim.studies.belt_length.changes import changes
+from cosim.studies.belt_length.drift import drift, interface_drift, run_drift, wait
 from thermal import ParameterError
 
 AS_PRINTED = 0.05

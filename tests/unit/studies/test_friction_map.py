@@ -13,16 +13,15 @@ from command_line import executed
 from cosim import read_scenario
 from cosim.cli import is_bad_input
 from cosim.cli.studies import friction_map as friction_regimes_command
-from cosim.studies.friction_map import (
-    FrictionMap,
+from cosim.studies.friction_map import FrictionMap, friction_map
+from cosim.studies.friction_map import map as map_module
+from cosim.studies.friction_map.laws import conducted_share, laws_of
+from cosim.studies.friction_map.map import (
     SteadySliding,
     decade_slopes,
-    friction_map,
     lowest_friction,
     steady_scenario,
 )
-from cosim.studies.friction_map import map as map_module
-from cosim.studies.friction_map.laws import conducted_share, laws_of
 from cosim.studies.friction_map.page import draw_map, page, tiles
 
 CASE = read_scenario("melting_friction").changed(

@@ -8,8 +8,9 @@ from matplotlib.colors import to_rgb
 
 from cosim import read_scenario
 from cosim.report.style import shown
-from cosim.studies.stability import PretensionMap, maps
+from cosim.studies.stability import maps
 from cosim.studies.stability.figures import draw_pretension_map, draw_regime_map
+from cosim.studies.stability.maps import PretensionMap
 
 PARAMETERS = read_scenario("study").mechanics
 CASE = SimpleNamespace(name="known", parameters=PARAMETERS, interface=None)

@@ -421,7 +421,7 @@ def test_entities_are_refused(write):
     text = structure(system(BOTH, CHAIN)).replace('name="made"', 'name="&e;"')
     with pytest.raises(SystemFault, match="SystemStructure.ssd"):
         run(write(ENTITIES + text))
-    with pytest.raises(SystemFault, match="declares a document type, which no SSP has"):
+    with pytest.raises(SystemFault, match="has a document type"):
         run(write(ENTITIES + structure(system(BOTH, CHAIN))))
 
 
@@ -433,7 +433,7 @@ def test_members_that_point_outside_are_refused(tmp_path, name):
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("SystemStructure.ssd", structure(system(BOTH, CHAIN)))
         archive.writestr(name, "x")
-    with pytest.raises(SystemFault, match="points outside the package"):
+    with pytest.raises(SystemFault, match="points outside the folder"):
         run(path)
 
 
@@ -451,7 +451,7 @@ def test_links_in_a_package_are_refused(tmp_path):
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("SystemStructure.ssd", structure(system(BOTH, CHAIN)))
         archive.writestr(link, "/etc/passwd")
-    with pytest.raises(SystemFault, match="is a link, allowed are files"):
+    with pytest.raises(SystemFault, match="is a symbolic link"):
         run(path)
 
 
@@ -462,7 +462,7 @@ def test_a_zip_bomb_is_not_opened(tmp_path):
         with archive.open("resources/zeros", "w") as member:
             for _ in range(80):
                 member.write(bytes(1 << 20))
-    with pytest.raises(SystemFault, match="would unpack to 80 MiB from"):
+    with pytest.raises(SystemFault, match=r"times as large unpacked \(80 MiB\)"):
         run(path)
 
 

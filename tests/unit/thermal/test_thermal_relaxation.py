@@ -3,7 +3,7 @@ from decimal import Decimal, getcontext
 import numpy as np
 import pytest
 
-from thermal.relaxation import LastDurations, mean_decay, mean_response
+from thermal.relaxation import mean_decay, mean_response
 
 
 @pytest.mark.parametrize("x", [0.0, 1e-300, 1e-12, 1e-4, 0.1, 0.699, 0.7, 0.701, 3.0, 50.0, 1e6])
@@ -15,10 +15,3 @@ def test_against_fifty_digits(x):
     second = (decay - 1 + exact) / exact**2 if x else Decimal("0.5")
     assert mean_decay(np.array([x]))[0] == pytest.approx(float(first), rel=4e-16)
     assert mean_response(np.array([x]))[0] == pytest.approx(float(second), rel=2e-15)
-
-
-def test_last_durations_forgets_the_oldest():
-    computed = []
-    known = LastDurations(lambda duration: computed.append(duration) or 2 * duration, kept=2)
-    assert [known(d) for d in (1.0, 2.0, 1.0, 3.0, 1.0)] == [2.0, 4.0, 2.0, 6.0, 2.0]
-    assert computed == [1.0, 2.0, 3.0, 1.0]

@@ -67,12 +67,12 @@ def entries(table):
 
 @pytest.mark.parametrize(("length", "speed", "h", "rise"), entries(SHARED))
 def test_heat_shared_with_the_ice(length, speed, h, rise):
-    assert sliding(length, speed, h).until(DURATION).entry == close(rise)
+    assert sliding(length, speed, h).run(DURATION).entry == close(rise)
 
 
 @pytest.mark.parametrize(("length", "speed", "h", "rise"), entries(ALL_TO_BELT))
 def test_all_heat_to_the_belt(length, speed, h, rise):
-    assert sliding(length, speed, h, ice=NO_ICE).until(DURATION).entry == close(rise)
+    assert sliding(length, speed, h, ice=NO_ICE).run(DURATION).entry == close(rise)
 
 
 @pytest.mark.parametrize(("length", "speed", "h", "rise"), entries(STEADY_ALL_TO_BELT))

@@ -110,7 +110,7 @@ def test_long_steps_and_small_steps_agree_on_railing_and_rollers(speed):
     for _ in range(1000):
         model.step(0.02, 4.03 * speed * 0.02, speed * 0.02)
     outputs = model.outputs()
-    state = SteadySliding(ThermalParameters(belt=belt), speed, 4.03).until(20.0)
+    state = SteadySliding(ThermalParameters(belt=belt), speed, 4.03).run(20.0)
     assert (state.entry, state.ice_face) == pytest.approx(
         (outputs["belt_entry_temperature"] + 8.0, outputs["ice_face_temperature"] + 8.0), rel=5e-3
     )

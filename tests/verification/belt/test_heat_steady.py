@@ -122,7 +122,7 @@ def test_long_steps_follow_the_transient(length, speed):
     model = BeltIceModel(parameters)
     for _ in range(2000):
         model.step(0.01, 4.03 * speed * 0.01, speed * 0.01)
-    state = SteadySliding(parameters, speed, 4.03).until(20.0)
+    state = SteadySliding(parameters, speed, 4.03).run(20.0)
     assert (state.entry, state.exit, state.ice_face, state.mean_interface) == pytest.approx(
         rises(model), rel=3e-3
     )
@@ -168,7 +168,7 @@ def test_friction_that_feels_the_temperature_settles_where_it_must():
     parameters, s = ThermalParameters(belt=Belt(cell_length=4e-3)), 0.1
     cold = SteadySliding(parameters, 0.5, 4.0).settle().mean_interface
     sliding = SteadySliding(parameters, 0.5, 4.0, sensitivity=s)
-    sliding.until(20.0)
+    sliding.run(20.0)
     warm = sliding.settle().mean_interface
     assert warm == pytest.approx(cold / (1.0 + s * cold), rel=1e-9)
     for _ in range(3):

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from cosim import read_scenario
-from cosim.studies.friction_map import lowest_friction, steady_sliding
+from cosim.studies.friction_map.map import lowest_friction, steady_sliding
 
 COARSE = {"ice.radial_elements": 3, "ice.axial_elements": 6}
 LIGHT = read_scenario("melting_friction").changed(COARSE)

@@ -15,22 +15,7 @@ from .. import Floats
 from ..contact import scaled_sliding_speed
 from ..events import log_event, note_break_away
 from ..friction.coefficient import age_left
-from ..layout import (
-    BRISTLES,
-    HEAT,
-    HELD,
-    HERE,
-    HOLD_SINCE,
-    MODE,
-    NEXT,
-    P_FAST_SLIP,
-    P_TOLERANCE,
-    P_TRANSITION_SPEED,
-    SLIP,
-    STICK,
-    TIME,
-    Z_ENERGY,
-)
+from ..layout import *
 from ..rest import look_at
 from ..runge_kutta import load_instant, take_step
 from .law import (

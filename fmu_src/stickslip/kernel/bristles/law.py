@@ -30,33 +30,7 @@ from math import sqrt
 from .. import Floats
 from ..contact import holding_ratio, scaled_sliding_speed, set_contact, set_holding_load
 from ..friction.force import add_contact_drag, set_sliding_coefficients
-from ..layout import (
-    OMEGA,
-    P_BRISTLE_DAMPING,
-    P_BRISTLE_STIFFNESS,
-    P_FREE_PHI,
-    P_FREE_Y,
-    P_LATERAL,
-    P_MU_K,
-    P_MU_S,
-    P_NORMAL_FORCE,
-    P_RADIUS,
-    P_RATE,
-    P_TRANSITION_SPEED,
-    SHEAR_X,
-    TIME,
-    VX,
-    VY,
-    W_DIRECTION,
-    W_FRICTION,
-    W_PAIR,
-    W_SHEARING,
-    W_SLIDING,
-    W_STATE,
-    W_STEADY,
-    W_YIELD_RATE,
-    X,
-)
+from ..layout import *
 from ..steady_sliding import LOOK_AHEAD
 
 # Of its friction that a contact keeps where a law leaves it none: without a limit bristles would

@@ -10,31 +10,7 @@ from math import sqrt
 
 from .. import Floats
 from ..contact import scaled_sliding_speed, speed_scale
-from ..layout import (
-    BRISTLES,
-    HERE,
-    MODE,
-    NEXT,
-    OMEGA,
-    P_BRISTLE_STIFFNESS,
-    P_FAST_SLIP,
-    P_LATERAL,
-    P_MASS,
-    P_MU_K,
-    P_MU_S,
-    P_NORMAL_FORCE,
-    P_RADIUS,
-    P_RATE,
-    P_TOLERANCE,
-    STICK,
-    TIME,
-    VX,
-    VY,
-    W_SLIDING,
-    W_SLOPES,
-    W_SURFACE,
-    W_YIELD_RATE,
-)
+from ..layout import *
 from ..rest import look_at, stopping_time
 from ..runge_kutta import begin_step, load_instant, take_step
 from .events import FAST_SLIP_BEGINS, FAST_SLIP_ENDS, change_mode, slide_steadily

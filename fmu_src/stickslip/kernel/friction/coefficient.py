@@ -20,27 +20,7 @@ from __future__ import annotations
 from math import exp
 
 from .. import Floats
-from ..layout import (
-    AGE_AWAY,
-    DISTANCE,
-    DISTANCE_AWAY,
-    HOLD_SINCE,
-    MODE,
-    P_AGE_DISTANCE,
-    P_MU_S,
-    P_MU_SCALE,
-    P_TABLE_POINTS,
-    P_TABLE_ROWS,
-    P_TRANSITION_EXPONENT,
-    P_TRANSITION_SPEED,
-    STICK,
-    TIME,
-    U_FILM,
-    U_SINCE,
-    U_TEMPERATURE,
-    W_EXCESS,
-    W_STATE,
-)
+from ..layout import *
 from ..rig.drive import varies
 from ..terms import (
     feels_film,

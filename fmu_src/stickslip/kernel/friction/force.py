@@ -12,15 +12,7 @@ from __future__ import annotations
 from math import sqrt
 
 from .. import Floats
-from ..layout import (
-    P_LATERAL,
-    P_LOCAL_LAW,
-    P_NORMAL_FORCE,
-    P_RADIUS,
-    W_FRICTION,
-    W_MEAN_SPEED,
-    W_PAIR,
-)
+from ..layout import *
 from ..terms import with_contact_drag
 from .coefficient import (
     kinetic_coefficient,

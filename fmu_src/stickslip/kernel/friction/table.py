@@ -10,14 +10,7 @@ joined over the temperature in the same way. The rows' slopes are made once, in 
 from __future__ import annotations
 
 from .. import Floats
-from ..layout import (
-    P_TABLE,
-    P_TABLE_POINTS,
-    P_TABLE_ROWS,
-    P_TABLE_TEMPERATURE,
-    TABLE_ROW,
-    TABLE_WIDTH,
-)
+from ..layout import *
 
 
 def between(t: float, low: float, high: float, a: float, b: float) -> float:

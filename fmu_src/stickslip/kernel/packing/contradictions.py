@@ -6,37 +6,7 @@ What is said of each is in `stickslip.contradictions`.
 from __future__ import annotations
 
 from .. import Floats
-from ..layout import (
-    CURVE_LIMIT,
-    TABLE_LIMIT,
-    TEMPERATURE_LIMIT,
-    V_FRICTION_PRESLIDING_DISTANCE,
-    V_FRICTION_STICK_CREEP,
-    V_FRICTION_TABLE_MU,
-    V_FRICTION_TABLE_SPEED,
-    V_FRICTION_TABLE_TEMPERATURE_DEGC,
-    V_FRICTION_TRANSITION_SPEED,
-    V_INITIAL_OMEGA,
-    V_INITIAL_VY,
-    V_RATE_AND_STATE_DIRECT,
-    V_RATE_AND_STATE_EVOLUTION,
-    V_RIG_CONTACT_RADIUS,
-    V_RIG_FREE_PHI,
-    V_RIG_FREE_Y,
-    V_RIG_INERTIA,
-    V_RIG_MASS,
-    V_RIG_SPRING_LENGTH,
-    V_RIG_SPRING_NATURAL_LENGTH,
-    V_SIZE,
-    V_SPEED_RIPPLE_AMPLITUDE,
-    V_SPEED_RIPPLE_FREQUENCY,
-    V_SPRINGS_FORCE_CURVE_EXTENSION,
-    V_SPRINGS_FORCE_CURVE_FORCE,
-    V_STICK_STIFFNESS_RATIO,
-    V_SURFACE_PATTERN_WAVELENGTH,
-    V_SURFACE_SCATTER_CORRELATION_LENGTH,
-    V_TURNING_SURFACE_CURVATURE,
-)
+from ..layout import *
 from ..terms import has_dry_law
 from .points import count_grown, count_points
 

@@ -6,41 +6,7 @@ from math import log, sqrt
 
 from .. import Floats
 from ..friction.table import end_slope
-from ..layout import (
-    MOVING,
-    P_BRISTLE_DAMPING,
-    P_BRISTLE_STIFFNESS,
-    P_FAST_SLIP,
-    P_FEEDING,
-    P_LOCAL_LAW,
-    P_MASS,
-    P_MU_K,
-    P_MU_S,
-    P_MU_SCALE,
-    P_NORMAL_FORCE,
-    P_PRESLIDING,
-    P_TABLE,
-    P_TABLE_POINTS,
-    P_TABLE_ROWS,
-    P_TABLE_TEMPERATURE,
-    P_TRANSITION_EXPONENT,
-    P_TRANSITION_SPEED,
-    REMEMBERED,
-    SHEARED,
-    TABLE_ROW,
-    TABLE_WIDTH,
-    TEMPERATURE_LIMIT,
-    V_FRICTION_BRISTLE_DAMPING,
-    V_FRICTION_MU_K,
-    V_FRICTION_MU_S,
-    V_FRICTION_PRESLIDING_DISTANCE,
-    V_FRICTION_STICK_CREEP,
-    V_FRICTION_TABLE_MU,
-    V_FRICTION_TABLE_SPEED,
-    V_FRICTION_TABLE_TEMPERATURE_DEGC,
-    V_FRICTION_TRANSITION_EXPONENT,
-    V_FRICTION_TRANSITION_SPEED,
-)
+from ..layout import *
 from ..terms import has_ageing, has_local_law, has_memory, with_coefficient_factor
 from .points import copy_points, count_grown, count_points, inner_slope, secant
 

@@ -5,18 +5,7 @@ from __future__ import annotations
 from math import radians
 
 from .. import Floats
-from ..layout import (
-    D_MASS,
-    D_START_ANGLE,
-    D_START_POSITION,
-    P_INITIAL,
-    P_MASS,
-    V_IMPERFECTIONS_MASS,
-    V_IMPERFECTIONS_START_ANGLE_DEG,
-    V_IMPERFECTIONS_START_POSITION,
-    V_INITIAL_X,
-    V_RIG_MASS,
-)
+from ..layout import *
 
 
 def departure(d: Floats, i: int, deviation: float) -> float:

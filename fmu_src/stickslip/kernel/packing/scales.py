@@ -5,18 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 from .. import Floats
-from ..layout import (
-    GRAVITY,
-    P_INITIAL,
-    P_LONGEST_STEP,
-    P_LONGEST_STICK,
-    P_MASS,
-    P_MU_S,
-    P_RADIUS,
-    P_RATE,
-    P_SPEED_SCALE,
-    P_STIFFNESS,
-)
+from ..layout import *
 from ..terms import with_fastest_rate
 
 

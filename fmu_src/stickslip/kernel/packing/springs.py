@@ -5,25 +5,7 @@ from __future__ import annotations
 from math import cos, radians, sin
 
 from .. import Floats
-from ..layout import (
-    CURVE_WIDTH,
-    D_ANCHOR_POSITION,
-    D_SPRING_STIFFNESS,
-    P_ANCHOR,
-    P_ATTACH,
-    P_CURVE,
-    P_CURVE_POINTS,
-    P_RELATIVE_STIFFNESS,
-    P_SHORTEST,
-    P_STIFFNESS,
-    V_IMPERFECTIONS_ANCHOR_POSITION,
-    V_IMPERFECTIONS_SPRING_STIFFNESS,
-    V_RIG_ATTACHMENT_ANGLES_DEG,
-    V_RIG_ATTACHMENT_RADIUS,
-    V_RIG_SPRING_LENGTH,
-    V_SPRINGS_FORCE_CURVE_EXTENSION,
-    V_SPRINGS_FORCE_CURVE_FORCE,
-)
+from ..layout import *
 from ..terms import with_anchor_shift, with_spring_turn
 from .imperfections import departure
 from .points import copy_points, count_points, inner_slope, secant

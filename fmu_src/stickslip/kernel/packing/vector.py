@@ -3,29 +3,7 @@
 from __future__ import annotations
 
 from .. import Floats
-from ..layout import (
-    GRAVITY,
-    P_FEW_POINTS,
-    P_FREE_PHI,
-    P_FREE_Y,
-    P_INERTIA,
-    P_MASS,
-    P_NATURAL_LENGTH,
-    P_NORMAL_FORCE,
-    P_RADIUS,
-    P_RUN_UP,
-    P_SIZE,
-    P_STIFFNESS,
-    P_TOLERANCE,
-    V_RIG_CONTACT_RADIUS,
-    V_RIG_FREE_PHI,
-    V_RIG_FREE_Y,
-    V_RIG_INERTIA,
-    V_RIG_SPRING_NATURAL_LENGTH,
-    V_SOLVER_TOLERANCE,
-    V_SPRINGS_STIFFNESS,
-    V_SURFACE_RUN_UP_TIME,
-)
+from ..layout import *
 from ..terms import set_effect_numbers
 from .friction import set_friction_law, set_kind_of_law
 from .imperfections import set_mass, set_start

@@ -16,37 +16,7 @@ where a block breaks away would make it stick again. Inputs that are held jump t
 from __future__ import annotations
 
 from .. import Floats
-from ..layout import (
-    G_BEFORE,
-    G_CURVE,
-    G_CUT,
-    G_FIRST,
-    G_GOING,
-    G_HAD_RATE,
-    G_HAS_RATE,
-    G_LAST,
-    G_LINE,
-    G_POINT,
-    G_RATE,
-    G_RATE_BEFORE,
-    G_REACHED,
-    G_SLOPE,
-    G_STEP,
-    G_VALUE,
-    GIVEN_INPUTS,
-    U_FILM,
-    U_FORCE_X,
-    U_FORCE_X_RATE,
-    U_FORCE_Y,
-    U_FORCE_Y_RATE,
-    U_MOMENT,
-    U_MOMENT_RATE,
-    U_SINCE,
-    U_SPEED,
-    U_SPEED_CURVE,
-    U_SPEED_RATE,
-    U_TEMPERATURE,
-)
+from ..layout import *
 
 # Of a step: by how much what is left of it behind an event may miss its end, as a host rounds.
 ROUNDING = 1e-9

@@ -19,47 +19,7 @@ time for which it asks for rates and then leaves one as it is, holds it.
 from __future__ import annotations
 
 from .. import Floats
-from ..layout import (
-    DEGREES,
-    G_ASIDE,
-    G_ASKED_BY,
-    G_COUNT,
-    G_COURSE,
-    G_EVENT_TIME,
-    G_FIRST_RATE,
-    G_FOLLOWED,
-    G_GIVES_ALWAYS,
-    G_IN_EVENT,
-    G_IS_NEW,
-    G_MOMENT_TIME,
-    G_MOMENT_VALUE,
-    G_NEAR,
-    G_SET_TIME,
-    G_TABLE,
-    G_TREND,
-    G_VALUE,
-    GIVEN_INPUTS,
-    MOMENTS,
-    P_MU_K,
-    P_MU_S,
-    P_NORMAL_FORCE,
-    P_RADIUS,
-    P_RATE,
-    P_SPEED_SCALE,
-    P_TOLERANCE,
-    U_FILM,
-    U_FORCE_X,
-    U_FORCE_X_RATE,
-    U_FORCE_Y,
-    U_FORCE_Y_RATE,
-    U_MOMENT,
-    U_MOMENT_RATE,
-    U_SINCE,
-    U_SPEED,
-    U_SPEED_CURVE,
-    U_SPEED_RATE,
-    U_TEMPERATURE,
-)
+from ..layout import *
 from .drive import driven_acceleration, driven_speed, external_moment, force_across, force_along
 
 # Of the motion's own time: what lies nearer than that says of a rate nothing but its rounding,

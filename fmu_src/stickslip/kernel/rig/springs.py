@@ -5,26 +5,7 @@ from __future__ import annotations
 from math import cos, sin, sqrt
 
 from .. import Floats
-from ..layout import (
-    CURVE_WIDTH,
-    OMEGA,
-    P_ANCHOR,
-    P_ATTACH,
-    P_CURVE,
-    P_CURVE_POINTS,
-    P_DAMPING,
-    P_DAMPING_QUADRATIC,
-    P_DAMPING_ROTATION,
-    P_NATURAL_LENGTH,
-    P_RELATIVE_STIFFNESS,
-    P_STIFFNESS,
-    PHI,
-    VX,
-    VY,
-    W_LOAD,
-    X,
-    Y,
-)
+from ..layout import *
 from ..terms import with_spring_energy, with_spring_force
 
 

@@ -3,17 +3,7 @@
 from __future__ import annotations
 
 from .. import Floats
-from ..layout import (
-    P_CURVATURE,
-    P_RUN_UP,
-    TIME,
-    VX,
-    VY,
-    W_RUNNING_UP,
-    W_SURFACE,
-    X,
-    Y,
-)
+from ..layout import *
 from ..terms import with_surface_acceleration, with_surface_speed
 from .drive import driven_acceleration, driven_speed
 

@@ -152,7 +152,7 @@ REFUSED = {
         call("SerializeFMUstate", None, create_string_buffer(9), 9),
         "fmi2SerializeFMUstate: no state",
     ),
-    "too few bytes": (too_short, "fewer bytes than fmi2SerializedFMUstateSize asks for"),
+    "too few bytes": (too_short, "fewer bytes than a saved state takes"),
     "state of no bytes": (
         call("DeSerializeFMUstate", None, 0, byref(c_void_p())),
         "fmi2DeSerializeFMUstate: no bytes",
