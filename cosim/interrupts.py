@@ -172,7 +172,7 @@ def interruptible(*, ending: bool) -> Iterator[None]:
     if not _arrive_here():
         yield
         return
-    raising, passing = _Once(_raise), _Once(_pass_on)
+    raising, passing = _Once(signal.default_int_handler), _Once(_pass_on)
     handlers: dict[signal.Signals, Handler] = {
         number: raising if number == signal.SIGINT else passing
         for number in REQUESTS
@@ -196,33 +196,7 @@ class _Once:
             self._act(number, frame)
 
 
-def _raise(number: int, frame: FrameType | None) -> None:
-    """Raise KeyboardInterrupt, once the compiler has come to a place that survives it."""
-    if not _compiles(frame):
-        raise KeyboardInterrupt
-    later = threading.Timer(1.05 * SAME_WISH, _interrupt_main_thread)
-    later.daemon = True  # a command that ends before that has nothing to be interrupted
-    later.start()
-
-
-def _interrupt_main_thread() -> None:
-    main = threading.main_thread().ident
-    if main is None or not hasattr(signal, "pthread_kill"):  # not on Windows
-        signal.raise_signal(signal.SIGINT)
-    else:
-        signal.pthread_kill(main, signal.SIGINT)  # to that thread: it may be waiting for something
-
-
-def _compiles(frame: FrameType | None) -> bool:
-    """Whether LLVM is at work, whose callbacks print an exception, lose it, and go on broken."""
-    while frame is not None:
-        if str(frame.f_globals.get("__name__", "")).startswith("llvmlite.binding"):
-            return True
-        frame = frame.f_back
-    return False
-
-
 def _pass_on(number: int, frame: FrameType | None) -> None:
     """Do as Ctrl-C does just now: a run saves what it has first."""
     handler = signal.getsignal(signal.SIGINT)
-    (handler if callable(handler) else _raise)(number, frame)
+    (handler if callable(handler) else signal.default_int_handler)(number, frame)

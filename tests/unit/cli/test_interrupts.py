@@ -2,13 +2,11 @@
 
 import signal
 import threading
-import time
 
 import pytest
 
 from cosim.interrupts import (
     REQUESTS,
-    SAME_WISH,
     deferred_interrupt,
     held_interrupts,
     interruptible,
@@ -43,21 +41,6 @@ def test_a_key_held_down_interrupts_once():
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)
-
-
-def test_the_compiler_is_not_interrupted_in_its_callbacks():
-    """LLVM would print the exception, lose it, and fail with another where it was lost."""
-    callback = "signal.raise_signal(signal.SIGINT)\nreached.append('its end')"
-    reached = []
-    with pytest.raises(KeyboardInterrupt), interruptible(ending=False):
-        exec(
-            callback,
-            {"__name__": "llvmlite.binding.ffi", "signal": signal, "reached": reached},
-        )
-        reached.append("what follows")
-        time.sleep(20.0 * SAME_WISH)
-        reached.append("too late")
-    assert reached == ["its end", "what follows"]
 
 
 def test_held_interrupts_come_at_the_end_of_the_block():
