@@ -42,9 +42,10 @@ GRAVITY = 9.81
 class Scheme:
     """The scheme's numbers; SI units.
 
-    stiffness: of one spring. scatter, static_scatter: standard deviation of mu_k (per strip) and of
-    mu_s (per cycle). mu_slope: loss of mu_k per m/s of sliding speed above mu_k_speed, at which
-    mu_k holds. correlation_length: of the scatter on the surface once F5 is mended.
+    stiffness: of one spring. scatter, static_scatter: standard deviation of mu_k (per strip; of all
+    strips alike where it is common_scatter) and of mu_s (per cycle). mu_slope: loss of mu_k per m/s
+    of sliding speed above mu_k_speed, at which mu_k holds. correlation_length: of the scatter
+    on the surface once F5 is mended.
     curvature: 1/R of a turning slab, whose speed falls across the block. effects: of the catalogue,
     none by default.
     """
@@ -56,6 +57,7 @@ class Scheme:
     mu_k: float = 0.2086
     treatment: str = "updated"
     scatter: float = 0.02
+    common_scatter: bool = False
     static_scatter: float = 0.0
     mu_slope: float = 0.0
     mu_k_speed: float = 0.15
@@ -112,6 +114,8 @@ class Scheme:
         shares, middles = strips(self.radius)
         scatter = self.scatter * normal_force
         force_share, arm = float(np.sqrt(np.sum(shares**2))), shares * middles
+        if self.common_scatter:
+            force_share, arm = float(shares.sum()), np.zeros_like(arm)
         return SchemeRig(
             mass=self.mass,
             inertia=self.mass * self.radius**2,
