@@ -11,7 +11,7 @@ from importlib import import_module
 from ..plugins.errors import PluginError
 from ..quantity import Table, quantity
 from .candidate import Candidate, FreeParameter, Scales
-from .effect import Case, Effect
+from .effect import Case, Effect, State
 
 __all__ = [
     "EFFECTS",
@@ -21,6 +21,7 @@ __all__ = [
     "FreeParameter",
     "PluginError",
     "Scales",
+    "State",
     "Table",
     "quantity",
 ]
