@@ -36,25 +36,22 @@ class FmuBuildError(ValueError):
 
 
 def own_folder(catalogue: Catalogue = CATALOGUE) -> Path:
-    """Where the units stand that nobody named: `build` of a checkout, else the user's cache.
-
-    With effects from outside, a folder of their own: one's own effects and the catalogue alone do
-    not take turns in one file.
-    """
-    if catalogue.outside:
-        names = "-".join([*(effect.id for effect in catalogue.outside), native.guid(catalogue)[:8]])
-        return platformdirs.user_cache_path("stickslip") / names
-    if (BUILD_FOLDER / "units.py").is_file():
+    """Where the units stand that nobody named: `build` of a checkout, else the user's cache."""
+    if not catalogue.outside and (BUILD_FOLDER / "units.py").is_file():
         return BUILD_FOLDER
-    return platformdirs.user_cache_path("stickslip")
+    return _cache_folder(catalogue)
+
+
+def _cache_folder(catalogue: Catalogue) -> Path:
+    """Of these effects and this version alone: two that run at once share no file."""
+    names = [*(effect.id for effect in catalogue.outside), native.guid(catalogue)[:8]]
+    return platformdirs.user_cache_path("stickslip") / "-".join(names)
 
 
 def own_fmu(catalogue: Catalogue = CATALOGUE) -> Path:
     """The native unit in `own_folder`, fresh; where that cannot be written, in the cache or a
     scratch folder."""
-    folder = own_folder(catalogue)
-    cached = folder if catalogue.outside else platformdirs.user_cache_path("stickslip")
-    for place in dict.fromkeys((folder, cached)):
+    for place in dict.fromkeys((own_folder(catalogue), _cache_folder(catalogue))):
         try:
             return ensure_fmu(place, catalogue=catalogue)
         except FmuBuildError as error:

@@ -110,10 +110,14 @@ def test_other_content_makes_another_python_unit(tmp_path):
 
 
 def test_the_fmu_stands_in_build_of_a_checkout_else_in_the_cache(tmp_path, monkeypatch):
-    """Nothing is written into a user's folder that happens to have a `build`."""
+    """Nothing is written into a user's folder that happens to have a `build`.
+
+    In the cache a version has a folder of its own: another that runs at the same time would put its
+    unit in the place of this one's between description and library.
+    """
     monkeypatch.chdir(tmp_path)
     (tmp_path / "build").mkdir()
-    assert own_folder() == platformdirs.user_cache_path("stickslip")
+    assert own_folder() == platformdirs.user_cache_path("stickslip") / native.guid()[:8]
     (tmp_path / "build" / "units.py").touch()
     assert str(own_folder()) == "build"
 
