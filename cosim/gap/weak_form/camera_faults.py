@@ -118,12 +118,16 @@ def clock(level: Level) -> Respond:
     return respond
 
 
+def crept(course: str, run: np.ndarray, times: np.ndarray) -> np.ndarray:
+    """(n,) part of its creep that a zero has gone at times (n,), s, of a run's times (m,), s."""
+    return np.asarray(COURSES[course]((times - run[0]) / (run[-1] - run[0])))
+
+
 def drift(course: str) -> Respond:
     """x~ = x + d, by d at the end of a run, m."""
 
     def respond(run: RunRows) -> Response:
-        time = run.track.time
-        return Response(place=column(COURSES[course]((time - time[0]) / (time[-1] - time[0]))))
+        return Response(place=column(crept(course, run.track.time, run.track.time)))
 
     return respond
 

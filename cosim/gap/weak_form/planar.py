@@ -31,7 +31,7 @@ from cosim.gap.weak_form.across import (
     disc,
     measured,
 )
-from cosim.gap.weak_form.camera_faults import COURSES, DRIFT
+from cosim.gap.weak_form.camera_faults import COURSES, DRIFT, crept
 from cosim.gap.weak_form.constants import (
     ALIKE,
     FAULT_SIZES,
@@ -310,13 +310,12 @@ def _of_camera(
     track: SmoothTrack, form: tuple[str, ...], is_turned: bool, times: np.ndarray
 ) -> np.ndarray:
     """(unknowns, times) m of y by what a camera does of a form; 0 for what moves the block."""
-    part = (times - track.time[0]) / (track.time[-1] - track.time[0])
     seen = np.zeros((len(form), times.size))
     for row, name in zip(seen, form, strict=True):
         if name == ROTATION and is_turned:
             row[:] = -np.interp(times, track.time, track.place)
         elif name in CREEPS:
-            row[:] = COURSES[CREEPS[name]](part)
+            row[:] = crept(CREEPS[name], track.time, times)
     return seen
 
 

@@ -19,7 +19,7 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.signal import lfilter
 
 from cosim.gap.data import Track
-from cosim.gap.weak_form.camera_faults import COURSES, leaning
+from cosim.gap.weak_form.camera_faults import COURSES, crept, leaning
 
 #: Faults that can be undone; what a filter took away, or rounding, is gone.
 UNDONE = ("scale", "clock", "rotation", "drift", "latency")
@@ -74,9 +74,8 @@ def _turned(places: np.ndarray, values: Mapping[str, float], way: float) -> np.n
 def _drift(time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
     """(n, 2) of the zeros of x and y, m; an arm that gives way does so along both."""
     course = list(COURSES)[int(values.get("measurement.drift_course", 0.0))]
-    part = (time - time[0]) / (time[-1] - time[0])
     aside = values.get("measurement.drift_y", 0.0) * values.get("measurement.drift_in", 1.0)
-    return np.outer(COURSES[course](part), [fault(values, "drift"), aside])
+    return np.outer(crept(course, time, time), [fault(values, "drift"), aside])
 
 
 def _filtered(places: np.ndarray, time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
