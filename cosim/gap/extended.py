@@ -37,6 +37,7 @@ from cosim.gap.windows.windows import moves_across
 #: Bounds of the contact's own numbers: friction falls over 0.3 to 20 mm/s, and over a small part of
 #: the speeds of sliding; a loaded contact creeps at less than a third of the surface's speed.
 TRANSITION, FALL_PART, CREEP_PART = (3e-4, 2e-2), 0.15, 0.3
+TRANSITION_SPEED = "friction.transition_speed"
 #: Longest time by which a contact lets go sooner, s, bristles of 100 um on a surface of 2 mm/s:
 #: what follows the loading rate farther is static friction's own law.
 LONGEST_DELAY = 0.05
@@ -309,9 +310,7 @@ def contact_numbers(campaign: Campaign, fastest: float) -> list[Number]:
     slowest = min(abs(run.surface_speed) for run in campaign.runs)
     top = min(TRANSITION[1], max(FALL_PART * fastest, 2.0 * TRANSITION[0]))
     return [
-        Number(
-            "friction.transition_speed", min(4e-3, 0.5 * top), None, TRANSITION[0], top, log=True
-        ),
+        Number(TRANSITION_SPEED, min(4e-3, 0.5 * top), None, TRANSITION[0], top, log=True),
         # below 1 friction falls infinitely fast at rest: no contact does, and steps would crawl
         Number("friction.transition_exponent", 1.3, 0.5, 1.0, 3.0),
         Number("friction.stick_creep", 0.03 * slowest, None, 0.0, CREEP_PART * slowest),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
 
-from cosim.gap.checks import ANSWERABLE, blocking, doubts_of
+from cosim.gap.checks import blocking, doubts_of
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part, as_points, part_of
 from cosim.gap.judge import (
@@ -100,7 +100,7 @@ def _answer(campaign: Campaign, agreed: _Agreed, doubts: Sequence[Doubt]) -> Gap
     verdict = judge(
         named.findings, names, models.ladder, _physics(campaign), rates, agreed.left_without
     )
-    doubts = _unanswered(doubts, models.ladder, bool(parts))
+    doubts = _unanswered(doubts, models.ladder, names)
     if any(doubt.severe for doubt in doubts):
         verdict = replace(verdict, verdict="unknown", effects=())
     extended = models.fits[-1]
@@ -163,6 +163,7 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
             if not (explains(models.ladder) and models.is_felt):
                 along = {part.finding.name for part in parts if part.finding.added}
                 doubted = fitting.rejected(parts, named, along - faint)
+        doubted = doubted or fitting.overruled(parts, named)
         if doubted is None:
             named = fitting.told_apart(parts, named)
             found = [replace(part, finding=finding)
@@ -258,25 +259,40 @@ class _Fitting:
             return None
         return self._fitted(named, [], is_shown=False).ladder[-1].gap
 
+    def overruled(self, parts: Sequence[Part], named: Named) -> Rejected | None:
+        """A lone finding that simulated runs put so far behind a rival that the rows must err."""
+        rivals = self._rivals(parts, named)
+        if max(rivals.values(), default=0.0) <= SURE:
+            return None
+        gained = self._fitted(named, [], is_shown=False).gained(parts[0])
+        return Rejected(parts[0].finding.name, parts[0].finding.gain, gained)
+
     def told_apart(self, parts: Sequence[Part], named: Named) -> Named:
         """A lone finding, its rivals in the rows simulated as well.
 
         One that the rows do not tell from it goes where simulated runs do; one that they put behind
         it stays as probable where simulated runs put it before.
         """
-        if len(parts) != 1 or not (parts[0].in_kernel and parts[0].finding.added):
+        if not (rivals := self._rivals(parts, named)):
             return named
         (finding,) = named.findings
-        if not (rivals := rivals_of(finding)):
-            return named
-        others, without = dict(finding.others), self._fitted(named, [], is_shown=False)
-        own = without.gained(parts[0]) - price_of(finding.name)
-        for name in rivals:
-            rival = self._in_place(named, name)
-            if rival.in_kernel:
-                more = without.gained(rival) - price_of(name) - own
-                others[name] = told_by_both(others[name], more)
+        others = dict(finding.others)
+        for name, more in rivals.items():
+            others[name] = told_by_both(others[name], more)
         return replace(named, findings=(replace(finding, others=others),))
+
+    def _rivals(self, parts: Sequence[Part], named: Named) -> dict[str, float]:
+        """Rival of a lone finding -> ln of how much more probable simulated runs are with it."""
+        if len(parts) != 1 or not (parts[0].in_kernel and parts[0].finding.added):
+            return {}
+        (finding,) = named.findings
+        rivals = {name: self._in_place(named, name) for name in rivals_of(finding)}
+        if not rivals:
+            return {}
+        without = self._fitted(named, [], is_shown=False)
+        own = without.gained(parts[0]) - price_of(finding.name)
+        return {name: without.gained(rival) - price_of(name) - own
+                for name, rival in rivals.items() if rival.in_kernel}  # fmt: skip
 
     def _in_place(self, named: Named, name: str) -> Part:
         """What another explanation would put into the model."""
@@ -298,14 +314,19 @@ class _Fitting:
         return models
 
 
-def _unanswered(doubts: Sequence[Doubt], ladder: Sequence[Rung], found: bool) -> tuple[Doubt, ...]:
-    """Doubts, of which what the simulated runs answer is not severe.
+def _unanswered(
+    doubts: Sequence[Doubt], ladder: Sequence[Rung], names: Sequence[str]
+) -> tuple[Doubt, ...]:
+    """Doubts, of which what the findings or the simulated runs answer is not severe.
 
     With findings the model has swings that those springs alone have not; without them nothing rests
-    on the rows, which need finer samples than simulated runs do.
+    on the rows, which need finer samples than simulated runs do. Whatever else is missing, a drive
+    that ripples carries a block at its crests or troughs.
     """
-    answered = ANSWERABLE[not found] if explains(ladder) else None
-    return tuple(replace(one, severe=one.severe and one.check != answered) for one in doubts)
+    answered = {"springs" if names else "sampling"} if explains(ladder) else set()
+    if "speed_ripple" in names:
+        answered.add("speed")
+    return tuple(replace(one, severe=one.severe and one.check not in answered) for one in doubts)
 
 
 def _physics(campaign: Campaign) -> set[str]:

@@ -11,8 +11,10 @@
     asked again.
  5. Findings within e^3 of one another in the same place, and within e^6 in simulated runs, cannot
     be told apart: a class; so are two within e^12, the first below e^500, of which simulated runs
-    prefer the second.
- 6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
+    prefer the second; where they do so by e^500, and rows prefer the first by e^200 at most, the
+    first goes.
+ 6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`; below
+    e^500, beside one or two greater ones of the catalogue's, `partial` at most.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
  8. A finding below e^500, or beside a greater one, or that does not explain the runs or takes
@@ -45,8 +47,9 @@ EXPLAINED = 1.3
 #: foreign contacts (bristles, Iwan) have pretended up to 206.
 SURE = 500.0
 #: ln of a Bayes factor up to which rows do not decide between two explanations, twice what they are
-#: asked for a finding: smoothed arguments have turned 7; and how many rivals are simulated.
-UNSURE, RIVALS = 12.0, 3
+#: asked for a finding: smoothed arguments have turned 7; up to which a contact may have turned
+#: them; and how many rivals are simulated.
+UNSURE, TURNED, RIVALS = 12.0, 200.0, 3
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5
 #: Part of the misfit that a finding must take to be named as a part of what is missing.
@@ -79,18 +82,25 @@ def judge(
         group for finding, name in zip(findings, names, strict=True)
         if len(group := _alike(finding, name, rates)) > 1
     )  # fmt: skip
-    if not set(names) <= physics or len(findings) >= MOST_FINDINGS:
+    known = [name for finding, name in zip(findings, names, strict=True)
+             if _has_name(names, physics) or finding.gain >= SURE]  # fmt: skip
+    if not (known and _has_name(known, physics)):
         return Verdict("unknown", (), classes)
     improves = after < before
-    if improves and after <= EXPLAINED:
+    if improves and after <= EXPLAINED and len(known) == len(names):
         # two names for one thing: what cannot be told apart is one answer
         if classes and len(findings) == 1:
             return Verdict("class", classes[0], classes)
         return Verdict("named", tuple(names), classes)
     own = without is None or halves(ladder[-1].gap, without)
     if improves and own and ladder[-1].share >= MOST:
-        return Verdict("partial", tuple(names), classes)
+        return Verdict("partial", tuple(known), classes)
     return Verdict("unknown", (), classes)
+
+
+def _has_name(names: Sequence[str], physics: set[str]) -> bool:
+    """Whether the catalogue stands for all of them, and they are few."""
+    return set(names) <= physics and len(names) < MOST_FINDINGS
 
 
 def explains(ladder: Sequence[Rung]) -> bool:
@@ -129,8 +139,8 @@ def leaves(score: Score, most: float = NOTHING_MISSING) -> bool:
 
 
 def rivals_of(finding: Finding) -> list[str]:
-    """What else the rows ask for in a finding's place, nearly as much: the best few."""
-    within = UNSURE if finding.gain < SURE else ALIKE
+    """What else the rows ask for in a finding's place, and a contact may have put behind it."""
+    within = TURNED if finding.gain < SURE else ALIKE
     near = {name: less for name, less in finding.others.items()
             if less > -within and finding.gain + less > ALIKE}  # fmt: skip
     return sorted(near, key=lambda name: -near[name])[:RIVALS]
@@ -143,7 +153,7 @@ def told_by_both(rows: float, simulated: float) -> float:
     """
     if rows > -ALIKE:
         return simulated if simulated < -LEAST_GAIN else rows
-    return 0.0 if simulated > 0.0 else rows
+    return 0.0 if simulated > 0.0 and rows > -UNSURE else rows
 
 
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:

@@ -22,8 +22,9 @@ from .units import doubts_of_units
 
 __all__ = ["ANSWERABLE", "LEVEL", "blocking", "doubts_of"]
 
-#: Doubts that simulated runs may answer: with findings, and without.
-ANSWERABLE = ("springs", "sampling")
+#: Severe doubts that findings may answer: swings that springs alone have not, and sticks at the
+#: crests or the troughs of a drive that is not steady.
+ANSWERABLE = ("springs", "speed")
 
 #: Cycles of a window, and fewest windows beyond the first of each run: a standard deviation from
 #: two pieces is known to 71 % of itself, from one not at all.
@@ -51,7 +52,7 @@ def doubts_of(campaign: Campaign) -> tuple[Doubt, ...]:
 
 def blocking(doubts: Sequence[Doubt]) -> tuple[Doubt, ...]:
     """Severe doubts that no finding can answer: nothing is named beside them."""
-    return tuple(one for one in doubts if one.severe and one.check != ANSWERABLE[0])
+    return tuple(one for one in doubts if one.severe and one.check not in ANSWERABLE)
 
 
 def _but(runs: Sequence[MeasuredRun], doubts: Sequence[Doubt]) -> list[MeasuredRun]:

@@ -49,6 +49,7 @@ from cosim.gap.weak_form.constants import (
     STILL_NUMBER,
     STILL_PIECE,
     STILL_SIGMAS,
+    TURNS_ASKED,
 )
 from cosim.gap.weak_form.evidence import posterior
 from cosim.gap.weak_form.rig_unknowns import Level
@@ -143,8 +144,11 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     moving = frozenset(run.track.run.name for run in runs if _moves(run.track.run))
     for name in FORMS if free else ("", ROTATION):
         among = (every, moving) if name == ROTATION and moving < every else (every,)
-        tried = [_fit(campaign, runs, level, form, turned)
-                 for form in FORMS[name] for turned in among]  # fmt: skip
+        tried = [
+            max((_fit(campaign, runs, level, form, turned, turn) for turn in _sets_out(form)),
+                key=lambda each: each.evidence)
+            for form in FORMS[name] for turned in among
+        ]  # fmt: skip
         fits[name] = max(tried, key=lambda each: each.evidence)
         evidence[name] = float(logsumexp([each.evidence for each in tried]) - np.log(len(tried)))
     nothing = evidence.pop("")
@@ -163,6 +167,12 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     alike = [name for name, one in fits.items() if answer == LATERAL and _is_lateral(one)]
     rivals = [name for name in ranked if name not in (answer, *alike)]
     return Planar(evidence, answer, rivals[0] if evidence[rivals[0]] > 0.0 else "", fits)
+
+
+def _sets_out(form: tuple[str, ...]) -> tuple[float, ...]:
+    """Turns of the springs about which a form is tried: a block that nothing holds keeps swinging
+    by the error of a first guess."""
+    return TURNS_ASKED if TURN in form and SHARE not in form else (0.0,)
 
 
 def _is_lateral(fitted: Fitted) -> bool:
@@ -226,14 +236,14 @@ class _Samples:
 
 def _fit(
     campaign: Campaign, runs: Sequence[RunRows], level: float, form: tuple[str, ...],
-    turned: frozenset[str],
+    turned: frozenset[str], turn: float,
 ) -> Fitted:  # fmt: skip
     """A form, its courses made anew about what came out until they stay.
 
-    turned : runs in which the camera may be
+    turned : runs in which the camera may be; turn : of the springs, about which it sets out, rad
     """
-    planes = [replace(measured(run.track), share=float(SHARE in form)) for run in runs]
-    values, rounds = np.zeros(len(form)), []
+    planes = [replace(measured(run.track), share=float(SHARE in form), turn=turn) for run in runs]
+    values, rounds = np.array([turn * (name == TURN) for name in form]), []
     nothing = Fitted(form, -np.inf, {}, {}, np.inf, turned)
     for _ in range(ROUNDS):
         try:

@@ -11,6 +11,7 @@ A fault acts in the runs whose ``measurement.<fault>_in`` is not 0; without that
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -23,6 +24,9 @@ from cosim.gap.weak_form.camera_faults import COURSES, crept, leaning
 
 #: Faults that can be undone; what a filter took away, or rounding, is gone.
 UNDONE = ("scale", "clock", "rotation", "drift", "latency")
+#: Times between samples, in parts of the usual, beyond which some were lost; how far a filter's
+#: kernel reaches, in standard deviations.
+LOST, REACH = 2.5, 5.0
 
 
 def fault(values: Mapping[str, float], name: str) -> float:
@@ -79,12 +83,27 @@ def _drift(time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
 
 
 def _filtered(places: np.ndarray, time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
-    """By the tracker's filter: Gaussian, or exponential, of the past."""
-    width = fault(values, "smoothing") / float(np.median(np.diff(time)))
+    """By the tracker's filter, of each stretch without lost samples by itself."""
+    interval = float(np.median(np.diff(time)))
+    width = fault(values, "smoothing") / interval
     if width <= 0.0:
         return places
-    if not values.get("measurement.smoothing_past", 0.0):
-        return np.asarray(gaussian_filter1d(places, width, axis=0, mode="nearest"))
-    keeps = np.exp(-1.0 / width)
-    held = keeps * places[:1]
-    return np.asarray(lfilter([1.0 - keeps], [1.0, -keeps], places, axis=0, zi=held)[0])
+    is_past = values.get("measurement.smoothing_past", 0.0) > 0.0
+    gaps = np.flatnonzero(np.diff(time) > LOST * interval) + 1
+    return np.concatenate([_smoothed(part, width, is_past) for part in np.split(places, gaps)])
+
+
+def _smoothed(places: np.ndarray, width: float, is_past: bool) -> np.ndarray:
+    """By a Gaussian, or an exponential of the past; the motion goes on beyond the ends as there.
+
+    width : standard deviation, samples
+    """
+    reach = min(math.ceil(REACH * width), len(places) - 1)
+    padded = np.pad(places, ((reach, reach), (0, 0)), mode="reflect", reflect_type="odd")
+    if is_past:
+        keeps = math.exp(-1.0 / width)
+        held = keeps * padded[:1]
+        smooth = lfilter([1.0 - keeps], [1.0, -keeps], padded, axis=0, zi=held)[0]
+    else:
+        smooth = gaussian_filter1d(padded, width, axis=0, mode="nearest")
+    return np.asarray(smooth[reach : reach + len(places)])

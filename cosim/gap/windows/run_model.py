@@ -28,6 +28,10 @@ FEW_POINTS = 0.6
 #: on an even surface that moves steadily much longer, as the load only grows.
 LONGER, LONGER_STICK = 2.0, 20.0
 FRICTION = ("friction.mu_s", "friction.mu_k")
+#: Standard deviations of y and phi at a window's start where the tracker does not have them, m and
+#: rad, and of their velocities in these times the frequency of the free vibration: what springs and
+#: friction let a block do. Without them what a window hardly feels may take any value.
+UNSEEN = {"y": 0.02, "phi": 0.1}
 #: Points of a table of friction, in parts of mu_k, and of the springs' force curve, over their
 #: stiffness: these then scale the whole.
 TABLE_PART, FORCE_PART = "friction.table_part", "springs.force_part"
@@ -91,7 +95,7 @@ class RunModel:
     ----------
     size : number of residuals
     starts : the first residual of each window that is compared; those of a window stand together
-    owner : (rows,) window of each residual, then of each stick's prior
+    owner : (rows,) window of each residual, then of each stick's prior and of each state's
     """
 
     def __init__(self, campaign: Campaign, run: MeasuredRun, windows: Windows):
@@ -120,7 +124,18 @@ class RunModel:
         number = np.arange(self.restarts.size) - np.searchsorted(of_window, of_window)
         self.sticks = (of_window, 6 + number)  # where in the states each one's friction is
         self.is_start = np.isin(self.restarts, windows.first)
-        self.owner = np.concatenate([self.owner, of_window])
+        self.unseen, self.unseen_sd = self._unseen()
+        self.owner = np.concatenate([self.owner, of_window, self.unseen[0]])
+
+    def _unseen(self) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
+        """Where in the states what the tracker does not have is free, and its deviations."""
+        scales = np.array([0.0, *UNSEEN.values()])
+        sd = np.concatenate([scales, scales * self.run.natural_frequency])
+        seen = [AXES.index(name) for name in self.windows.channels]
+        is_unseen = self.windows.free.copy()
+        is_unseen[:, [*seen, *(axis + 3 for axis in seen)]] = False
+        windows, axes = np.nonzero(is_unseen)
+        return (windows, axes), sd[axes]
 
     def values(self, values: Mapping[str, float]) -> dict[str, float]:
         """key -> value of this run, of labelled ones."""
@@ -172,16 +187,23 @@ class RunModel:
         self, values: Mapping[str, float], states: np.ndarray, p: np.ndarray | None = None
     ) -> np.ndarray:
         """(rows,) model less data in units of the noise, no more than the whole motion; then how
-        far the sticks' own friction is from 0 in units of its scatter."""
+        far the sticks' own friction is from 0 in units of its scatter, and start states that the
+        tracker does not have from 0 in units of their deviation."""
         model = self.track(values, states, p)[self.rows, self.axes]
         off = np.nan_to_num((model - self.data) / self.noise, nan=np.inf)
         scatter = values.get(BREAK_AWAY, 0.0) or 1.0
-        return np.concatenate([np.clip(off, -self.most, self.most), states[self.sticks] / scatter])
+        return np.concatenate(
+            [
+                np.clip(off, -self.most, self.most),
+                states[self.sticks] / scatter,
+                states[self.unseen] / self.unseen_sd,
+            ]
+        )
 
     def per_window(self, rows: np.ndarray) -> np.ndarray:
         """(w, ...) sums over each window's rows of (rows, ...)."""
         sums = np.add.reduceat(rows[: self.size], self.starts, axis=0)
         if self.windows.led_in:
             sums = np.concatenate([np.zeros_like(sums[:1]), sums])
-        np.add.at(sums, self.sticks[0], rows[self.size :])
+        np.add.at(sums, self.owner[self.size :], rows[self.size :])
         return sums

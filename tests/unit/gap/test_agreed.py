@@ -151,6 +151,17 @@ def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told
     part = Part(one, None, (), (), {"on": 1.0})
     others = fitting.told_apart([part], named).findings[0].others
     assert others == pytest.approx({"film_drag": told, "other.order": -1.0})
+    assert fitting.overruled([part], named) is None
+
+
+@pytest.mark.parametrize(("more", "gone"), [(499.0, False), (501.0, True)])
+def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(monkeypatch, more, gone):
+    part = Part(finding("run_in", 30.0), None, (), (), {"on": 1.0})
+    monkeypatch.setattr(find._Fitting, "_rivals", lambda *_: {"film_drag": more})
+    models = SimpleNamespace(gained=lambda part: 20.0)
+    monkeypatch.setattr(find._Fitting, "_fitted", lambda *_, **__: models)
+    rejected = find._Fitting(None, lambda: None, 1).overruled([part], None)
+    assert (rejected is not None) is gone
 
 
 @pytest.mark.parametrize(
@@ -217,7 +228,13 @@ def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):
 
 @pytest.mark.parametrize(
     ("check", "blocked"),
-    [("units", True), ("speed", True), ("sampling", True), ("springs", False)],
+    [
+        ("units", True),
+        ("direction", True),
+        ("sampling", True),
+        ("springs", False),
+        ("speed", False),
+    ],
 )
 def test_no_effect_is_searched_for_where_none_would_be_named(check, blocked, monkeypatch):
     """Doubts are asked first; one that a finding may answer does not stop the search."""
@@ -229,6 +246,24 @@ def test_no_effect_is_searched_for_where_none_would_be_named(check, blocked, mon
     monkeypatch.setattr(find, "_answer", lambda campaign, agreed, doubts: doubts)
     assert find.find_gap(Campaign()) == (doubt,)
     assert taken == ["_unsearched" if blocked else "_agreed"]
+
+
+@pytest.mark.parametrize(
+    ("check", "gap", "names", "severe"),
+    [
+        ("springs", 1.29, ["run_in"], False),
+        ("springs", 1.31, ["run_in"], True),
+        ("springs", 1.0, [], True),
+        ("sampling", 1.0, [], False),
+        ("sampling", 1.0, ["run_in"], True),
+        ("speed", 2.0, ["speed_ripple"], False),
+        ("speed", 1.0, ["run_in"], True),
+    ],
+)
+def test_what_answers_a_severe_doubt(check, gap, names, severe):
+    doubts = (Doubt(check, "run01: ...", ("run01",), True),)
+    ladder = [SimpleNamespace(gap=Score(1.0, gap))]
+    assert [one.severe for one in find._unanswered(doubts, ladder, names)] == [severe]
 
 
 @dataclass(frozen=True)

@@ -114,8 +114,9 @@ def test_faint_findings_along_x_may_be_a_contact_s_and_further_ones_what_the_fir
 
 
 def test_rivals_are_the_best_few_that_rows_do_not_rule_out():
-    near = {"film_drag": -11.9, "structural_damping": -12.1, "other.time": -4.0}
-    assert rivals_of(finding("run_in", **near)) == ["other.time", "film_drag"]
+    near = {"film_drag": -199.0, "structural_damping": -201.0, "other.time": -4.0}
+    clear = Finding("run_in", (), 300.0, near)
+    assert rivals_of(clear) == ["other.time", "film_drag"]
     many = {f"e{n}": -float(n) for n in range(9)}
     assert rivals_of(finding("run_in", **many)) == ["e0", "e1", "e2"]
     faint = Finding("run_in", (), 8.0, {"film_drag": -4.9, "other.time": -5.1})
@@ -135,6 +136,25 @@ def test_a_part_is_half_of_what_contact_and_scatter_leave():
 def test_what_has_no_name_is_unknown():
     assert judged(["other.time"], 5.0, 1.0) == ("unknown", ())
     assert judged(["run_in", "other.time"], 5.0, 1.0) == ("unknown", ())
+
+
+@pytest.mark.parametrize(
+    ("gains", "told"),
+    [
+        ({"run_in": 501.0, "other.time": 499.0}, ("partial", ("run_in",))),
+        ({"run_in": 501.0, "other.time": 501.0}, ("unknown", ())),
+        ({"run_in": 499.0, "other.time": 50.0}, ("unknown", ())),
+        ({"other.time": 501.0, "run_in": 499.0}, ("unknown", ())),
+        ({"run_in": 9e3, "film_drag": 600.0, "speed_ripple": 499.0},
+         ("partial", ("run_in", "film_drag"))),
+        ({"run_in": 9e3, "film_drag": 600.0, "speed_ripple": 501.0}, ("unknown", ())),
+    ],
+)  # fmt: skip
+def test_a_small_finding_without_a_name_leaves_greater_ones_a_part(gains, told):
+    ladder = [rung(9.0, 5.0), rung(9.0, 1.0, 1.0)]
+    found = [Finding(name, (), gain, {}) for name, gain in gains.items()]
+    verdict = judge(found, list(gains), ladder, PHYSICS)
+    assert (verdict.verdict, verdict.effects) == told
 
 
 @dataclass
