@@ -22,6 +22,7 @@ from cosim.gap.weak_form.corners import CORNER, CornerRows, corner_contact, with
 from cosim.gap.weak_form.rows import rows_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth
+from cosim.gap.windows import camera
 
 NOISE, FINE, EVERY, DURATION = 5e-5, 1e-3, 10, 10.0
 #: Speed and mass; the last is held out.
@@ -259,3 +260,17 @@ def test_a_filter_in_some_runs_is_told_where_rounded_swings_ask_for_something_el
     assert SMOOTHING not in {each.name for each in naming.named([SMOOTHING]).findings} != set()
     (finding,) = naming.named().findings
     assert (finding.name, finding.variant) == (SMOOTHING, "Gaussian, 35 ms, in run01, run04")
+
+
+@pytest.mark.parametrize("past", [0.0, 1.0])
+def test_a_filter_of_simulated_runs_knows_of_lost_samples(past):
+    """A swing of 1.2 Hz of which half a second is lost, as an ideal filter of 50 ms leaves it."""
+    time = np.arange(0.0, 10.0, 0.01)
+    time, omega, width = time[(time < 4.0) | (time > 4.5)], 2.4 * np.pi, 0.05
+    values = {"measurement.smoothing": width, "measurement.smoothing_past": past}
+    seen = camera.seen(np.outer(np.sin(omega * time), np.ones(3)), time, values)[:, 0]
+    factor = 1.0 / (1.0 + 1j * omega * width) if past else np.exp(-0.5 * (omega * width) ** 2)
+    off = np.abs(seen - np.imag(factor * np.exp(1j * omega * time)))
+    is_near = (np.abs(time - 4.25) < 0.5) | (time < 0.25) | (time > 9.75)
+    assert off[is_near].max() < 0.12  # half a swing goes by beside each of its samples
+    assert off[~is_near].max() < (0.04 if past else 1e-3)  # a past of one sample's steps

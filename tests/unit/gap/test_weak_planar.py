@@ -34,11 +34,13 @@ FOREIGN = {
 }
 
 
-def measured(folder, rotation=(0.0, 0.0, 0.0), creep=0.0, **blocks):
+def measured(folder, rotation=(0.0, 0.0, 0.0), creep=0.0, turn_noise=None, **blocks):
     """A campaign of three runs in the plane.
 
-    rotation : of the camera in each, rad; creep : of its zero across, as the root of the time, m
+    rotation : of the camera in each, rad; creep : of its zero across, as the root of the time, m;
+    turn_noise : of the block's turn, rad, where the tracker has it
     """
+    noise = {"x": NOISE, "y": NOISE} | ({"phi": turn_noise} if turn_noise else {})
     runs = []
     for number, (speed, angle) in enumerate(zip(SPEEDS, rotation, strict=True)):
         parameters = Parameters(
@@ -56,8 +58,10 @@ def measured(folder, rotation=(0.0, 0.0, 0.0), creep=0.0, **blocks):
             "x": noisy(x * np.cos(angle), number, NOISE),
             "y": noisy(y - x * np.sin(angle), number + 50, NOISE),
         }
+        if turn_noise:
+            columns["phi"] = noisy(np.asarray(moved["phi"]), number + 90, turn_noise)
         runs.append({"surface_speed": speed, "columns": columns, "hold_out": speed == HELD_OUT})
-    return read_campaign(write_campaign(folder, runs, noise={"x": NOISE, "y": NOISE}))
+    return read_campaign(write_campaign(folder, runs, noise=noise))
 
 
 def tracks_and_rows(campaign):
@@ -83,6 +87,15 @@ def test_an_effect_is_named_and_its_size_recovered(effect, tmp_path):
     value, deviation = planar.numbers[number]
     assert value == pytest.approx(truth, abs=4.0 * deviation + 0.02 * truth)
     assert most_spurious(campaign, rows_in_plane(tracks, campaign, planar)) < 4.0
+
+
+def test_springs_turned_by_far_are_found_where_nothing_holds_the_block(tmp_path):
+    """From springs along x the courses of a block that swings freely do not lead there."""
+    blocks = {"spring_misalignment": {"angle_deg": -10.0}, "initial": {"phi": 0.1}}
+    campaign = measured(tmp_path, turn_noise=5e-4, **blocks)
+    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    assert planar.answer == "spring_misalignment" and planar.fits[planar.answer].gap < 1.3
+    assert planar.numbers["turn"][0] == pytest.approx(np.deg2rad(-10.0), rel=0.05)
 
 
 @pytest.mark.parametrize("turned", [(1, 1, 1), (0, 1, 0), (1, 0, 1)])

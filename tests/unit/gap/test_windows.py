@@ -21,7 +21,7 @@ from cosim.gap.windows import (
     windows_of_campaign,
 )
 from cosim.gap.windows.problem import Problem
-from cosim.gap.windows.run_model import RunModel
+from cosim.gap.windows.run_model import UNSEEN, RunModel
 from cosim.gap.windows.windows import cycle
 
 MU_S, MU_K = 0.3, 0.2
@@ -224,6 +224,19 @@ def test_a_planar_motion_is_fitted_in_both_directions(tmp_path):
     result = fit(campaign, windows, numbers, settings)
     assert result.gap[0] == pytest.approx(1.0, abs=0.03)
     assert abs(result.values["friction.mu_k"] - MU_K) < 3.0 * result.sd["friction.mu_k"]
+
+
+def test_what_the_tracker_does_not_have_has_a_prior(tmp_path):
+    """Of y and phi at a window's start only what is not seen; a state that is 0 costs nothing."""
+    campaign = measured(tmp_path, SPEEDS[:2], planar=True, spring_misalignment={"angle_deg": 2.0})
+    run = campaign.runs[0]
+    model = RunModel(campaign, run, windows_of(run, planar=True))
+    states = np.zeros((len(model.windows.first), 6 + model.sticks[1].max() - 5))
+    assert not model.residuals({}, states)[model.size :].any()
+    states[1:, :6] = [1e-3, 1e-3, UNSEEN["phi"], 0.0, 1e-3, 2.0 * UNSEEN["phi"]]
+    priors = model.residuals({}, states)[-2 * (len(states) - 1) :].reshape(-1, 2)
+    assert priors == pytest.approx(np.tile([1.0, 2.0 / run.natural_frequency], (len(priors), 1)))
+    assert (model.owner[-priors.size :].reshape(-1, 2).T == np.arange(1, len(states))).all()
 
 
 def test_a_number_that_a_bound_holds_is_named(plain):
