@@ -13,8 +13,7 @@
     be told apart: a class; so are two within e^12, the first below e^500, of which simulated runs
     prefer the second; where they do so by e^500, and rows prefer the first by e^200 at most, the
     first goes.
- 6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`; below
-    e^500, beside one or two greater ones of the catalogue's, `partial` at most.
+ 6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
  8. A finding below e^500, or beside a greater one, or that does not explain the runs or takes
@@ -82,25 +81,18 @@ def judge(
         group for finding, name in zip(findings, names, strict=True)
         if len(group := _alike(finding, name, rates)) > 1
     )  # fmt: skip
-    known = [name for finding, name in zip(findings, names, strict=True)
-             if _has_name(names, physics) or finding.gain >= SURE]  # fmt: skip
-    if not (known and _has_name(known, physics)):
+    if not set(names) <= physics or len(findings) >= MOST_FINDINGS:
         return Verdict("unknown", (), classes)
     improves = after < before
-    if improves and after <= EXPLAINED and len(known) == len(names):
+    if improves and after <= EXPLAINED:
         # two names for one thing: what cannot be told apart is one answer
         if classes and len(findings) == 1:
             return Verdict("class", classes[0], classes)
         return Verdict("named", tuple(names), classes)
     own = without is None or halves(ladder[-1].gap, without)
     if improves and own and ladder[-1].share >= MOST:
-        return Verdict("partial", tuple(known), classes)
+        return Verdict("partial", tuple(names), classes)
     return Verdict("unknown", (), classes)
-
-
-def _has_name(names: Sequence[str], physics: set[str]) -> bool:
-    """Whether the catalogue stands for all of them, and they are few."""
-    return set(names) <= physics and len(names) < MOST_FINDINGS
 
 
 def explains(ladder: Sequence[Rung]) -> bool:

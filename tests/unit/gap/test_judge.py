@@ -138,25 +138,6 @@ def test_what_has_no_name_is_unknown():
     assert judged(["run_in", "other.time"], 5.0, 1.0) == ("unknown", ())
 
 
-@pytest.mark.parametrize(
-    ("gains", "told"),
-    [
-        ({"run_in": 501.0, "other.time": 499.0}, ("partial", ("run_in",))),
-        ({"run_in": 501.0, "other.time": 501.0}, ("unknown", ())),
-        ({"run_in": 499.0, "other.time": 50.0}, ("unknown", ())),
-        ({"other.time": 501.0, "run_in": 499.0}, ("unknown", ())),
-        ({"run_in": 9e3, "film_drag": 600.0, "speed_ripple": 499.0},
-         ("partial", ("run_in", "film_drag"))),
-        ({"run_in": 9e3, "film_drag": 600.0, "speed_ripple": 501.0}, ("unknown", ())),
-    ],
-)  # fmt: skip
-def test_a_small_finding_without_a_name_leaves_greater_ones_a_part(gains, told):
-    ladder = [rung(9.0, 5.0), rung(9.0, 1.0, 1.0)]
-    found = [Finding(name, (), gain, {}) for name, gain in gains.items()]
-    verdict = judge(found, list(gains), ladder, PHYSICS)
-    assert (verdict.verdict, verdict.effects) == told
-
-
 @dataclass
 class Rows:
     """Stands for the rows: each unknown adds its own to the evidence and takes its own misfit."""
