@@ -260,12 +260,17 @@ class _Fitting:
         return self._fitted(named, [], is_shown=False).ladder[-1].gap
 
     def overruled(self, parts: Sequence[Part], named: Named) -> Rejected | None:
-        """A lone finding that simulated runs put so far behind a rival that the rows must err."""
-        rivals = self._rivals(parts, named)
-        if max(rivals.values(), default=0.0) <= SURE:
-            return None
-        gained = self._fitted(named, [], is_shown=False).gained(parts[0])
-        return Rejected(parts[0].finding.name, parts[0].finding.gain, gained)
+        """A lone finding that simulated runs put so far behind a rival that the rows must err.
+
+        Runs that no fit has seen must come out better with the rival, too.
+        """
+        for name, more in self._rivals(parts, named).items():
+            if more > SURE:
+                rival = self._fitted(named, [self._in_place(named, name)])
+                if judged(rival.ladder[-1].gap) < judged(self._fitted(named, parts).ladder[-1].gap):
+                    gained = self._fitted(named, [], is_shown=False).gained(parts[0])
+                    return Rejected(parts[0].finding.name, parts[0].finding.gain, gained)
+        return None
 
     def told_apart(self, parts: Sequence[Part], named: Named) -> Named:
         """A lone finding, its rivals in the rows simulated as well.

@@ -16,6 +16,8 @@ import numpy as np
 
 from .run_model import BREAK_AWAY, RunModel
 
+#: Friction across, in parts of that along x.
+ACROSS = "lateral_friction.ratio"
 #: Finite differences of a state, in units of the noise (velocities: noise times omega).
 STEP = 1e-3
 #: The same of a stick's own friction: 1e-5 of some cm are tenths of a micrometre.
@@ -68,8 +70,13 @@ class StartStates:
         return np.flatnonzero(self.free(values).any(axis=0))
 
     def free(self, values: Mapping[str, float]) -> np.ndarray:
-        """(w, 6 + sticks) whether each is."""
-        return self.with_sticks if values.get(BREAK_AWAY, 0.0) > 0.0 else self.of_block
+        """(w, 6 + sticks) whether each is. A block that friction holds across, too, moves with the
+        surface where a window starts in a stick."""
+        free = self.with_sticks if values.get(BREAK_AWAY, 0.0) > 0.0 else self.of_block
+        if values.get(ACROSS, self.model.known[ACROSS]) > 0.0:
+            free = free.copy()
+            free[np.isfinite(self.model.windows.hold_since), 3:6] = False
+        return free
 
     def derivatives(self, values: Mapping[str, float], at: Started, p: np.ndarray) -> np.ndarray:
         """(size, a) of the residuals by the free axes, per step; 0 where a window's is not free."""

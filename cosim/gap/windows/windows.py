@@ -105,8 +105,8 @@ def windows_of(run: MeasuredRun, planar: bool = False, cycles: float = CYCLES) -
         if stick is not None:
             rows = slice(row, stick.last + 1)
             line = track.x[rows] - run.surface_speed * (track.time[rows] - track.time[row])
-            states[number, 0], states[number, 3:] = np.nanmean(line), np.nan
-            free[number, 3:] = False  # it moves with the surface
+            states[number, [0, 3]] = np.nanmean(line), np.nan
+            free[number, 3] = False
             hold_since[number] = stick.start
     free[0] &= begin == 0
     lets_go = _swings(run, period) if sticks else np.zeros(0, dtype=int)

@@ -154,12 +154,22 @@ def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told
     assert fitting.overruled([part], named) is None
 
 
-@pytest.mark.parametrize(("more", "gone"), [(499.0, False), (501.0, True)])
-def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(monkeypatch, more, gone):
-    part = Part(finding("run_in", 30.0), None, (), (), {"on": 1.0})
+@pytest.mark.parametrize(
+    ("more", "held_out", "gone"),
+    [(499.0, 1.0, False), (501.0, 1.0, True), (501.0, 1.06, False)],
+)
+def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(
+    monkeypatch, more, held_out, gone
+):
+    part, rival = (Part(finding(name, 30.0), None, (), (), {}) for name in ("run_in", "film_drag"))
     monkeypatch.setattr(find._Fitting, "_rivals", lambda *_: {"film_drag": more})
-    models = SimpleNamespace(gained=lambda part: 20.0)
-    monkeypatch.setattr(find._Fitting, "_fitted", lambda *_, **__: models)
+    monkeypatch.setattr(find._Fitting, "_in_place", lambda *_: rival)
+    gaps = {(): 2.0, ("run_in",): 1.05, ("film_drag",): held_out}
+    monkeypatch.setattr(
+        find._Fitting, "_fitted", lambda self, named, parts, **_: SimpleNamespace(
+            gained=lambda part: 20.0, ladder=[
+                SimpleNamespace(gap=Score(1.0, gaps[tuple(part.effect for part in parts)]))])
+    )  # fmt: skip
     rejected = find._Fitting(None, lambda: None, 1).overruled([part], None)
     assert (rejected is not None) is gone
 

@@ -22,6 +22,7 @@ from cosim.gap.windows import (
 )
 from cosim.gap.windows.problem import Problem
 from cosim.gap.windows.run_model import UNSEEN, RunModel
+from cosim.gap.windows.start_states import StartStates
 from cosim.gap.windows.windows import cycle
 
 MU_S, MU_K = 0.3, 0.2
@@ -237,6 +238,17 @@ def test_what_the_tracker_does_not_have_has_a_prior(tmp_path):
     priors = model.residuals({}, states)[-2 * (len(states) - 1) :].reshape(-1, 2)
     assert priors == pytest.approx(np.tile([1.0, 2.0 / run.natural_frequency], (len(priors), 1)))
     assert (model.owner[-priors.size :].reshape(-1, 2).T == np.arange(1, len(states))).all()
+
+
+def test_where_friction_holds_a_block_across_only_its_place_is_free_in_a_stick(tmp_path):
+    campaign = measured(tmp_path, SPEEDS[:2], planar=True, spring_misalignment={"angle_deg": 2.0})
+    run = campaign.runs[0]
+    starts = StartStates(RunModel(campaign, run, windows_of(run, planar=True)))
+    in_stick = np.isfinite(starts.model.windows.hold_since)
+    assert in_stick.any() and not in_stick.all()
+    along, across = starts.free({}), starts.free({"lateral_friction.ratio": 1.0})
+    assert along[in_stick, 4:6].all() and not across[in_stick, 3:6].any()
+    assert (along[~in_stick] == across[~in_stick]).all()
 
 
 def test_a_number_that_a_bound_holds_is_named(plain):
