@@ -7,10 +7,14 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from .belt.material_frame import BeltField
 from .belt.supported_belt import HeatGiven, SupportedBelt
 from .contact.exchange import Fluxes, IceFace, exchange
+from .contact.footprint import Footprint
 from .ice.block import StandingBlock, standing_block
+from .ice.cylinder import Cylinder
 from .ice.meltwater import Meltwater
+from .ice.sample import Sample
 from .ledger import HeatLedger
 from .parameters import ThermalParameters
 
@@ -40,16 +44,19 @@ class BeltIceModel:
     def __init__(
         self, parameters: ThermalParameters | None = None, block: StandingBlock | None = None
     ) -> None:
-        self.parameters = parameters = parameters or ThermalParameters()
-        self.footprint, self.ice = standing_block(parameters) if block is None else block
-        self.supported_belt = SupportedBelt(parameters.belt, self.footprint)
-        self.belt = self.supported_belt.belt
-        self.ledger = HeatLedger()
+        parameters = parameters or ThermalParameters()
+        self.parameters: ThermalParameters = parameters
+        footprint, ice = standing_block(parameters) if block is None else block
+        self.footprint: Footprint = footprint
+        self.ice: Cylinder | Sample = ice
+        self.supported_belt: SupportedBelt = SupportedBelt(parameters.belt, self.footprint)
+        self.belt: BeltField = self.supported_belt.belt
+        self.ledger: HeatLedger = HeatLedger()
         self._ambient = parameters.ambient.temperature_degC
-        self.meltwater = Meltwater(
+        self.meltwater: Meltwater = Meltwater(
             parameters, self.footprint, self.ice, self.belt, parameters.melting_rise
         )
-        self.longest_movement = MOVEMENT * self.footprint.length
+        self.longest_movement: float = MOVEMENT * self.footprint.length
         #: Distance of entry and exit from the contact's centre, m.
         self._probe = 0.5 * min(
             (1.0 + 2.0 * _PROBE) * self.footprint.length, parameters.belt.length

@@ -98,7 +98,7 @@ class FieldSeries:
         name: str = "temperature",
         times: Sequence[float] = (),
     ) -> None:
-        self.folder = Path(folder)
+        self.folder: Path = Path(folder)
         if not self.folder.is_dir():
             raise ValueError(f"{self.folder}: no such folder for the temperature fields")
         self.name = name

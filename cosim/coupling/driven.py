@@ -75,7 +75,7 @@ class Driven(Around):
 
     def __init__(self, participant: Participant, curves: Mapping[str, Curve]):
         super().__init__(participant)
-        self.curves = dict(curves)
+        self.curves: dict[str, Curve] = dict(curves)
         for port in curves:
             if participant.ports[port].causality != "input":
                 raise CouplingError(f"{participant.name}.{port} is no input, and is not driven")

@@ -89,8 +89,8 @@ class Exchange:
         self.outputs: dict[str, dict[str, float]] = {name: {} for name in system.participants}
         self.inputs: dict[str, dict[str, float]] = {name: {} for name in system.participants}
         self.time: float | None = None
-        self.history = History()
-        self.statistics = Statistics(system.participants)
+        self.history: History = History()
+        self.statistics: Statistics = Statistics(system.participants)
         self.feeds: dict[str, tuple[Connection, ...]] = {
             name: tuple(c for c in system.connections if c.sink.participant == name)
             for name in system.participants

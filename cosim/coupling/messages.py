@@ -53,7 +53,7 @@ class Messages:
     def __init__(self, source: str, kept: int = KEPT):
         self.source = source
         self.time: float | None = None
-        self.dropped = 0
+        self.dropped: int = 0
         self.listeners: list[Callable[[Message], object]] = []
         self._kept: deque[Message] = deque(maxlen=kept)
 

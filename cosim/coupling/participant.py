@@ -193,7 +193,8 @@ class Around:
 
     def __init__(self, participant: Participant):
         self.inner: Any = participant
-        self.name, self.ports = participant.name, participant.ports
+        self.name: str = participant.name
+        self.ports: Mapping[str, Port] = participant.ports
 
     @property
     def capabilities(self) -> Capabilities:

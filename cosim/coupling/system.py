@@ -187,14 +187,14 @@ class CoupledSystem:
         *,
         receipts: bool = True,
     ):
-        self.participants = MappingProxyType(_by_name(participants))
-        self.connections = tuple(connections)
-        self.residuals = tuple(Address.parse(text) for text in residuals)
+        self.participants: Mapping[str, Participant] = MappingProxyType(_by_name(participants))
+        self.connections: tuple[Connection, ...] = tuple(connections)
+        self.residuals: tuple[Address, ...] = tuple(map(Address.parse, residuals))
         check_connections(self.participants, self.connections, receipts)
         conversions, remarks = conversions_of(self.participants, self.connections)
         self.conversions: Mapping[Connection, Affine] = MappingProxyType(conversions)
-        self.remarks = tuple(remarks)
-        self.messages = Messages(MASTER)
+        self.remarks: tuple[str, ...] = tuple(remarks)
+        self.messages: Messages = Messages(MASTER)
         for address in self.residuals:
             output_in_joule(self.participants, address, "an energy residual")
 

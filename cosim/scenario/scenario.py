@@ -18,7 +18,7 @@ from functools import cached_property
 from html import escape
 from importlib import resources
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import TYPE_CHECKING, Any, Literal, Self
 
 import tomli_w
 from pydantic import Field, PrivateAttr, create_model, field_validator, model_validator
@@ -57,12 +57,15 @@ _HEAT_OF_CONTACT: dict[str, Any] = {
     for key, field in Contact.model_fields.items()
     if key not in FROM_BLOCK
 }
-ContactHeat = create_model(
-    "ContactHeat",
-    __base__=Table,
-    __doc__="Contact conductance, and how finely the contact's heat flux is resolved.",
-    **_HEAT_OF_CONTACT,
-)
+if TYPE_CHECKING:
+    ContactHeat = Contact
+else:
+    ContactHeat = create_model(
+        "ContactHeat",
+        __base__=Table,
+        __doc__="Contact conductance, and how finely the contact's heat flux is resolved.",
+        **_HEAT_OF_CONTACT,
+    )
 
 
 class Run(Table):

@@ -23,7 +23,7 @@ class StepLog:
         self._ends: list[float] = []
         self._shortest: list[float] = []
         self._longest: list[float] = []
-        self.count = 0
+        self.count: int = 0
 
     def add(self, reached: float) -> None:
         """A step has come to a time, s; the run's start, or that of a part of it, is none."""

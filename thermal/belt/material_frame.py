@@ -11,7 +11,7 @@ the air.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -80,19 +80,19 @@ class BeltField:
     """
 
     def __init__(self, parameters: Belt, lane: float) -> None:
-        self.cells = parameters.cells
-        self.cell = parameters.length / self.cells
-        self.position = np.arange(self.cells, dtype=np.float64) * self.cell
+        self.cells: int = parameters.cells
+        self.cell: float = parameters.length / self.cells
+        self.position: Array = np.arange(self.cells, dtype=np.float64) * self.cell
         modes = thickness_of(parameters, lane)
-        self.depth = modes.depth
+        self.depth: Array = modes.depth
         self._shapes, self._faces = modes.shapes, modes.faces
-        self.rates = modes.rates[:, None] + modes.along[:, None] * (
+        self.rates: Array = modes.rates[:, None] + modes.along[:, None] * (
             periodic_stiffness(self.cells, self.cell) / self.cell
         )
         self._heat = modes.heat * self.cell
         self._air = modes.air * self.cell
         self.amplitudes: Spectrum = np.zeros(self.rates.shape, dtype=np.complex128)
-        self.response = lru_cache(STEP_SIZES)(self._response)
+        self.response: Callable[[float], Response] = lru_cache(STEP_SIZES)(self._response)
 
     def _response(self, duration: float) -> Response:
         x = self.rates * duration

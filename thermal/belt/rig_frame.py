@@ -53,7 +53,8 @@ class BeltSeries:
         number = np.arange((belt.cells // 2 if waves is None else waves) + 1)
         self._wave = 2.0 * np.pi / belt.length * number
         self._weight = np.where(number == 0, 1.0, 2.0)
-        self.railing_heat_factor = self.roller_rise_factor = 1.0
+        self.railing_heat_factor: float = 1.0
+        self.roller_rise_factor: float = 1.0
         self._supports = supports(belt, footprint.length / footprint.strips, footprint.lane)
         self._place_rows(footprint)
         self._diagonalise(belt.film)
@@ -91,7 +92,7 @@ class BeltSeries:
             self.amplitudes[:] = np.linalg.solve(self._modes.shapes, nodal)
 
     def _respond(self, duration: float, speed: float) -> Response:
-        x = (self._rates + 1j * speed * self._wave) * duration
+        x = np.asarray(self._rates + 1j * speed * self._wave, dtype=np.complex128) * duration
         mean, length = mean_decay(x), self._belt.length
         held = mean_response(x) * (duration / length * self._weight)
         rows = np.empty((self._areas.size, self._areas.size))

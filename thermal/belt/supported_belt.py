@@ -48,7 +48,7 @@ class SupportedBelt:
     """`belt` and its supports; all of them stand still while the belt runs."""
 
     def __init__(self, parameters: Belt, footprint: Footprint) -> None:
-        self.belt = BeltField(parameters, footprint.lane)
+        self.belt: BeltField = BeltField(parameters, footprint.lane)
         self._footprint = footprint
         self._supports = supports(parameters, footprint.length / footprint.strips, footprint.lane)
         self._air = parameters.film

@@ -71,12 +71,14 @@ class Thickness:
         films = [(FacetBasis(basis.mesh, ElementLineP2(), facets=basis.mesh.boundary_facets()), h)]
         modes = eigenmodes(basis, films, medium, lambda x: lane + 0.0 * x[0])
         order = np.argsort(basis.doflocs[0])
-        self.depth = basis.doflocs[0][order]
-        self.shapes = modes.shapes[order]
-        self.faces = self.shapes[[0, -1]]
-        self.rates, self.heat, self.air = modes.rates, modes.heat, modes.air
+        self.depth: Array = basis.doflocs[0][order]
+        self.shapes: Array = modes.shapes[order]
+        self.faces: Array = self.shapes[[0, -1]]
+        self.rates: Array = modes.rates
+        self.heat: Array = modes.heat
+        self.air: Array = modes.air
         along = BilinearForm(lambda u, v, w: medium.conductivity * lane * u * v).assemble(basis)
-        self.along = np.sum(modes.shapes * (along @ modes.shapes), axis=0)
+        self.along: Array = np.sum(modes.shapes * (along @ modes.shapes), axis=0)
 
 
 @lru_cache(maxsize=32)

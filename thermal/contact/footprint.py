@@ -42,12 +42,14 @@ class Footprint:
         self.radius = radius
         self.width = width
         self.strips = strips
-        self.lane = min(width, 2.0 * radius)
-        self.rectangular = length > 0.0
-        self.area = length * self.lane if self.rectangular else float(disc_on_strip(radius, width))
-        self.length = self.area / self.lane
+        self.lane: float = min(width, 2.0 * radius)
+        self.rectangular: bool = length > 0.0
+        self.area: float = (
+            length * self.lane if self.rectangular else float(disc_on_strip(radius, width))
+        )
+        self.length: float = self.area / self.lane
         #: Edges of the strips, m from the centre: (strips + 1,).
-        self.edges = np.linspace(-0.5 * self.length, 0.5 * self.length, strips + 1)
+        self.edges: Array = np.linspace(-0.5 * self.length, 0.5 * self.length, strips + 1)
 
     @property
     def strip_area(self) -> float:

@@ -37,8 +37,8 @@ class MeltFilm:
         self._area, self._length = area, length
         #: dh/dt = -squeeze h^3, 1/(m2 s); a^2 = area / pi.
         self._squeeze = 2.0 * pressure * math.pi / (3.0 * WATER_VISCOSITY * area)
-        self.mass = 0.0
-        self.squeezed = 0.0
+        self.mass: float = 0.0
+        self.squeezed: float = 0.0
 
     @property
     def thickness(self) -> float:

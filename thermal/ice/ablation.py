@@ -59,9 +59,9 @@ class Ablation:
 
     def __init__(self, ice: IceBody, parameters: Ice, area: float, melting: float) -> None:
         self._ice, self._area, self._melting = ice, area, melting
-        self.melt_heat = melt_heat(parameters, melting)
+        self.melt_heat: float = melt_heat(parameters, melting)
         self._volume_heat = parameters.density * self.melt_heat
-        self.speed = 0.0
+        self.speed: float = 0.0
 
     def parts(self, heat: float) -> int:
         """Internal steps that keep each recession short, should all the heat (J) melt ice."""

@@ -9,6 +9,7 @@ is off by `TOLERANCE` of itself. Temperatures are rises above the air.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache, partial
 from typing import NamedTuple
 
@@ -79,7 +80,7 @@ class IceBody:
 
     def __init__(self, space: IceSpace) -> None:
         self.space = space
-        self.melted_depth = 0.0
+        self.melted_depth: float = 0.0
         self._fitted_depth = 0.0
         self._modes = lru_cache(_MOST_KNOWN)(partial(_modes, space))
         self._diagonalise()
@@ -88,12 +89,13 @@ class IceBody:
     def _diagonalise(self) -> None:
         """Modes of the present height."""
         space, height_ratio = self.space, self.height_ratio
-        self.rates, self._shapes = self._modes(height_ratio)
+        rates, self._shapes = self._modes(height_ratio)
+        self.rates: Array = rates
         self._face = space.contact @ self._shapes
         self._heat = space.heat @ self._shapes
         self._air = space.air(height_ratio) @ self._shapes
         self._sinking = self._shapes.T @ space.sinking @ self._shapes
-        self.response = lru_cache(STEP_SIZES)(self._response)
+        self.response: Callable[[float], Response] = lru_cache(STEP_SIZES)(self._response)
 
     @property
     def height_ratio(self) -> float:

@@ -40,12 +40,14 @@ class Meltwater:
         self._footprint = footprint
         self._latent = of_ice.latent_heat
         self._wiper = contact.wiper
-        self.ablation = Ablation(ice, of_ice, footprint.area, melting)
-        self.melt_heat = self.ablation.melt_heat
+        self.ablation: Ablation = Ablation(ice, of_ice, footprint.area, melting)
+        self.melt_heat: float = self.ablation.melt_heat
         load = contact.load or GRAVITY * ice.space.whole_capacity / of_ice.heat_capacity
-        self.film = MeltFilm(footprint.area, footprint.length, load / footprint.area)
-        self.on_belt = BeltWater(belt.cells, belt.cell, self.melt_heat, melting)
-        self.melted = self.wiped = self.wiped_ice = 0.0
+        self.film: MeltFilm = MeltFilm(footprint.area, footprint.length, load / footprint.area)
+        self.on_belt: BeltWater = BeltWater(belt.cells, belt.cell, self.melt_heat, melting)
+        self.melted: float = 0.0
+        self.wiped: float = 0.0
+        self.wiped_ice: float = 0.0
 
     def exchange(
         self, duration: float, displacement: float, solve: Callable[[IceFace], Fluxes]

@@ -88,10 +88,10 @@ class Sample(IceBody):
         low, high = points[:, 2].min(), points[:, 2].max()
         on_base = points[points[:, 2] <= low + FLAT * high]
         self.area = area
-        self.breadth = min(belt_width, float(np.ptp(on_base[:, 1])))
+        self.breadth: float = min(belt_width, float(np.ptp(on_base[:, 1])))
         self.basis, self.cells = body.basis, cells
         self._points = points
-        self.r = np.linspace(points[:, 0].min(), points[:, 0].max(), _ACROSS)
+        self.r: Array = np.linspace(points[:, 0].min(), points[:, 0].max(), _ACROSS)
         self._z = graded(float(high), _UP, _CROWDED)
         self._section = _evaluation(body.basis, self.r, self._z)
 

@@ -77,7 +77,7 @@ class FmuParticipant:
         input_order: int = 1,
         debug: bool = False,
     ):
-        self.path = Path(path)
+        self.path: Path = Path(path)
         self.description = describe(self.path)
         self.name = name or self.description.modelName
         self._table = scalars(self.description)
@@ -93,7 +93,7 @@ class FmuParticipant:
         self._input_order = input_order
         self._debug = debug
         self.capabilities = self._capabilities()
-        self.messages = Messages(self.name)
+        self.messages: Messages = Messages(self.name)
         #: Inputs that derivatives can be given of -> reference.
         self._smooth = {
             name: each.variable.valueReference

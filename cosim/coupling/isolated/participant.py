@@ -60,7 +60,7 @@ class IsolatedParticipant:
         self._states: set[State] = set()
         self._gives_states = False
         self._outputs: dict[str, float] | None = None
-        self.messages = Messages("")
+        self.messages: Messages = Messages("")
         self._process: Process | None = None
         self.name, ports, self.capabilities = self._begin()
         self.messages.source = self.name

@@ -48,10 +48,10 @@ class RunFolder:
 
     def __init__(self, results: Path):
         self.results = results
-        self.path = results / UNFINISHED
-        self.record = self.path / RECORD
-        self.columns = self.path / COLUMNS
-        self.checkpoint = self.path / CHECKPOINT
+        self.path: Path = results / UNFINISHED
+        self.record: Path = self.path / RECORD
+        self.columns: Path = self.path / COLUMNS
+        self.checkpoint: Path = self.path / CHECKPOINT
         self._lock: TextIOWrapper | None = None
 
     @classmethod

@@ -40,8 +40,11 @@ class Stepper:
             raise CouplingError(
                 f"on_divergence = {on_divergence!r}: must be one of {', '.join(POLICIES)}"
             )
-        self.exchange, self.scheme = exchange, scheme
-        self.on_divergence, self.smallest, self._marks = on_divergence, smallest, marks
+        self.exchange: Exchange = exchange
+        self.scheme: Scheme = scheme
+        self.on_divergence: str = on_divergence
+        self.smallest: float = smallest
+        self._marks = marks
 
     def make(self, end: float) -> float:
         """Step from the exchange's time to an end (s), or less far; the time reached, s.

@@ -32,8 +32,10 @@ class Grid:
             raise CouplingError(f"macro_step = {macro_step:g} s: must be greater than 0")
         if stop <= start:
             raise CouplingError(f"stop = {stop:g} s: must be later than start = {start:g} s")
-        self.start, self.stop, self.macro_step = start, stop, macro_step
-        self.steps = max(1, math.ceil((stop - start) / macro_step - SLIVER))
+        self.start: float = start
+        self.stop: float = stop
+        self.macro_step: float = macro_step
+        self.steps: int = max(1, math.ceil((stop - start) / macro_step - SLIVER))
         # steps are the smaller, the later, in what a number of that size can tell apart
         late = start + (self.steps - 1) * macro_step
         if start + macro_step <= start or late >= stop or late + macro_step <= late:

@@ -56,16 +56,21 @@ class System:
     def __init__(self, campaign: Campaign, runs: Sequence[RunRows], every: bool = False):
         """every : runs that are held out count among the fitted ones"""
         self.campaign = campaign
-        self.runs = [run for run in runs if len(run)]
-        self.fitted = [run for run in self.runs if every or not run.track.run.hold_out]
-        self.held_out = [run for run in self.runs if run.track.run.hold_out and not every]
-        self.level = Level.of(self.runs)
-        self.rung_zero = [
+        self.runs: list[RunRows] = [run for run in runs if len(run)]
+        self.fitted: list[RunRows] = [
+            run for run in self.runs if every or not run.track.run.hold_out
+        ]
+        self.held_out: list[RunRows] = [
+            run for run in self.runs if run.track.run.hold_out and not every
+        ]
+        self.level: Level = Level.of(self.runs)
+        self.rung_zero: list[Unknown] = [
             *rung_zero(campaign, self.runs), reading(self.level), set_points(campaign),
         ]  # fmt: skip
-        self.contact, self.scatter = contact(self.level), scatter(self.level)
-        self.rows = np.concatenate([np.zeros(0), *(run.values for run in self.fitted)])
-        self.square = float(self.rows @ self.rows)
+        self.contact: list[Unknown] = contact(self.level)
+        self.scatter: list[Unknown] = scatter(self.level)
+        self.rows: np.ndarray = np.concatenate([np.zeros(0), *(run.values for run in self.fitted)])
+        self.square: float = float(self.rows @ self.rows)
         self._columns: dict[int, np.ndarray] = {}
         self._grams: dict[tuple[int, int], np.ndarray] = {}
         self._rights: dict[int, np.ndarray] = {}
