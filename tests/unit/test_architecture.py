@@ -236,19 +236,6 @@ def test_no_room_imports_itself_by_way_of_others():
     assert circle(rooms) == []
 
 
-def test_the_check_sees_the_imports_that_there_are():
-    """Also relative ones and those inside functions; a checker that sees nothing passes always."""
-    assert "stickslip.parameters.Parameters" in imports()["stickslip.simulation"]
-    assert "cosim.cli.arguments.parser" in imports()["cosim.cli"]
-    assert "thermal.BeltIceModel" in imports()["cosim.coupling.case"]
-    assert home_of("thermal.BeltIceModel") == "thermal"
-    assert room_of("cosim.scenario.validation") == room_of("cosim.scenario") == "cosim.scenario"
-    assert room_of("cosim.gap.data.errors") == "cosim.gap.data"
-    assert room_of("cosim.systems.ssp.reader") == "cosim.systems.ssp"
-    assert room_of("cosim.systems.run") == "cosim.systems.run"
-    assert room_of("thermal.model") is None and room_of("stickslip.kernel.motion") is None
-
-
 def test_the_kernel_travels_alone():
     """As one text it needs `math` and nothing else; its core's files know each other only.
 

@@ -1,4 +1,4 @@
-"""The Iwan contact against closed forms; its laws, kinds and suites; what its answers say."""
+"""The Iwan contact of the foreign laboratory against closed forms."""
 
 from __future__ import annotations
 
@@ -9,15 +9,11 @@ import numpy as np
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from blind.laboratory.__main__ import answer  # noqa: E402
 from blind.laboratory.apparatus import ELEMENTS, GRAVITY, apparatus  # noqa: E402
-from blind.laboratory.campaign import Campaign, draw_hidden  # noqa: E402
-from blind.laboratory.cold_room import draw_room, room_tracker  # noqa: E402
 from blind.laboratory.elements import SPREADS, spread_elements  # noqa: E402
 from blind.laboratory.iwan import slide  # noqa: E402
 from blind.laboratory.rows import FRICTION  # noqa: E402
 from blind.laboratory.simulation import STEP, at_rest_on_belt, simulate  # noqa: E402
-from blind.laboratory.suites import orders_of  # noqa: E402
 
 pytestmark = pytest.mark.slow  # numba compiles the simulator, and no answer hangs on it
 GIVE, MASS, SPRING = 5e-5, 0.67, 20.17
@@ -90,49 +86,3 @@ def test_energy_balance_and_convergence():
     fine = simulate(p, start, 2.0, step=STEP / 16)[:, 0]
     errors = [np.std(simulate(p, start, 2.0, step=h)[:, 0] - fine) for h in (2 * STEP, STEP / 2)]
     assert errors[0] < 1e-4 and errors[1] < 0.5 * errors[0]
-
-
-def test_static_friction_is_back_after_rest():
-    """The block breaks away at mu_s N."""
-    p = block(0.01)
-    x = simulate(p, at_rest_on_belt(p, 0.0), 6.0)[:, 0]
-    assert x.max() == pytest.approx(0.26 * MASS * GRAVITY / (4 * SPRING), rel=0.02)
-
-
-def test_film_and_damping_are_the_same_motion_at_one_speed():
-    """c (V - v) against the belt is c v against the frame, mu_s and mu_k higher by c V/N."""
-    film, damped = block(0.1, give=5e-6), block(0.1, give=5e-6)
-    more = 0.3 * 0.1 / (MASS * GRAVITY)
-    film["film"], film["film_form"], film["film_speed"], film["film_power"] = 0.3, 1, 1.0, 1.0
-    damped["damping"], damped["damping_speed"], damped["damping_power"] = 0.3, 1.0, 1.0
-    damped["mu_s"] += more
-    damped["mu_k"] += more
-    one, other = (simulate(p, at_rest_on_belt(p, 0.005), 5.0)[:, 0] for p in (film, damped))
-    plain = block(0.1, give=5e-6)
-    alone = simulate(plain, at_rest_on_belt(plain, 0.005), 5.0)[:, 0]
-    assert np.std(one - other) < 1e-4 < 0.1 * np.std(one - alone)
-
-
-def test_a_law_is_read_back_from_the_motion():
-    """Deceleration on a belt at rest is the kinetic friction: mu_k (1 - 0.3 * 2/pi arctan u)."""
-    p = block(0.0)
-    p["stiffness"] = 0.0
-    p["weakening"], p["weakening_form"], p["weakening_speed"] = 0.3, 12, 0.2
-    start = at_rest_on_belt(p, 0.0)
-    start[3] = 1.0
-    v = simulate(p, start, 0.4)[20:, 3]
-    speed = 0.5 * (v[1:] + v[:-1])
-    law = 0.2 * GRAVITY * (1 - 0.3 * 2 / np.pi * np.arctan(speed / 0.2))
-    assert -np.diff(v) / 1e-3 == pytest.approx(law, rel=2e-3)
-
-
-def test_alike_effects_are_answered_by_their_class():
-    order, rng = orders_of("iwan_alike", 3)[1], np.random.default_rng(2)
-    plan = draw_room(rng, "guided", single=True, creeping=0.0)
-    assert len({(run.mass, run.stiffness, run.speed) for run in plan.runs}) == 1
-    hidden = tuple(draw_hidden(order, rng, plan.reference))
-    records = tuple(run.plain for run in plan.runs)
-    tracker = room_tracker(rng, False)
-    told = answer(Campaign(order, plan, hidden, (), None, tracker, records, (), rng))
-    assert told["verdict"] == ["class"] and set(told["members"]) == {"run_in", "thermal_weakening"}
-    assert set(told["accept"][0]["effects"]) == set(told["members"])

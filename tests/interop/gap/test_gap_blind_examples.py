@@ -11,8 +11,7 @@ import pytest
 
 from cosim.gap.laws import SHAPES
 
-#: Nothing hidden, and an effect. All five, at their whole length, take some minutes: they are asked
-#: in the benchmark `blind_examples`.
+#: Nothing hidden, and an effect.
 NAMES = tuple(pytest.param(name, marks=pytest.mark.slow) for name in ("e1", "e2"))
 #: Held-out gap, 1 for noise, that counts as a gap and that counts as closed.
 OPEN, CLOSED = 2.0, 1.5

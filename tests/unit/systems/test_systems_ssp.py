@@ -1,6 +1,5 @@
 """Systems in SSP files: nested, parameterised, with units; and what is refused in which words."""
 
-import stat
 import zipfile
 
 import numpy as np
@@ -425,14 +424,12 @@ def test_entities_are_refused(write):
         run(write(ENTITIES + structure(system(BOTH, CHAIN))))
 
 
-@pytest.mark.parametrize(
-    "name", ["../evil.txt", "/etc/evil", "a/../../evil", "C:/evil", "..\\evil"]
-)
-def test_members_that_point_outside_are_refused(tmp_path, name):
+def test_members_that_point_outside_are_refused(tmp_path):
+    """As those of an FMU are, by the same check."""
     path = tmp_path / "evil.ssp"
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("SystemStructure.ssd", structure(system(BOTH, CHAIN)))
-        archive.writestr(name, "x")
+        archive.writestr("../evil.txt", "x")
     with pytest.raises(SystemFault, match="points outside the folder"):
         run(path)
 
@@ -442,17 +439,6 @@ def test_references_that_point_outside_are_refused(write):
     for source, said in (("../a.fmu", "points outside"), ("http://a/b.fmu", "is not in the pack")):
         with pytest.raises(SystemFault, match=said):
             run(write(text.replace("resources/a.fmu", source)))
-
-
-def test_links_in_a_package_are_refused(tmp_path):
-    path = tmp_path / "link.ssp"
-    link = zipfile.ZipInfo("resources/a.fmu")
-    link.external_attr = (stat.S_IFLNK | 0o777) << 16
-    with zipfile.ZipFile(path, "w") as archive:
-        archive.writestr("SystemStructure.ssd", structure(system(BOTH, CHAIN)))
-        archive.writestr(link, "/etc/passwd")
-    with pytest.raises(SystemFault, match="is a symbolic link"):
-        run(path)
 
 
 def test_a_zip_bomb_is_not_opened(tmp_path):

@@ -192,14 +192,6 @@ def test_a_refused_call_is_an_error_that_names_the_culprit(running, case):
     assert running.everything() == then
 
 
-@pytest.mark.parametrize("logging", [False, True])
-def test_errors_are_logged_however_logging_is_set(unit, logging):
-    with unit.instance(logging=logging) as one:
-        one.begin()
-        one.done("SetDebugLogging", int(logging), 0, None)
-        assert "step size" in one.reason("DoStep", 0.0, -1.0, 1)
-
-
 def test_a_warning_is_for_who_wants_to_hear_it(unit):
     slow = {"friction.stick_creep": 0.01, "surface_speed": 0.005}
     heard = []

@@ -13,23 +13,6 @@ from fmpy_instance import SPEED, instance
 from cosim.fmu import python_unit
 
 
-def test_a_state_continues_bit_for_bit(block):
-    block.initialise()
-    block.march(0, 137, 0.01)
-    state = block.slave.getFMUState()
-    then = block.everything()
-    block.march(137, 200, 0.01)
-    ahead = block.everything()
-    block.set("surface_speed", 0.3)
-    block.march(337, 10, 0.01)
-    for _ in range(2):
-        block.slave.setFMUState(state)
-        assert block.everything() == then
-        block.march(137, 200, 0.01)
-        assert block.everything() == ahead
-    block.slave.freeFMUState(state)
-
-
 def test_a_serialised_state_continues_in_another_process(unit, block, tmp_path):
     block.initialise(**{"lateral_friction.ratio": 1.0, "initial.x": 0.01})
     block.march(0, 137, 0.01)
