@@ -96,15 +96,6 @@ def test_every_block_is_run_by_a_test_that_exists(file):
         assert f"def {test}(" in (HERE / path).read_text(encoding="utf-8")
 
 
-def test_what_nobody_runs_is_found_out():
-    page = SITE / "install.md"
-    for language, text in (("julia", "1 + 1\n"), ("python", "print(1)\n"), ("sh", "rm -r x\n")):
-        assert who_runs(page, language, text) is None
-    assert who_runs(page, "", "$ stickslip simulate nothing_like_it\n") is None
-    assert who_runs(page, "toml", "[rig]\nmass = 1\n") is None
-    assert who_runs(page, "{code-cell} python", "1 + 1\n") is None
-
-
 def test_the_campaign_with_a_table_is_one(tmp_path):
     """As the lines that state a law over the speed stand in a campaign."""
     page = SITE / "guide" / "gap.md"

@@ -23,7 +23,7 @@ def refused(*arguments):
 
 
 def test_killed_and_gone_on_with_it_is_the_run_left_alone(tmp_path):
-    """Twice while it runs and once while it draws; the benchmark `kill_and_resume` does 20."""
+    """Twice while it runs and once while it draws."""
     assert kill_and_resume(tmp_path, kills=3, seed=5, duration=3.0, every=40) == []
 
 

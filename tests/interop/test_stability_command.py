@@ -121,9 +121,3 @@ def test_bad_input_is_one_line(tmp_path, arguments, line):
     done = stickslip_here(tmp_path, *arguments)
     assert done.returncode == 2
     assert line in done.stderr and len(done.stderr.splitlines()) == 1
-
-
-def test_the_process_ends_with_status_2(tmp_path):
-    done = stickslip(tmp_path, "stability", "nowhere.toml")
-    assert done.returncode == 2
-    assert "nowhere.toml: no such file" in done.stderr and len(done.stderr.splitlines()) == 1

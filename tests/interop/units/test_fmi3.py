@@ -15,8 +15,6 @@ from c_instance import ERROR, OK, functions
 from fmi3_unit import Unit
 from stickslip import Parameters, simulate
 
-from cosim.fmu.native import built_guid
-
 OUTPUTS = ["x", "y", "mode", "slip_count", "heat", "heat_flow", "friction_force_x"]
 PLANE = {"lateral_friction": {"ratio": 1.0}, "initial": {"phi": 0.05, "y": 0.005}}
 CASES = {
@@ -56,16 +54,6 @@ def values(tables):
 
 
 # --- description ---
-
-
-def test_it_is_of_the_same_content_as_the_unit_for_fmi_2(fmu, fmu3):
-    assert built_guid(fmu3) == built_guid(fmu)
-    libraries = []
-    for file in (fmu, fmu3):
-        with zipfile.ZipFile(file) as archive:
-            names = archive.namelist()
-            libraries += [archive.read(name) for name in names if name.startswith("binaries/")]
-    assert len(libraries) == 2 and libraries[0] == libraries[1]
 
 
 def test_value_references_are_those_of_fmi_2(fmu, fmu3):

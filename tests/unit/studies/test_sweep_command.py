@@ -96,17 +96,6 @@ def test_a_sweep_without_any_result_fails(case, tmp_path, capsys):
     assert (tmp_path / "out" / "sweep.png").stat().st_size > 0
 
 
-def test_an_interrupted_sweep_says_how_to_go_on(case, tmp_path, monkeypatch, capsys):
-    def interrupted(*arguments, **options):
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("cosim.studies.sweep.run_grid", interrupted)
-    assert call(case, "--vary", "rig.mass=1", "-o", tmp_path / "out") == 1
-    line = capsys.readouterr().err
-    assert line.startswith("error: interrupted; what is finished is kept in ")
-    assert line.count("\n") == 1
-
-
 @pytest.mark.skipif(os.name == "nt", reason="signals reach a process group on POSIX only")
 @pytest.mark.parametrize(
     "wanted, chunks", [pytest.param(signal.SIGINT, 3, marks=pytest.mark.slow), (signal.SIGTERM, 1)]

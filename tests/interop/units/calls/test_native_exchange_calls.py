@@ -55,10 +55,7 @@ def test_a_wrong_number_of_numbers_is_refused(continuous, counts, function, whic
         ("CompletedIntegratorStep", (1, None, None)),
         ("SetTime", (NAN,)),
         ("SetTime", (INF,)),
-        ("DoStep", (0.0, 0.01, 1)),
         ("SetRealInputDerivatives", (byref(c_uint(0)), 1, byref(c_int(1)), byref(c_double(1.0)))),
-        ("EnterContinuousTimeMode", ()),
-        ("EnterInitializationMode", ()),
     ],
 )
 def test_a_refused_call_is_an_error(continuous, function, arguments):

@@ -19,13 +19,6 @@ def test_every_variable_says_what_it_is(unit):
     assert description.coSimulation.canSerializeFMUstate
 
 
-def test_every_output_is_in_the_model_structure(unit):
-    description = fmpy.read_model_description(unit)
-    outputs = {v.name for v in description.modelVariables if v.causality == "output"}
-    assert {unknown.variable.name for unknown in description.outputs} == outputs
-    assert {unknown.variable.name for unknown in description.initialUnknowns} >= outputs
-
-
 def test_of_a_unit_for_co_simulation_no_output_depends_directly_on_an_input(python_fmu):
     description = fmpy.read_model_description(python_fmu)
     assert all(unknown.dependencies == [] for unknown in description.outputs)

@@ -176,14 +176,3 @@ def test_ctrl_c_inside_a_step_is_an_error_and_the_state_is_that_before(python_bl
     refused(block.slave.doStep, 0.1, 1e3)
     assert "KeyboardInterrupt" in block.log.take_errors()
     assert block.get("x") == x
-
-
-def test_a_reset_starts_all_over(block):
-    block.initialise()
-    block.march(0, 50, 0.01)
-    once = block.everything()
-    refused(block.slave.doStep, 0.0, 0.01)
-    block.slave.reset()
-    block.initialise()
-    block.march(0, 50, 0.01)
-    assert block.everything() == once
