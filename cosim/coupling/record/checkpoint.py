@@ -111,13 +111,8 @@ def load_checkpoint(path: Path) -> Checkpoint:
         states = {
             name: archive.read(_member(number)) for number, name in enumerate(manifest["states"])
         }
-    return Checkpoint(
-        time=manifest["time"],
-        setup=manifest["setup"],
-        master=manifest["master"],
-        states=states,
-        record=manifest["record"],
-    )
+    told = {key: manifest[key] for key in ("time", "setup", "master", "record")}
+    return Checkpoint(states=states, **told)
 
 
 def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
