@@ -68,14 +68,7 @@ def save_checkpoint(path: Path, checkpoint: Checkpoint) -> Path:
 def _manifest(checkpoint: Checkpoint) -> str:
     # json writes a float by `repr`, which reads back as the same bits
     return json.dumps(
-        {
-            "format": FORMAT,
-            "time": checkpoint.time,
-            "setup": dict(checkpoint.setup),
-            "states": list(checkpoint.states),
-            "record": dict(checkpoint.record),
-            "master": dict(checkpoint.master),
-        },
+        {"format": FORMAT, **vars(checkpoint), "states": list(checkpoint.states)},
         indent=1,
         ensure_ascii=False,
         default=lambda array: array.tolist(),  # of numpy, or a number of it
