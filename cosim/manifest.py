@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 from warnings import warn
 
-from cosim.files import OutputRefused, watched, write_text
+from cosim.files import OutputRefused, watched, writable, write_text
 
 LOG = logging.getLogger(__name__)
 #: What made the results beside it, and which files they are.
@@ -123,6 +123,12 @@ def require_own(folder: Path, files: Iterable[str], force: bool = False) -> None
                 f"{folder / name}: is no result of an earlier run by {folder / MANIFEST}, allowed "
                 "is another folder with -o, or --force to overwrite it"
             )
+
+
+def own_folder(folder: str | Path, files: Iterable[str], force: bool = False) -> Path:
+    """A folder that is made, found writable, and has no file of these that is somebody else's."""
+    require_own(writable(Path(folder), files), files, force)
+    return Path(folder)
 
 
 def require_json(path: Path, keys: Collection[str], force: bool = False) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -50,10 +51,15 @@ def simulate_scenario(scenario: Scenario | str | Path = "reference") -> Simulate
     if not isinstance(scenario, Scenario):
         scenario = read_scenario(scenario)
     check_work(scenario, coupled=False)
-    trajectory = simulate(
+    return SimulatedRun(scenario, simulated(scenario))
+
+
+def simulated(scenario: Scenario, progress: Callable[[float], None] | None = None) -> Trajectory:
+    """The motion of a scenario's mechanics; progress: see `stickslip.simulate`."""
+    return simulate(
         scenario.mechanics,
         scenario.run.duration,
         scenario.run.output_interval,
         interface_temperature=scenario.ambient.temperature_degC,
+        progress=progress,
     )
-    return SimulatedRun(scenario, trajectory)

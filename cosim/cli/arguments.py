@@ -160,6 +160,16 @@ def add_run_arguments(command: argparse.ArgumentParser) -> None:
     add_force(command, ", and begin anew where an unfinished run could be resumed")
 
 
+def add_scenario(command: argparse.ArgumentParser, default: str) -> None:
+    """The scenario of a study."""
+    command.add_argument(
+        "scenario",
+        nargs="?",
+        default=default,
+        help=f"TOML file, or the name of a packaged scenario (default: {default})",
+    )
+
+
 def add_shown(command: argparse.ArgumentParser, later: str = "") -> None:
     """What is drawn of a run. later: how its figures are drawn another time."""
     command.add_argument(

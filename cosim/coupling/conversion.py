@@ -92,12 +92,12 @@ def _by_definition(source: Port, sink: Port) -> Affine:
     assert start is not None and end is not None
     if start.exponents != end.exponents:
         raise CouplingError(
-            f"{_told(source)} ({_dimension(start)}) does not fit {_told(sink)} ({_dimension(end)})"
-            ", allowed are units of one dimension"
+            f"{_told(source)} ({told_dimension(start.exponents)}) does not fit {_told(sink)}"
+            f" ({told_dimension(end.exponents)}), allowed are units of one dimension"
         )
     if start.factor == 0.0 or end.factor == 0.0:
         raise CouplingError(f"{_told(source)} to {_told(sink)}: a unit is defined by the factor 0")
-    found = _rounded(Affine(start.factor / end.factor, (start.offset - end.offset) / end.factor))
+    found = between(start, end)
     if source.unit == sink.unit and not found.is_identity:
         raise CouplingError(
             f"both are in {source.unit}, which they define differently: the one's value is the"
@@ -106,18 +106,15 @@ def _by_definition(source: Port, sink: Port) -> Affine:
     return found
 
 
-def _rounded(found: Affine) -> Affine:
-    """Without what is only the rounding of the definitions."""
-    factor = 1.0 if math.isclose(found.factor, 1.0, rel_tol=SAME) else found.factor
-    return Affine(factor, 0.0 if abs(found.offset) <= SAME else found.offset)
+def between(start: UnitDefinition, end: UnitDefinition) -> Affine:
+    """From one unit to another of its dimension, without what is rounding of the definitions."""
+    factor, offset = start.factor / end.factor, (start.offset - end.offset) / end.factor
+    factor = 1.0 if math.isclose(factor, 1.0, rel_tol=SAME) else factor
+    return Affine(factor, 0.0 if abs(offset) <= SAME else offset)
 
 
 def _told(port: Port) -> str:
     return "no unit" if port.unit == NO_UNIT else port.unit
-
-
-def _dimension(unit: UnitDefinition) -> str:
-    return told_dimension(unit.exponents)
 
 
 def told_dimension(exponents: Sequence[int]) -> str:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 import sys
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from time import perf_counter
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +26,7 @@ SAME_TIME = 8 * sys.float_info.epsilon
 Course = Callable[[Address], Waveform]
 #: Points that a polynomial of the highest degree here takes.
 MOST_POINTS = 3
+Answer = TypeVar("Answer")
 #: Time in s; participant -> port -> value.
 Point = tuple[float, Mapping[str, Mapping[str, float]]]
 
@@ -116,26 +116,19 @@ class Exchange:
             for name, feeds in self.feeds.items()
         }
 
-    @contextmanager
-    def blaming(self, name: str) -> Iterator[None]:
-        """Turn whatever a participant raises into a ParticipantError that names it."""
+    def asked(self, name: str, call: Callable[..., Answer], *given: Any) -> Answer:
+        """What a call to a participant returns; ParticipantError, which names it, for all else."""
         try:
-            yield
+            return call(*given)
         except ParticipantError:
             raise
         except Exception as error:
-            raise self._blame(name, error) from error
-
-    def _blame(self, name: str, error: Exception) -> ParticipantError:
-        return ParticipantError(name, self.time, _one_line(error))
+            said = " ".join(str(error).split()) or type(error).__name__
+            raise ParticipantError(name, self.time, said) from error
 
     def collect(self, name: str) -> None:
         """Read all outputs of a participant; every connected one must be a finite number."""
-        try:
-            found = self.system.participants[name].read()
-        except Exception as error:
-            raise self._blame(name, error) from error
-        self.outputs[name] = found
+        found = self.outputs[name] = self.asked(name, self.system.participants[name].read)
         for port in self._sources[name]:
             if not math.isfinite(found[port]):
                 raise ParticipantError(name, self.time, f"output {port} is {found[port]}")
@@ -164,10 +157,7 @@ class Exchange:
     def write(self, name: str, values: dict[str, float]) -> None:
         """Write values, in the units of the participant, to its inputs."""
         if values:
-            try:
-                self.system.participants[name].write(values)
-            except Exception as error:
-                raise self._blame(name, error) from error
+            self.asked(name, self.system.participants[name].write, values)
         self.inputs[name] = values
 
     def values(self, which: Iterable[Address]) -> NDArray[np.float64]:
@@ -199,11 +189,8 @@ class Exchange:
             self.write(name, held)
             return
         if waves:
-            try:
-                # the protocol is asked for by `capabilities`
-                self.system.participants[name].write_waveforms(waves)  # type: ignore[attr-defined]
-            except Exception as error:
-                raise self._blame(name, error) from error
+            follower: Any = self.system.participants[name]  # as its `capabilities` say
+            self.asked(name, follower.write_waveforms, waves)
         self.inputs[name] = {port: wave.end for port, wave in waves.items()}
 
     def step(self, name: str, size: float) -> float:
@@ -214,10 +201,7 @@ class Exchange:
         if self.time is None:
             raise CouplingError(f"{name}: asked for a step before its initialisation is done")
         began = perf_counter()
-        try:
-            reached = self.system.participants[name].step(self.time, size)
-        except Exception as error:
-            raise self._blame(name, error) from error
+        reached = self.asked(name, self.system.participants[name].step, self.time, size)
         self.statistics.stepped(name, perf_counter() - began)
         end = self.time + size
         if reached is None or reached >= end - SAME_TIME * abs(end):
@@ -233,42 +217,29 @@ class Exchange:
 
     def mark(self) -> Mark:
         """Remember where everything stands; asks every participant for its state."""
-        # a marked step is common, and a context for each call costs more than many a call
-        states = {}
-        for name, participant in self.system.participants.items():
-            try:
-                states[name] = participant.get_state()  # type: ignore[attr-defined]
-            except Exception as error:
-                raise self._blame(name, error) from error
+        states = {name: self.asked(name, each.get_state) for name, each in self._restorable()}
         return Mark(
             states, dict(self.outputs), dict(self.inputs), self.time, tuple(self.history.points)
         )
 
     def back(self, mark: Mark) -> None:
         """Go back to a mark, which stays good."""
-        for name, participant in self.system.participants.items():
-            try:
-                participant.set_state(mark.states[name])  # type: ignore[attr-defined]
-            except Exception as error:
-                raise self._blame(name, error) from error
+        for name, participant in self._restorable():
+            self.asked(name, participant.set_state, mark.states[name])
         self.outputs, self.inputs = dict(mark.outputs), dict(mark.inputs)
         self.time = mark.time
         self.history.points = deque(mark.history, maxlen=MOST_POINTS)
 
     def forget(self, mark: Mark) -> None:
         """A mark is no longer needed."""
-        for name, participant in self.system.participants.items():
-            try:
-                participant.free_state(mark.states[name])  # type: ignore[attr-defined]
-            except Exception as error:
-                raise self._blame(name, error) from error
+        for name, participant in self._restorable():
+            self.asked(name, participant.free_state, mark.states[name])
+
+    def _restorable(self) -> Iterable[tuple[str, Any]]:
+        """The participants, of which `check_restore` has seen that they can go back."""
+        return self.system.participants.items()
 
     def accept(self, time: float) -> None:
         """The step is done and will not be taken back; it has come to a time (s)."""
         self.time = time
         self.history.add(time, self.outputs)
-
-
-def _one_line(error: Exception) -> str:
-    text = " ".join(str(error).split())
-    return text or type(error).__name__

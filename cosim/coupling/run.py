@@ -21,6 +21,8 @@ from cosim.files import OutputError
 from cosim.interrupts import deferred_interrupt
 
 Progress = Callable[[float], None]
+#: Of the initial exchange, see `initial_exchange`.
+EXCHANGE_TOLERANCE, EXCHANGE_SWEEPS = 4 * math.ulp(1.0), 100
 
 
 class _March(NamedTuple):
@@ -46,8 +48,6 @@ def run(
     keep: Keep | None = None,
     observe: Progress | None = None,
     progress: Progress | None = None,
-    exchange_tolerance: float = 4 * math.ulp(1.0),
-    exchange_sweeps: int = 100,
 ) -> CoupledResult:
     """Run a coupled system from start to stop (s).
 
@@ -61,7 +61,6 @@ def run(
     observe: called with the time (s) of every state that stands: of the start, or of where the run
     goes on, and after each step that is accepted. An OutputError that it raises ends the run.
     progress: called with the time reached (s) after each macro step.
-    exchange_tolerance, exchange_sweeps: see `initial_exchange`.
     An interrupt, a participant that fails in a step, or an iteration that does not converge ends
     the run, as does a disk that takes no more; the result then holds everything recorded up to the
     last step accepted, and says so.
@@ -81,7 +80,7 @@ def run(
     exchange = Exchange(system)
     for remark in remarks:
         exchange.remark(remark, None)
-    sweeps = _initialise(exchange, scheme.order, start, stop, exchange_tolerance, exchange_sweeps)
+    sweeps = _initialise(exchange, scheme.order, start, stop)
     if scheme.needs_restore or control.needs_restore or marks:
         try_restore(exchange, start, min(control.first_size, stop - start))
     exchange.accept(start)
@@ -124,22 +123,13 @@ def _control(control: StepControl | None, macro_step: float | None) -> StepContr
     raise CouplingError("name either macro_step or control, which says how long the steps are")
 
 
-def _initialise(
-    exchange: Exchange,
-    order: tuple[str, ...],
-    start: float,
-    stop: float,
-    tolerance: float,
-    max_sweeps: int,
-) -> int:
+def _initialise(exchange: Exchange, order: tuple[str, ...], start: float, stop: float) -> int:
     participants = exchange.system.participants
     for name in order:
-        with exchange.blaming(name):
-            participants[name].enter_initialisation(start, stop)
-    sweeps = initial_exchange(exchange, order, tolerance, max_sweeps)
+        exchange.asked(name, participants[name].enter_initialisation, start, stop)
+    sweeps = initial_exchange(exchange, order, EXCHANGE_TOLERANCE, EXCHANGE_SWEEPS)
     for name in order:
-        with exchange.blaming(name):
-            participants[name].exit_initialisation()
+        exchange.asked(name, participants[name].exit_initialisation)
         exchange.collect(name)
     return sweeps
 

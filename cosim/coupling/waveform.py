@@ -75,7 +75,7 @@ def through(points: Sequence[tuple[float, float]], size: float) -> Waveform:
     if len(points) == 1:
         return Waveform((points[0][1],), size)
     if points[0][0]:
-        points = sorted(points, key=_distance)
+        points = sorted(points, key=lambda point: abs(point[0]))
     (t0, u0), (t1, u1) = points[0], points[1]
     slope = (u1 - u0) / (t1 - t0)
     if len(points) == 2:
@@ -87,7 +87,3 @@ def through(points: Sequence[tuple[float, float]], size: float) -> Waveform:
         (u0 - slope * t0 + bend * t0 * t1, slope - bend * (t0 + t1), bend),
         size,
     )
-
-
-def _distance(point: tuple[float, float]) -> float:
-    return abs(point[0])

@@ -124,12 +124,17 @@ def thermal_of(dataset: Data) -> ThermalParameters:
     return found.in_still_air(mu * mass * GRAVITY, abs(speed), moving)
 
 
-def _selected(dataset: Data, model: type[BaseModel]) -> dict[str, dict[str, Any]]:
+def parameter_values(dataset: Data) -> dict[str, dict[str, Any]]:
+    """Table -> key -> value, of all parameters that a dataset carries."""
     return {
         name: {key: entry["value"] for key, entry in entries.items()}
         for name, entries in stored_tables(dataset).items()
-        if name in model.model_fields
     }
+
+
+def _selected(dataset: Data, model: type[BaseModel]) -> dict[str, dict[str, Any]]:
+    tables = parameter_values(dataset).items()
+    return {name: values for name, values in tables if name in model.model_fields}
 
 
 def ramp_end(dataset: Data) -> float:

@@ -45,10 +45,10 @@ SINKS = {
 
 def heat_ledger(dataset: Data) -> dict[str, Quantity]:
     """Heat received and found, J at the end of the run."""
-    received = _last(dataset, "heat_received")
-    residual = _largest(dataset, "heat_residual")
+    received = last(dataset, "heat_received")
+    residual = largest_of(dataset, "heat_residual")
     found = {
-        sink: Quantity(_last(dataset, name), "J") for sink, name in SINKS.items() if name in dataset
+        sink: Quantity(last(dataset, name), "J") for sink, name in SINKS.items() if name in dataset
     }
     railing = other_heat(dataset)["railing"]
     rubbed = {"from_railing": Quantity(float(railing[-1]), "J")} if railing.any() else {}
@@ -56,7 +56,7 @@ def heat_ledger(dataset: Data) -> dict[str, Quantity]:
         "received": Quantity(received, "J"),
         **rubbed,
         **found,
-        "residual": Quantity(_last(dataset, "heat_residual"), "J"),
+        "residual": Quantity(last(dataset, "heat_residual"), "J"),
         "largest_residual": Quantity(residual, "J"),
         "relative_residual": Quantity(ratio(residual, received), "1"),
     }
@@ -69,14 +69,14 @@ def heat_shares(dataset: Data) -> dict[str, Quantity]:
     from_contact_to_belt: share of the contact's that entered the belt there, part of which went on
     to the air.
     """
-    received = _last(dataset, "heat_received") + float(all_other_heat(dataset)[-1])
+    received = last(dataset, "heat_received") + float(all_other_heat(dataset)[-1])
     shares = {
         sink: Quantity(ratio(float(held(dataset, name)[-1]), received), "1")
         for sink, name in SINKS.items()
         if name in dataset
     }
     if "belt_share" in dataset:
-        shares["from_contact_to_belt"] = Quantity(_last(dataset, "belt_share"), "1")
+        shares["from_contact_to_belt"] = Quantity(last(dataset, "belt_share"), "1")
     return shares
 
 
@@ -106,7 +106,7 @@ def held(dataset: Data, name: str) -> np.ndarray:
 def coupling_ledger(dataset: Data) -> dict[str, Quantity]:
     """Joules that the mechanics handed over and that the thermal model took."""
     heat, received = dataset["heat"].values, dataset["heat_received"].values
-    handed, taken = float(heat[-1] - heat[0]), float(received[-1] - received[0])
+    handed, taken = growth(dataset, "heat"), growth(dataset, "heat_received")
     difference = (heat - heat[0]) - (received - received[0])
     largest = float(np.nanmax(np.abs(difference), initial=0.0))
     ledger = {
@@ -116,7 +116,7 @@ def coupling_ledger(dataset: Data) -> dict[str, Quantity]:
         "relative_difference": Quantity(ratio(largest, handed), "1"),
     }
     if "coupling_residual" in dataset:
-        ledger["largest_total_residual"] = Quantity(_largest(dataset, "coupling_residual"), "J")
+        ledger["largest_total_residual"] = Quantity(largest_of(dataset, "coupling_residual"), "J")
     return ledger
 
 
@@ -178,11 +178,13 @@ def ambient_degC(dataset: Data) -> float:
     return float(dataset["interface_temperature"][0] if stated is None else stated)
 
 
-def _last(dataset: Data, name: str) -> float:
+def last(dataset: Data, name: str) -> float:
+    """The value at the end."""
     return float(dataset[name][-1])
 
 
-def _largest(dataset: Data, name: str) -> float:
+def largest_of(dataset: Data, name: str) -> float:
+    """The largest size that is known; 0 where none is."""
     return float(np.nanmax(np.abs(dataset[name].values), initial=0.0))
 
 
@@ -302,14 +304,14 @@ def _balance(late: Data) -> dict[str, Quantity]:
     }
 
 
-def _growth(rows: Data, name: str) -> float:
+def growth(rows: Data, name: str) -> float:
+    """From the first row to the last."""
     return float(rows[name].values[-1] - rows[name].values[0])
 
 
 def _share(rows: Data) -> float | None:
     """Of the friction heat of some rows, what melting took less what freezing gave back."""
-    heat, spent = (_growth(rows, name) for name in ("heat", "meltwater_heat"))
-    return ratio(spent, heat)
+    return ratio(growth(rows, "meltwater_heat"), growth(rows, "heat"))
 
 
 def mean_of(values: Array) -> float | None:

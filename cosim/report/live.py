@@ -118,30 +118,9 @@ def several(figures: Mapping[str, Live]) -> Live:
 
 
 def _panel(panel: Panel, rows: NDArray[np.int64]) -> dict[str, Any]:
-    told = {
-        key: getattr(panel, key)
-        for key in (
-            "label",
-            "stacked",
-            "from_zero",
-            "span",
-            "top",
-            "shaded",
-            "logarithmic",
-            "linear_to",
-        )
-    }
+    told = {key: value for key, value in vars(panel).items() if key != "thermometer"}
     curves = [
-        {
-            "label": curve.label,
-            "colour": curve.colour,
-            "dash": curve.dash,
-            "steps": curve.steps,
-            "fill": curve.fill,
-            "dots": curve.dots,
-            "width": curve.width,
-            "values": packed(np.asarray(curve.values, float)[rows]),
-        }
+        vars(curve) | {"values": packed(np.asarray(curve.values, float)[rows])}
         for curve in panel.curves
     ]
     return told | {"levels": [list(level) for level in panel.levels], "curves": curves}
@@ -198,6 +177,21 @@ def on_one_axis(series: Sequence[Series]) -> tuple[Array, list[Curve]]:
     return times, [replace(one.curve, values=_at(times, one)) for one in series]
 
 
+def panels_on_one_axis(
+    panels: Sequence[tuple[Panel, Sequence[Series]]],
+    span: tuple[float, float] = (-np.inf, np.inf),
+) -> tuple[Array, list[Panel]]:
+    """The times of all series of all panels within a span, s, and the panels with their curves."""
+    times, curves = on_one_axis([one for _, series in panels for one in series])
+    seen, rest = (times >= span[0]) & (times <= span[1]), iter(curves)
+    found = []
+    for panel, series in panels:
+        own = [next(rest) for _ in series]
+        own = [replace(curve, values=curve.values[seen]) for curve in own]
+        found.append(replace(panel, curves=own))
+    return times[seen], found
+
+
 def _at(times: Array, one: Series) -> Array:
     values = np.asarray(one.curve.values, float)
     if not one.curve.dots:
@@ -225,28 +219,12 @@ def live_of(figure: Figure) -> Live:
 
 def _figure(group: Sequence[Axes], labels: dict[str, str], rows: dict[float, str]) -> Live:
     """Axes below each other as panels."""
-    series: list[Series] = []
-    sizes, panels = [], []
+    panels = []
     for axes in group:
         label = axes.get_ylabel() or rows[round(axes.get_position().y0, 6)]
         own = [_series(line, labels, label) for line in axes.lines if _is_curve(axes, line)]
-        series += own
-        sizes.append(len(own))
-        panels.append(Panel(_with_brackets(label), [], levels=_levels(axes)))
-    times, curves = on_one_axis(series)
-    begin, end = group[0].get_xlim()
-    seen = (times >= begin) & (times <= end)
-    ends = np.cumsum(sizes)
-    full = [
-        replace(
-            panel,
-            curves=[
-                replace(curve, values=curve.values[seen]) for curve in curves[stop - size : stop]
-            ],
-        )
-        for panel, size, stop in zip(panels, sizes, ends, strict=True)
-    ]
-    return over_time(times[seen], full, marks=_marks(group[0]))
+        panels.append((Panel(_with_brackets(label), [], levels=_levels(axes)), own))
+    return over_time(*panels_on_one_axis(panels, group[0].get_xlim()), marks=_marks(group[0]))
 
 
 def _is_curve(axes: Axes, line: Line2D) -> bool:

@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 from stickslip.steady_motion.starts import STARTS
 
 from cosim.files import write_bytes, write_text
-from cosim.names import unknown_name
 from cosim.report.columns import Columns, Data, write_columns, write_columns_as_csv
 from cosim.report.contents import REGIME_UNITS
 from cosim.scenario.keys import taken_line
@@ -104,14 +103,10 @@ def write_figures(dataset: Data, folder: Path, names: Sequence[str] = ()) -> Ite
 
     Raises ValueError for a name that is none, before anything is written.
     """
-    from .figures import plates_of
+    from .figures import named_plates
 
-    plates = {plate.name: plate for plate in plates_of(dataset)}
-    for name in names:
-        if name not in plates:
-            raise ValueError(unknown_name("figure of this run", name, plates))
-    for name in names or plates:
-        yield write_bytes(plates[name].picture(dataset).png, folder / f"{name}.png")
+    for plate in named_plates(dataset, names):
+        yield write_bytes(plate.picture(dataset).png, folder / f"{plate.name}.png")
 
 
 def write_data(dataset: Data, folder: str | Path) -> list[Path]:

@@ -13,13 +13,16 @@ from cosim.report.columns import Data
 from cosim.report.contents import assessment_numbers
 
 from .bounds import bounds_numbers
-from .contents import break_aways, ramp_end, slip_share
+from .contents import break_aways, parameter_values, ramp_end, slip_share
 from .coupling import coupling_numbers
 from .heat_numbers import (
     coupling_ledger,
     end_of_sliding,
+    growth,
     heat_ledger,
     heat_shares,
+    largest_of,
+    last,
     melting,
     melts,
     temperatures,
@@ -57,7 +60,7 @@ def after_ramp(dataset: Data) -> dict[str, Quantity]:
         "max_rotation_deg": Quantity(_largest(np.degrees(late["phi"].values)), "deg"),
         "mean_friction_force_x": Quantity(time_mean(late, "friction_force_x"), "N"),
         "mean_heat_flow": Quantity(
-            _growth(late, "heat") / window if reached and late.sizes["time"] else None, "W"
+            growth(late, "heat") / window if reached and late.sizes["time"] else None, "W"
         ),
     }
 
@@ -73,8 +76,8 @@ def whole_run(dataset: Data) -> dict[str, Quantity]:
         **_extremes(dataset, "y", "m"),
         "max_rotation_deg": Quantity(_largest(np.degrees(dataset["phi"].values)), "deg"),
         "max_friction_force_x": Quantity(_largest(dataset["friction_force_x"].values), "N"),
-        "surface_travel": Quantity(_growth(dataset, "surface_travel"), "m"),
-        "sliding_distance": Quantity(_growth(dataset, "sliding_distance"), "m"),
+        "surface_travel": Quantity(growth(dataset, "surface_travel"), "m"),
+        "sliding_distance": Quantity(growth(dataset, "sliding_distance"), "m"),
     }
 
 
@@ -102,10 +105,6 @@ def _largest(values: Array) -> float | None:
     return float(np.abs(values).max()) if values.size else None
 
 
-def _growth(dataset: Data, name: str) -> float:
-    return float(dataset[name].values[-1] - dataset[name].values[0])
-
-
 def summary(dataset: Data) -> dict[str, Any]:
     """Status, coupling, ledgers, temperatures, melting, stick-slip numbers, bounds that the block
     left, versions, what was left to the defaults (`table.key` -> value), scenario.
@@ -125,7 +124,7 @@ def summary(dataset: Data) -> dict[str, Any]:
         "created": dataset.attrs["created"],
         "versions": json.loads(dataset.attrs["versions"]),
         "defaults": json.loads(dataset.attrs.get("defaults", "{}")),
-        "parameters": _plain(json.loads(dataset.attrs["parameters"])),
+        "parameters": parameter_values(dataset),
         "scenario": dataset.attrs["scenario"],
     }
 
@@ -160,26 +159,13 @@ def _numbers(dataset: Data) -> dict[str, Any]:
 
 def mechanics_ledger(dataset: Data) -> dict[str, Quantity]:
     """Works and heats since the start, and what does not add up."""
-    residual = dataset["energy_residual"].values
-    largest = float(np.nanmax(np.abs(residual), initial=0.0))
-    work = _last(dataset, "surface_work")
+    largest, work = largest_of(dataset, "energy_residual"), last(dataset, "surface_work")
     return {
         "surface_work": Quantity(work, "J"),
-        "external_work": Quantity(_last(dataset, "external_work"), "J"),
-        "friction_heat": Quantity(_last(dataset, "heat"), "J"),
-        "damping_heat": Quantity(_last(dataset, "damping_heat"), "J"),
-        "residual": Quantity(float(residual[-1]), "J"),
+        "external_work": Quantity(last(dataset, "external_work"), "J"),
+        "friction_heat": Quantity(last(dataset, "heat"), "J"),
+        "damping_heat": Quantity(last(dataset, "damping_heat"), "J"),
+        "residual": Quantity(last(dataset, "energy_residual"), "J"),
         "largest_residual": Quantity(largest, "J"),
         "relative_residual": Quantity(ratio(largest, abs(work)), "1"),
-    }
-
-
-def _last(dataset: Data, name: str) -> float:
-    return float(dataset[name].values[-1])
-
-
-def _plain(tables: dict[str, Any]) -> dict[str, Any]:
-    return {
-        name: {key: entry["value"] for key, entry in entries.items()}
-        for name, entries in tables.items()
     }

@@ -236,6 +236,11 @@ def at_least(axes: Axes, span: float) -> None:
         axes.set_ylim(middle - 0.5 * span, middle + 0.5 * span)
 
 
+def clipped(name: str, most: int) -> str:
+    """A name of at most so many letters, of a longer one the beginning."""
+    return name if len(name) <= most else f"{name[: most - 3]}..."
+
+
 def line(axes: Axes, x: Array, y: Array, **options: Any) -> None:
     """A line; dots as well where there are too few points to see one."""
     axes.plot(x, y, marker="o" if np.size(x) < 3 else "", **options)

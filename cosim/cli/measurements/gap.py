@@ -14,9 +14,8 @@ from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import numbers_asked
-from cosim.files import writable
 from cosim.interrupts import held_interrupts
-from cosim.manifest import made_by, require_own, results_in
+from cosim.manifest import made_by, own_folder, results_in
 
 if TYPE_CHECKING:
     from cosim.gap import Campaign
@@ -94,9 +93,8 @@ def execute(arguments: Namespace) -> int:
     campaign = read_campaign(source)
     with held_interrupts():
         files = import_module(SHOW_SUMMARY if _has_no_tracks(campaign) else SHOW)
-    folder = Path(arguments.output or Path("results") / f"{files.safe_name(campaign.name)}-gap")
-    writable(folder, (RESULT, MODEL, PAGE))
-    require_own(folder, (RESULT, MODEL, PAGE), arguments.force)
+    place = arguments.output or Path("results") / f"{files.safe_name(campaign.name)}-gap"
+    folder = own_folder(place, (RESULT, MODEL, PAGE), arguments.force)
     asked = numbers_asked(arguments, KEYS)
     for remark in (*campaign.remarks, *_blocking(campaign)):
         note(remark)

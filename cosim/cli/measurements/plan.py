@@ -13,9 +13,9 @@ from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import numbers_asked
-from cosim.files import writable, write_text
+from cosim.files import write_text
 from cosim.interrupts import held_interrupts
-from cosim.manifest import made_by, require_own, results_in
+from cosim.manifest import made_by, own_folder, results_in
 
 EXAMPLE = "stickslip plan cold_room/campaign.toml -o results/cold_room-plan"
 IMPORTS = ("cosim.gap",)
@@ -70,9 +70,8 @@ def execute(arguments: Namespace) -> int:
         plan, data = import_module("cosim.gap.plan"), import_module("cosim.gap.plan.data")
         safe_name = import_module("cosim.gap.show.model_file").safe_name
     planned = plan.read_plan(arguments.campaign)
-    folder = Path(arguments.output or Path("results") / f"{safe_name(planned.campaign.name)}-plan")
-    writable(folder, (RESULT, PAGE))
-    require_own(folder, (RESULT, PAGE), arguments.force)
+    place = arguments.output or Path("results") / f"{safe_name(planned.campaign.name)}-plan"
+    folder = own_folder(place, (RESULT, PAGE), arguments.force)
     asked = numbers_asked(arguments, KEYS)
     for remark in planned.campaign.remarks:
         note(remark)

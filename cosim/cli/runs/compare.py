@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from cosim.cli import DONE
 from cosim.cli.arguments import add_force, add_json, add_output
 from cosim.cli.numbers import numbers_asked
-from cosim.files import writable, write_bytes, write_text
-from cosim.manifest import made_by, require_own, results_in
+from cosim.files import write_bytes, write_text
+from cosim.manifest import made_by, own_folder, results_in
 
 if TYPE_CHECKING:
     from cosim.report.compare import Comparison, OneResult
@@ -53,9 +53,8 @@ def execute(arguments: Namespace) -> int:
 
     numbers = numbers_asked(arguments, ("a", "b", "numbers"))
     both = compare(*_results(arguments))
-    folder = Path(arguments.output or Path("results") / _named(both))
-    writable(folder, (RESULT, PAGE))
-    require_own(folder, (RESULT, PAGE), arguments.force)
+    place = arguments.output or Path("results") / _named(both)
+    folder = own_folder(place, (RESULT, PAGE), arguments.force)
     made = made_by(a=both.a.place, b=both.b.place)
     with results_in(folder, made, force=arguments.force) as results:
         write_text(json_text(both.as_dict()), folder / RESULT)
@@ -97,11 +96,10 @@ def _scenario(source: str, coupled: bool) -> Scenario:
 
 def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
     """A scenario's run, which is kept nowhere."""
-    from stickslip import simulate
-
     from cosim.cli.runs.run_io import progress_over
     from cosim.report import run_dataset, summary, trajectory_dataset
     from cosim.report.compare import OneResult
+    from cosim.simulated import simulated
 
     _ = scenario.catalogue.compiled
     with progress_over(scenario.run.duration) as show:
@@ -111,13 +109,7 @@ def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
             done = run_scenario(scenario, progress=show)
             dataset = run_dataset(done.result, scenario, scenario.to_toml())
         else:
-            trajectory = simulate(
-                scenario.mechanics,
-                scenario.run.duration,
-                scenario.run.output_interval,
-                interface_temperature=scenario.ambient.temperature_degC,
-                progress=show,
-            )
+            trajectory = simulated(scenario, show)
             dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml())
     numbers = summary(dataset)
     failed = numbers["status"] != "complete"

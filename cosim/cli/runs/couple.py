@@ -130,14 +130,7 @@ def _found(arguments: Namespace) -> tuple[SystemSpecification, Job]:
     from cosim.report.files import PAGE_ALONE
     from cosim.systems import read_system
 
-    given = {
-        "-o": arguments.output,
-        "--set": arguments.changes,
-        "--figures": arguments.figures,
-        "--no-page": arguments.no_page,
-        "--force": arguments.force,
-    }
-    refuse_beside_resume(given)
+    refuse_beside_resume(arguments, "-o", "--set", "--figures", "--no-page", "--force")
     folder = RunFolder.found(Path(arguments.resume))
     asked = folder.asked
     system, changes = asked.get("system"), asked.get("changes", {})

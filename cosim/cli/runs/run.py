@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 EXAMPLE = "stickslip run my_case.toml -o results/first"
 IMPORTS = ("cosim.cli.runs.running", "cosim.coupling.case")
 SCENARIO = "scenario.toml"
+#: Options of a run that is begun; one that goes on has them as it was begun.
+ONLY_ANEW = ("--fmu", "--animation", "--fields", "--figures", "--no-page", "--force")
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -101,13 +103,8 @@ def execute(arguments: Namespace) -> int:
                     note_taken(unsaid.pop())
                 show(reached)
 
-            given: dict[str, Any] = {
-                "fmu": fmu,
-                "views": views,
-                "fields": fields,
-                "folder": job.folder,
-            }
-            return run_scenario(scenario, progress=progress, **given, **said)
+            said |= {"fmu": fmu, "views": views, "fields": fields, "folder": job.folder}
+            return run_scenario(scenario, progress=progress, **said)
 
     def write(
         done: CoupledRun, results: ResultFolder, patience: Patience, resume: str, log: MessageLog
@@ -178,18 +175,7 @@ def _found(arguments: Namespace) -> Case:
     from cosim.coupling.record import RunFolder
     from cosim.report.files import PAGE_ALONE
 
-    given = {
-        "a scenario": arguments.scenario,
-        "-o": arguments.output,
-        "--set": arguments.changes,
-        "--fmu": arguments.fmu,
-        "--animation": arguments.animation,
-        "--fields": arguments.fields,
-        "--figures": arguments.figures,
-        "--no-page": arguments.no_page,
-        "--force": arguments.force,
-    }
-    run_io.refuse_beside_resume(given)
+    run_io.refuse_beside_resume(arguments, "a scenario", "-o", "--set", *ONLY_ANEW)
     results = Path(arguments.resume)
     check_resumed(results, arguments.effects)
     folder = RunFolder.found(results)

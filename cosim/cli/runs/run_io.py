@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import sys
 import time
+from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -123,10 +124,14 @@ def field_files(folder: Path) -> list[str]:
     return found
 
 
-def refuse_beside_resume(given: Mapping[str, object]) -> None:
+#: What is called otherwise in the arguments than on the command line.
+_CALLED = {"a scenario": "scenario", "-o": "output", "--set": "changes"}
+
+
+def refuse_beside_resume(arguments: Namespace, *called: str) -> None:
     """BadInput for an argument, by what it is called, that was given beside --resume."""
-    for what, value in given.items():
-        if value:
+    for what in called:
+        if getattr(arguments, _CALLED.get(what, what.strip("-").replace("-", "_"))):
             raise BadInput(
                 f"--resume: goes on with a run as it was begun, so {what} cannot be given"
             )

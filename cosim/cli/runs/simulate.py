@@ -63,12 +63,10 @@ def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
     Ctrl-C is looked at between two batches of rows only, so that rows and events of a batch are
     both kept or both not there.
     """
-    from stickslip import simulate
-
     from cosim.cli.runs.run_io import progress_over
+    from cosim.simulated import simulated
 
-    run = scenario.run
-    with progress_over(run.duration) as show:
+    with progress_over(scenario.run.duration) as show:
 
         def progress(reached: float) -> None:
             patience.hold()
@@ -78,13 +76,7 @@ def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
                 raise KeyboardInterrupt
 
         try:
-            return simulate(
-                scenario.mechanics,
-                run.duration,
-                run.output_interval,
-                interface_temperature=scenario.ambient.temperature_degC,
-                progress=progress,
-            )
+            return simulated(scenario, progress)
         except KeyboardInterrupt as stop:
             if not patience.holding:
                 raise

@@ -17,8 +17,8 @@ from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import writable, write_atomically, write_bytes, write_text
-from cosim.manifest import made_by, require_own, results_in
+from cosim.files import write_atomically, write_bytes, write_text
+from cosim.manifest import made_by, own_folder, results_in
 from cosim.report.files import without_nan
 from cosim.report.page import Picture
 from cosim.scenario import Scenario
@@ -210,9 +210,8 @@ def execute(arguments: Namespace) -> int:
     began = time.perf_counter()
     wanted, options = _asked(arguments)
     numbers = numbers_asked(arguments, ("limit", "cases", "verdict"))
-    folder = Path(arguments.output)
-    writable(folder)
-    require_own(folder, (RESULT, TABLE, PAGE, CHANGES, DOUBT), arguments.force)
+    own_files = (RESULT, TABLE, PAGE, CHANGES, DOUBT)
+    folder = own_folder(arguments.output, own_files, arguments.force)
     given = given_scenario(arguments.scenario, arguments.changes) if arguments.scenario else None
     if given is not None:
         _look_at(given, wanted, arguments.scenario)

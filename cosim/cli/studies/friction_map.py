@@ -6,18 +6,16 @@ import json
 import sys
 import time
 from argparse import ArgumentParser, Namespace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from cosim.cli import DONE
-from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.arguments import add_force, add_json, add_output, add_scenario, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import writable
-from cosim.manifest import made_by, require_own, results_in
+from cosim.manifest import made_by, own_folder, results_in
 
 EXAMPLE = "stickslip friction-map melting_friction --ambient -8 -o results/friction"
 IMPORTS = ("cosim.studies.friction_map",)
@@ -32,12 +30,7 @@ AMBIENTS = (-16.0, -8.0, -1.0)
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
-    parser.add_argument(
-        "scenario",
-        nargs="?",
-        default="melting_friction",
-        help="TOML file, or the name of a packaged scenario (default: melting_friction)",
-    )
+    add_scenario(parser, "melting_friction")
     parser.add_argument(
         "--speed",
         metavar="V",
@@ -81,9 +74,7 @@ def execute(arguments: Namespace) -> int:
     scenario = given_scenario(arguments.scenario, arguments.changes)
     asked = numbers_asked(arguments, KEYS)
     own_fmu(scenario.catalogue)  # once, and before anything is written: it may lack a compiler
-    folder = Path(arguments.output)
-    writable(folder)
-    require_own(folder, (RESULT, TABLE, FIGURE, PAGE), arguments.force)
+    folder = own_folder(arguments.output, (RESULT, TABLE, FIGURE, PAGE), arguments.force)
     note_taken(scenario)
     total = len(set(arguments.speed)) * len(set(arguments.ambient))
     with Bar(total=total, unit="run") as bar:
@@ -94,7 +85,7 @@ def execute(arguments: Namespace) -> int:
     with results_in(folder, made, force=arguments.force) as results:
         write(found, folder, made["command"])
         results.complete = True
-    if asked.give(json.dumps(found.as_json(), indent=1)):
+    if asked.give(json.dumps(found.summary(), indent=1)):
         return DONE
     for ambient in found.ambients:
         _print(found.regimes(ambient))

@@ -13,9 +13,9 @@ from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_force, add_json, add_output
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
-from cosim.files import writable, write_bytes, write_text
+from cosim.files import write_bytes, write_text
 from cosim.interrupts import held_interrupts
-from cosim.manifest import made_by, require_own, results_in
+from cosim.manifest import made_by, own_folder, results_in
 
 if TYPE_CHECKING:
     from cosim.studies.reproduction import Claim
@@ -44,10 +44,8 @@ def execute(arguments: Namespace) -> int:
 
     began = time.perf_counter()
     wanted = claim_ids(arguments.claims)
-    folder = Path(arguments.output)
     asked = numbers_asked(arguments, ("referee", "claims"))
-    writable(folder, (PAGE, RESULT))
-    require_own(folder, (PAGE, RESULT), arguments.force)
+    folder = own_folder(arguments.output, (PAGE, RESULT), arguments.force)
     made = made_by(claims=wanted)
     claims: list[Claim] = []
     try:

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.arguments import add_force, add_json, add_output, add_scenario, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import writable, write_bytes, write_text
-from cosim.manifest import made_by, require_own, results_in
+from cosim.files import write_bytes, write_text
+from cosim.manifest import made_by, own_folder, results_in
 
 if TYPE_CHECKING:
     from cosim.report.page import Picture
@@ -35,12 +35,7 @@ SPEEDS, PRETENSIONS, RATIOS = (0.2, 4.0), (0.0, 0.2), (1.02, 2.0)
 
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
-    parser.add_argument(
-        "scenario",
-        nargs="?",
-        default="reference",
-        help="TOML file, or the name of a packaged scenario (default: reference)",
-    )
+    add_scenario(parser, "reference")
     parser.add_argument(
         "--grid",
         metavar="N",
@@ -77,9 +72,7 @@ def execute(arguments: Namespace) -> int:
         raise NotAMotion(f"--grid = {grid}: must be at least 2, or 0 for none")
     scenario = given_scenario(arguments.scenario, arguments.changes)
     asked = numbers_asked(arguments, KEYS)
-    folder = Path(arguments.output)
-    writable(folder, (RESULT, PAGE))
-    require_own(folder, (RESULT, PAGE), arguments.force)
+    folder = own_folder(arguments.output, (RESULT, PAGE), arguments.force)
     case, status = case_of(scenario), DONE
     note_taken(scenario)
     maps: dict[str, Any] = {}

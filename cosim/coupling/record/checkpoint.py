@@ -68,14 +68,7 @@ def save_checkpoint(path: Path, checkpoint: Checkpoint) -> Path:
 def _manifest(checkpoint: Checkpoint) -> str:
     # json writes a float by `repr`, which reads back as the same bits
     return json.dumps(
-        {
-            "format": FORMAT,
-            "time": checkpoint.time,
-            "setup": dict(checkpoint.setup),
-            "states": list(checkpoint.states),
-            "record": dict(checkpoint.record),
-            "master": dict(checkpoint.master),
-        },
+        {"format": FORMAT, **vars(checkpoint), "states": list(checkpoint.states)},
         indent=1,
         ensure_ascii=False,
         default=lambda array: array.tolist(),  # of numpy, or a number of it
@@ -111,13 +104,8 @@ def load_checkpoint(path: Path) -> Checkpoint:
         states = {
             name: archive.read(_member(number)) for number, name in enumerate(manifest["states"])
         }
-    return Checkpoint(
-        time=manifest["time"],
-        setup=manifest["setup"],
-        master=manifest["master"],
-        states=states,
-        record=manifest["record"],
-    )
+    told = {key: manifest[key] for key in ("time", "setup", "master", "record")}
+    return Checkpoint(states=states, **told)
 
 
 def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:

@@ -50,7 +50,9 @@ class PowerBond:
         if any(port.definition is None for port in ports):
             return f"power bond {self}: whether {units} is a power is not checked: not defined"
         exponents = _product(*ports)
-        if exponents[:COUNTED] != POWER[:COUNTED] or any(_offset(port) for port in ports):
+        if exponents[:COUNTED] != POWER[:COUNTED] or any(
+            port.definition and port.definition.offset for port in ports
+        ):
             raise CouplingError(
                 f"power bond {self}: {units} ({told_dimension(exponents)}) is no power, allowed "
                 "are two outputs whose product is one, as force and velocity, in W or multiples"
@@ -82,10 +84,6 @@ def _product(*ports: Port) -> tuple[int, ...]:
     first, second = (port.definition for port in ports)
     assert first is not None and second is not None
     return tuple(a + b for a, b in zip(first.exponents, second.exponents, strict=True))
-
-
-def _offset(port: Port) -> float:
-    return 0.0 if port.definition is None else port.definition.offset
 
 
 def _both_ends(exchange: Exchange, source: Address, sink: str) -> tuple[float, float]:

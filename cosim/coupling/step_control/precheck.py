@@ -79,9 +79,7 @@ def check_restore(
 def try_restore(exchange: Exchange, start: float, size: float) -> None:
     """Refuse a participant that says that it can go back, and does not bit for bit."""
     for name, participant in exchange.system.participants.items():
-        with exchange.blaming(name):
-            exact = restores_exactly(participant, start, size)
-        if not exact:
+        if not exchange.asked(name, restores_exactly, participant, start, size):
             raise CouplingError(
                 f"{name}: says that it can go back to an earlier state, and tried with a step of "
                 f"{size:g} s it does not come back exactly; allowed are Jacobi and GaussSeidel "
@@ -116,9 +114,7 @@ def restores_exactly(participant: Any, time: float, size: float) -> bool:
         same = same and _stepped(participant, time, size) == first
         participant.set_state(state)
     except Exception:
-        with suppress(Exception):
-            participant.free_state(state)
-        return False
+        same = False
     try:
         participant.free_state(state)
     except Exception:

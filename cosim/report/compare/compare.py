@@ -162,21 +162,13 @@ class Comparison:
             "scenario": {key: {"a": a, "b": b} for key, (a, b) in self.keys.items()},
             "numbers": {
                 one.name: {
-                    "unit": one.unit,
-                    "a": one.a,
-                    "b": one.b,
-                    "difference": one.difference,
-                    "relative": one.relative,
+                    key: getattr(one, key) for key in ("unit", "a", "b", "difference", "relative")
                 }
                 for one in self.numbers
             },
             "curves": {
                 one.name: {
-                    "unit": one.unit,
-                    "largest": one.largest,
-                    "at": one.at,
-                    "rms": one.rms,
-                    "span": one.span,
+                    key: getattr(one, key) for key in ("unit", "largest", "at", "rms", "span")
                 }
                 for one in self.apart
             },

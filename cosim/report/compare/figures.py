@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from cosim.report.contents import break_aways
 from cosim.report.figures.events import through_events
-from cosim.report.live import Curve, Panel, on_one_axis, over_time
+from cosim.report.live import Curve, Panel, over_time, panels_on_one_axis
 from cosim.report.live import Series as CurveInTime
 from cosim.report.page import Picture
 from cosim.report.quantities import ROUNDING
@@ -148,7 +148,7 @@ def overlay(both: Comparison) -> Picture:
 def _described(both: Comparison) -> tuple[Array, list[Panel]]:
     """All times of both, and a panel for each channel that moves."""
     labels = (f"A: {both.a.label}", f"B: {both.b.label}")
-    series, shown = [], []
+    shown = []
     for channel, both_values in moving(both):
         scale = readable(_all_values(both_values), channel.unit)
         own = [
@@ -158,15 +158,9 @@ def _described(both: Comparison) -> tuple[Array, list[Panel]]:
             )
             if values is not None
         ]
-        series += own
         label, span = f"{channel.says} [{scale.unit}]", scale.factor * channel.nothing
-        shown.append(Panel(label, [one.curve for one in own], span=span))
-    times, curves = on_one_axis(series)
-    ends = np.cumsum([len(panel.curves) for panel in shown])
-    return times, [
-        replace(panel, curves=curves[end - len(panel.curves) : end])
-        for panel, end in zip(shown, ends, strict=True)
-    ]
+        shown.append((Panel(label, [], span=span), own))
+    return panels_on_one_axis(shown)
 
 
 def _all_values(values: tuple[Array | None, ...]) -> Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from matplotlib.figure import Figure
@@ -168,12 +168,18 @@ def plates_of(dataset: Data) -> list[Plate]:
     return [*shown, TABLE] if mechanics_of(dataset).friction.has_table else shown
 
 
+def named_plates(dataset: Data, names: Sequence[str]) -> list[Plate]:
+    """Those of some names, all of them for none; ValueError for a name that is none."""
+    plates = {plate.name: plate for plate in plates_of(dataset)}
+    for name in names:
+        if name not in plates:
+            raise ValueError(unknown_name("figure of this run", name, plates))
+    return [plates[name] for name in names or plates]
+
+
 def figure_of(dataset: Data, name: str) -> Figure:
     """The figure of a name, of those that `plates_of` has; ValueError for a name that is none."""
-    plates = {plate.name: plate for plate in plates_of(dataset)}
-    if name not in plates:
-        raise ValueError(unknown_name("figure of this run", name, plates))
-    return displayed(plates[name].drawn(dataset))
+    return displayed(named_plates(dataset, [name])[0].drawn(dataset))
 
 
 def _has(dataset: Data, plate: Plate) -> bool:

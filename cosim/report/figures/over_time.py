@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -64,13 +65,10 @@ Describe = Callable[[Data], TimeFigure]
 def drawn(describe: Describe) -> Callable[[Data], Figure]:
     """A function that draws a run's figure."""
 
-    def draw(dataset: Data) -> Figure:
-        return _draw(dataset, describe)
-
-    return styled(draw)
+    return styled(partial(_draw, describe))
 
 
-def _draw(dataset: Data, describe: Describe) -> Figure:
+def _draw(describe: Describe, dataset: Data) -> Figure:
     rows, _ = through_events(dataset)
     described = describe(rows)
     count = len(described.panels)
@@ -110,32 +108,30 @@ def _thermometer(axes: Axes, ambient: float, factor: float) -> None:
 def _legend(figure: Figure, described: TimeFigure) -> None:
     """Curves by name where a panel has several, and the shading."""
     handles = [*curve_handles(described.panels), slip_patch()]
-    columns = min(len(handles), MOST_IN_A_ROW)
-    if len(handles) < 3:
-        figure.legend(handles=handles, loc="outside upper right", ncols=columns)
-    else:
-        figure.legend(handles=handles, loc="outside lower center", ncols=columns)
+    place: Any = "outside upper right" if len(handles) < 3 else "outside lower center"
+    figure.legend(handles=handles, loc=place, ncols=min(len(handles), MOST_IN_A_ROW))
 
 
 def live(describe: Describe) -> Callable[[Data], Live]:
     """A function that gives a run's figure to the page, see `cosim.report.live`."""
 
-    def given(dataset: Data) -> Live:
-        rows, events = through_events(dataset)
-        described = describe(rows)
-        ramp, time = ramp_end(dataset), dataset["time"].values
-        return over_time(
-            rows["time"].values,
-            described.panels,
-            keep=events,
-            phases=slip_intervals(dataset),
-            phase="slip",
-            marks=[(ramp, "speed ramp ends")] if time[0] < ramp < time[-1] else (),
-            part=zoom_of(dataset),
-            note=described.note,
-        )
+    return partial(_given, describe)
 
-    return given
+
+def _given(describe: Describe, dataset: Data) -> Live:
+    rows, events = through_events(dataset)
+    described = describe(rows)
+    ramp, time = ramp_end(dataset), dataset["time"].values
+    return over_time(
+        rows["time"].values,
+        described.panels,
+        keep=events,
+        phases=slip_intervals(dataset),
+        phase="slip",
+        marks=[(ramp, "speed ramp ends")] if time[0] < ramp < time[-1] else (),
+        part=zoom_of(dataset),
+        note=described.note,
+    )
 
 
 #: Entries of a legend beside each other.

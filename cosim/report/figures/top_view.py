@@ -44,6 +44,8 @@ class Pose(NamedTuple):
 
 
 REST = Pose(0.0, 0.0, 0.0)
+#: Of a spring that is drawn: turns, and its width, m.
+TURNS, COIL = 9, 0.006
 
 
 def anchors(parameters: Parameters) -> Array:
@@ -58,14 +60,14 @@ def attachments(parameters: Parameters, pose: Pose) -> Array:
     return np.asarray(np.array([pose.x, pose.y]) + arms @ np.array([[c, s], [-s, c]]))
 
 
-def coil(begin: Array, end: Array, turns: int = 9, width: float = 0.006) -> Array:
-    """A spring drawn as a zigzag from ``begin`` to ``end`` (2,), m: (2 turns + 4, 2)."""
+def coil(begin: Array, end: Array) -> Array:
+    """A spring drawn as a zigzag from ``begin`` to ``end`` (2,), m: (2 TURNS + 4, 2)."""
     along = end - begin
     length = np.hypot(*along)
     across = np.array([-along[1], along[0]]) / length
-    stations = np.concatenate([[0.0], np.linspace(0.12, 0.88, 2 * turns + 2), [1.0]])
+    stations = np.concatenate([[0.0], np.linspace(0.12, 0.88, 2 * TURNS + 2), [1.0]])
     swing = np.zeros(stations.size)
-    swing[2:-2] = 0.5 * width * np.where(np.arange(stations.size - 4) % 2, 1.0, -1.0)
+    swing[2:-2] = 0.5 * COIL * np.where(np.arange(stations.size - 4) % 2, 1.0, -1.0)
     return np.asarray(begin + stations[:, None] * along + swing[:, None] * across)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -11,6 +12,7 @@ from stickslip.friction.law_curves import axis_of
 from stickslip.plugins.load import file_of
 from stickslip.quantity import details
 
+from cosim.fmu.variables import bounds_of
 from cosim.names import nearest
 
 __all__ = ["Entry", "allowed", "chosen", "described"]
@@ -62,7 +64,7 @@ def described(entry: Effect) -> dict[str, Any]:
                 "typical": details(field).get("typical"),
                 "switches_on": name in entry.switch,
                 "description": field.description,
-                **_bounds(field.metadata),
+                **bounds_of(field),
             }
             for name, field in entry.table.model_fields.items()
         ],
@@ -89,29 +91,7 @@ def allowed(parameter: dict[str, Any]) -> str:
     >>> allowed({"ge": 0.0, "lt": 2.0})
     '[0, 2)'
     """
-    lower = next(
-        (
-            f"{mark}{parameter[kind]:g}"
-            for kind, mark in (("ge", "["), ("gt", "("))
-            if kind in parameter
-        ),
-        "(-inf",
-    )
-    upper = next(
-        (
-            f"{parameter[kind]:g}{mark}"
-            for kind, mark in (("le", "]"), ("lt", ")"))
-            if kind in parameter
-        ),
-        "inf)",
-    )
-    return f"{lower}, {upper}"
-
-
-def _bounds(metadata: list[Any]) -> dict[str, float]:
-    return {
-        kind: getattr(bound, kind)
-        for bound in metadata
-        for kind in ("gt", "ge", "lt", "le")
-        if getattr(bound, kind, None) is not None
-    }
+    low = parameter.get("ge", parameter.get("gt", -math.inf))
+    high = parameter.get("le", parameter.get("lt", math.inf))
+    ends = "[" if "ge" in parameter else "(", "]" if "le" in parameter else ")"
+    return f"{ends[0]}{low:g}, {high:g}{ends[1]}"

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure, FigureBase
 from stickslip import Parameters, Trajectory, simulate
 from stickslip.friction.law_curves import LawCurve, axis_of, law_curve
 
-from cosim.report.live import Curve, Live, Panel, Series, on_one_axis, over_time
+from cosim.report.live import Curve, Live, Panel, Series, over_time, panels_on_one_axis
 from cosim.report.page import Picture, render, unit_text
 from cosim.report.style import BLUE, GREY, panels, picture
 from cosim.studies.effects import Entry, allowed, described
@@ -116,19 +116,16 @@ def effect_figure(entry: Entry) -> Picture:
 
 def _live(entry: Entry) -> Live:
     """The motions for the page, which has the law as a drawing above them."""
-    begin, end = entry.effect.case.window
     plain, shown = motion(entry, False), motion(entry, True)
     panels = []
-    for name in channels_shown(plain, shown, begin):
+    for name in channels_shown(plain, shown, entry.effect.case.window[0]):
         label, factor = CHANNELS[name]
         series = [
             Series(run.time, Curve(said, factor * run[name], colour))
             for said, run, colour in (("without", plain, GREY), ("with", shown, BLUE))
         ]
-        time, curves = on_one_axis(series)
-        seen = (time >= begin) & (time <= end)
-        panels.append(Panel(label, [replace(curve, values=curve.values[seen]) for curve in curves]))
-    return over_time(time[seen], panels)
+        panels.append((Panel(label, []), series))
+    return over_time(*panels_on_one_axis(panels, entry.effect.case.window))
 
 
 def law_figure(entry: Entry) -> Picture | None:

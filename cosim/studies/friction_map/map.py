@@ -252,10 +252,6 @@ class FrictionMap(Result):
         air = ", ".join(f"{ambient:g}" for ambient in self.ambients)
         return f"<FrictionMap of {self.scenario.name}: {len(self.points)} points, air {air} degC>"
 
-    def summary(self) -> dict[str, Any]:
-        """What `friction_map.json` holds."""
-        return self.as_json()
-
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
         page = import_module(PAGE)
         return page.sentence(self), page.tiles(self)
@@ -268,8 +264,8 @@ class FrictionMap(Result):
     def _write(self, folder: Path) -> None:
         import_module(PAGE).write(self, folder)
 
-    def as_json(self) -> dict[str, Any]:
-        """Everything as plain data."""
+    def summary(self) -> dict[str, Any]:
+        """What `friction_map.json` holds: everything as plain data."""
         return {
             "scenario": self.scenario.to_tables(),
             "duration": self.duration,

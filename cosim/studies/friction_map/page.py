@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import csv
 import json
-from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from stickslip import friction_coefficient
 
-from cosim.files import write_atomically, write_bytes, write_text
+from cosim.files import write_bytes, write_text
+from cosim.report.files import write_table
 from cosim.report.page import Picture, number, render
 from cosim.report.style import GREY, INK, SERIES, logarithmic_x, logarithmic_y, panels, picture
 
@@ -192,19 +192,11 @@ def _slope(slope: float, digits: int = 3) -> str:
 
 def write(found: FrictionMap, folder: Path, command: str = "") -> None:
     """Numbers first, then the figure and the page."""
-    write_text(json.dumps(found.as_json(), indent=1), folder / "friction_map.json")
-    write_atomically(folder / "friction_map.csv", lambda path: _write_table(found, path))
+    write_text(json.dumps(found.summary(), indent=1), folder / "friction_map.json")
+    write_table(pd.DataFrame(found.points), folder / "friction_map.csv", index=False)
     drawn = draw_map(found)
     write_bytes(drawn.png, folder / "friction_map.png")
     write_text(page(found, drawn, command), folder / "report.html")
-
-
-def _write_table(found: FrictionMap, path: Path) -> None:
-    rows = [asdict(point) for point in found.points]
-    with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, fieldnames=list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
 
 
 def page(found: FrictionMap, picture: Picture, command: str) -> str:

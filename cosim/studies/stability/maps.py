@@ -279,12 +279,7 @@ def as_json(
         "starts": STARTS,
         "pretension_map": None
         if stretched is None
-        else {
-            "pretensions": stretched.pretensions.tolist(),
-            "speeds": stretched.speeds.tolist(),
-            "growth": without_nan(stretched.growth.tolist()),
-            "sticks": without_nan(stretched.sticks.tolist()),
-        },
+        else {key: without_nan(values.tolist()) for key, values in vars(stretched).items()},
         "regime_map": None
         if regimes is None
         else {

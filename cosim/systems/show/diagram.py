@@ -15,7 +15,7 @@ from cosim.coupling import Causality, Connection, CoupledSystem
 from cosim.coupling.conversion import NO_UNIT, watts
 from cosim.coupling.system import ENERGY_UNIT, find_port
 from cosim.report.page import unit_text
-from cosim.report.style import GREY, INK, ORANGE, PALE_GREY, RED, SERIES, picture
+from cosim.report.style import GREY, INK, ORANGE, PALE_GREY, RED, SERIES, clipped, picture
 
 #: Inches: of a line of ports, of a box's head, between boxes, between columns, around all.
 LINE, HEAD, BETWEEN, GAP, MARGIN = 0.24, 0.42, 0.45, 1.9, 0.35
@@ -167,15 +167,11 @@ def _place(
 
 def _width(box: Box) -> float:
     sides = (
-        max((len(_short(port)) + 7 for port in ports), default=0)
+        max((len(clipped(port, LONGEST_NAME)) + 7 for port in ports), default=0)
         for ports in (box.inputs, box.outputs)
     )
     letters = max(sum(sides), len(box.name) + 4, len(box.note) + 2)
     return min(max(LETTER * letters, NARROW), 2 * WIDE)
-
-
-def _short(name: str) -> str:
-    return name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 3]}..."
 
 
 def _ends(boxes: Mapping[str, Box], connection: Connection) -> tuple[float, float, float, float]:
@@ -277,7 +273,9 @@ def _draw_box(axes: Axes, system: CoupledSystem, box: Box) -> None:
     ):
         for port in ports:
             unit = system.participants[box.name].ports[port].unit
-            words = _short(port) + ("" if unit == NO_UNIT else f" [{unit_text(unit)}]")
+            words = clipped(port, LONGEST_NAME) + (
+                "" if unit == NO_UNIT else f" [{unit_text(unit)}]"
+            )
             axes.text(
                 x, box.places[port], words, ha=align, va="center", fontsize=8, color=INK, zorder=5,
             )  # fmt: skip

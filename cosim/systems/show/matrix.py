@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from cosim.coupling import CoupledSystem
 from cosim.coupling.system import find_port
-from cosim.report.style import BLUE, GREY, INK, ORANGE, PALE_GREY, RED, SOFT_GREY, picture
+from cosim.report.style import BLUE, GREY, INK, ORANGE, PALE_GREY, RED, SOFT_GREY, clipped, picture
 
 #: Inches for a unit, and of the smallest and the largest sheet without its names.
 EACH, SMALLEST, LARGEST = 0.13, 4.0, 16.0
@@ -85,14 +85,10 @@ def _pairs(axes: Axes, system: CoupledSystem, order: Sequence[str], points: floa
 def _names(axes: Axes, order: Sequence[str]) -> None:
     every = -(-len(order) // MOST_NAMES)
     ticks = range(0, len(order), every)
-    labels = [_short(order[number]) for number in ticks]
+    labels = [clipped(order[number], LONGEST_NAME) for number in ticks]
     axes.xaxis.tick_top()
     axes.set_xticks(ticks, labels, rotation=90, fontsize=7)
     axes.set_yticks(ticks, labels, fontsize=7)
     axes.tick_params(length=2.0, color=GREY)
     for spine in axes.spines.values():
         spine.set_visible(False)
-
-
-def _short(name: str) -> str:
-    return name if len(name) <= LONGEST_NAME else f"{name[: LONGEST_NAME - 3]}..."
