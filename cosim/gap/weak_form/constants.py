@@ -166,8 +166,9 @@ STARTS_ASKED = (1e-5, 3e-4, 3e-3, 2e-2)
 #: How far it may be turned then, rad: a degree where only friction over the disc tells of it, and
 #: five.
 START_TURN = (0.02, 0.1)
-#: Turns of the springs to set out from, rad: none, and half of what springs let a block do.
-TURNS_ASKED = (0.0, 0.15, -0.15)
+#: Turns of the springs to set out from beside none, rad: half of what a block was seen to do; and
+#: the least that is found from there alone: up to 5 degrees lead there from springs along x.
+TURNS_ASKED, LEAST_FAR = (0.15, -0.15), 0.08
 #: Scatter of friction for which its probability is worked out: range, and steps of a fifth; a
 #: scatter whose interval reaches the least is not determined.
 SCATTER_RANGE, SCATTER_STEPS = (5e-4, 0.2), 33

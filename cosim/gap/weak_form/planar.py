@@ -35,6 +35,7 @@ from cosim.gap.weak_form.camera_faults import COURSES, DRIFT, crept
 from cosim.gap.weak_form.constants import (
     ALIKE,
     FAULT_SIZES,
+    LEAST_FAR,
     LEAST_GAIN,
     LEAST_SHARE,
     MOST_SHARE,
@@ -144,11 +145,8 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     moving = frozenset(run.track.run.name for run in runs if _moves(run.track.run))
     for name in FORMS if free else ("", ROTATION):
         among = (every, moving) if name == ROTATION and moving < every else (every,)
-        tried = [
-            max((_fit(campaign, runs, level, form, turned, turn) for turn in _sets_out(form)),
-                key=lambda each: each.evidence)
-            for form in FORMS[name] for turned in among
-        ]  # fmt: skip
+        tried = [_best_fit(campaign, runs, level, form, turned)
+                 for form in FORMS[name] for turned in among]  # fmt: skip
         fits[name] = max(tried, key=lambda each: each.evidence)
         evidence[name] = float(logsumexp([each.evidence for each in tried]) - np.log(len(tried)))
     nothing = evidence.pop("")
@@ -167,12 +165,6 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     alike = [name for name, one in fits.items() if answer == LATERAL and _is_lateral(one)]
     rivals = [name for name in ranked if name not in (answer, *alike)]
     return Planar(evidence, answer, rivals[0] if evidence[rivals[0]] > 0.0 else "", fits)
-
-
-def _sets_out(form: tuple[str, ...]) -> tuple[float, ...]:
-    """Turns of the springs about which a form is tried: a block that nothing holds keeps swinging
-    by the error of a first guess."""
-    return TURNS_ASKED if TURN in form and SHARE not in form else (0.0,)
 
 
 def _is_lateral(fitted: Fitted) -> bool:
@@ -232,6 +224,22 @@ class _Samples:
     rows: np.ndarray
     shared: np.ndarray
     own: np.ndarray
+
+
+def _best_fit(
+    campaign: Campaign, runs: Sequence[RunRows], level: float, form: tuple[str, ...],
+    turned: frozenset[str],
+) -> Fitted:  # fmt: skip
+    """The most probable from springs along x, and of a block that nothing holds from turned ones.
+
+    It keeps swinging by the error of a first guess, so that springs turned by far are found from
+    near them alone. What came back from there to next to nothing is a swing, and no turn.
+    """
+    tried = [_fit(campaign, runs, level, form, turned, 0.0)]
+    if TURN in form and SHARE not in form:
+        far = (_fit(campaign, runs, level, form, turned, turn) for turn in TURNS_ASKED)
+        tried += [each for each in far if abs(each.numbers.get(TURN, (0.0, 0.0))[0]) > LEAST_FAR]
+    return max(tried, key=lambda each: each.evidence)
 
 
 def _fit(
