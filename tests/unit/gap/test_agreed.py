@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from cosim.gap import find
+from cosim.gap import find, models
 from cosim.gap.extended import Part
 from cosim.gap.judge import SURE
 from cosim.gap.models import Models, _same
@@ -221,6 +221,30 @@ def test_a_problem_of_least_squares_is_the_same_from_any_start():
     assert _same([free, replace(known, start=1e-4)], {"a.b": 1.0}, 0.02) != same  # of its prior
     assert _same([free, known], {"a.b": 2.0}, 0.02) != same
     assert _same([free, known], {"a.b": 1.0}, 0.03) != same
+
+
+@pytest.mark.parametrize(("reached", "again"), [(1.209, False), (1.211, True)])
+def test_a_model_that_comes_out_worse_than_the_one_it_holds_sets_out_from_it(
+    monkeypatch, reached, again
+):
+    started, gaps = [], iter([1.2, reached, 1.1])
+
+    def fit(campaign, windows, numbers, settings, scatter, starts, near, jobs):
+        started.append(starts)
+        return SimpleNamespace(gap=(next(gaps), 1.0), values={"friction.mu_k": 0.2})
+
+    monkeypatch.setattr(models, "fit", fit)
+    monkeypatch.setattr(models, "started_from", lambda campaign, rows: {})
+    kinetic = Number("friction.mu_k", 0.3, None, 0.0, 1.0)
+    more = [Number("friction.transition_speed", 4e-3, None, 3e-4, 2e-2, log=True),
+            Number("friction.stick_creep", 1e-3, None, 0.0, 1e-2)]  # fmt: skip
+    ladder = Models(None, None, {}, [], 1)
+    ladder.fits = [ladder._fit(([kinetic], {}), 0.0, None)]
+    ladder.free = [([kinetic], {}, 0.0)]
+    found = ladder._fit(([kinetic, *more], {}), 0.0, None)
+    assert found.gap[0] == (1.1 if again else reached)
+    nested = {"friction.mu_k": 0.2, "friction.transition_speed": 3e-4, "friction.stick_creep": 2e-5}
+    assert started[2:] == ([[nested]] if again else [])
 
 
 def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):
