@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from cosim.gap.checks import blocking, doubts_of
@@ -45,6 +45,9 @@ from cosim.gap.weak_form.track import thinned
 STEPS = 6
 
 Progress = Callable[[int, int], object]
+#: Name -> what it would put into the model, and ln of how much more probable simulated runs are
+#: with it than with the finding that it is a rival of.
+_Rivals = Mapping[str, tuple[Part, float]]
 
 
 def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = None) -> Gap:
@@ -163,9 +166,11 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
             if not (explains(models.ladder) and models.is_felt):
                 along = {part.finding.name for part in parts if part.finding.added}
                 doubted = fitting.rejected(parts, named, along - faint)
-        doubted = doubted or fitting.overruled(parts, named)
         if doubted is None:
-            named = fitting.told_apart(parts, named)
+            rivals = fitting.rivals(parts, named)
+            doubted = fitting.overruled(parts, named, rivals)
+        if doubted is None:
+            named = fitting.told_apart(named, rivals)
             found = [replace(part, finding=finding)
                      for part, finding in zip(found, named.findings, strict=True)]  # fmt: skip
             left = fitting.left_without(found, models, named)
@@ -259,35 +264,8 @@ class _Fitting:
             return None
         return self._fitted(named, [], is_shown=False).ladder[-1].gap
 
-    def overruled(self, parts: Sequence[Part], named: Named) -> Rejected | None:
-        """A lone finding that simulated runs put so far behind a rival that the rows must err.
-
-        Runs that no fit has seen must come out better with the rival, too.
-        """
-        for name, more in self._rivals(parts, named).items():
-            if more > SURE:
-                rival = self._fitted(named, [self._in_place(named, name)])
-                if judged(rival.ladder[-1].gap) < judged(self._fitted(named, parts).ladder[-1].gap):
-                    gained = self._fitted(named, [], is_shown=False).gained(parts[0])
-                    return Rejected(parts[0].finding.name, parts[0].finding.gain, gained)
-        return None
-
-    def told_apart(self, parts: Sequence[Part], named: Named) -> Named:
-        """A lone finding, its rivals in the rows simulated as well.
-
-        One that the rows do not tell from it goes where simulated runs do; one that they put behind
-        it stays as probable where simulated runs put it before.
-        """
-        if not (rivals := self._rivals(parts, named)):
-            return named
-        (finding,) = named.findings
-        others = dict(finding.others)
-        for name, more in rivals.items():
-            others[name] = told_by_both(others[name], more)
-        return replace(named, findings=(replace(finding, others=others),))
-
-    def _rivals(self, parts: Sequence[Part], named: Named) -> dict[str, float]:
-        """Rival of a lone finding -> ln of how much more probable simulated runs are with it."""
+    def rivals(self, parts: Sequence[Part], named: Named) -> _Rivals:
+        """Of a lone finding along x what the rows would nearly have in its place, simulated."""
         if len(parts) != 1 or not (parts[0].in_kernel and parts[0].finding.added):
             return {}
         (finding,) = named.findings
@@ -296,8 +274,35 @@ class _Fitting:
             return {}
         without = self._fitted(named, [], is_shown=False)
         own = without.gained(parts[0]) - price_of(finding.name)
-        return {name: without.gained(rival) - price_of(name) - own
+        return {name: (rival, without.gained(rival) - price_of(name) - own)
                 for name, rival in rivals.items() if rival.in_kernel}  # fmt: skip
+
+    def overruled(self, parts: Sequence[Part], named: Named, rivals: _Rivals) -> Rejected | None:
+        """A lone finding that simulated runs put so far behind a rival that the rows must err.
+
+        Runs that no fit has seen must come out better with the rival, too.
+        """
+        for rival, more in rivals.values():
+            if more > SURE:
+                with_it, own = (self._fitted(named, some) for some in ([rival], parts))
+                if judged(with_it.ladder[-1].gap) < judged(own.ladder[-1].gap):
+                    gained = self._fitted(named, [], is_shown=False).gained(parts[0])
+                    return Rejected(parts[0].finding.name, parts[0].finding.gain, gained)
+        return None
+
+    def told_apart(self, named: Named, rivals: _Rivals) -> Named:
+        """A lone finding with its rivals as rows and simulated runs have them.
+
+        One that the rows do not tell from it goes where simulated runs do; one that they put behind
+        it stays as probable where simulated runs put it before.
+        """
+        if not rivals:
+            return named
+        (finding,) = named.findings
+        others = dict(finding.others)
+        for name, (_, more) in rivals.items():
+            others[name] = told_by_both(others[name], more)
+        return replace(named, findings=(replace(finding, others=others),))
 
     def _in_place(self, named: Named, name: str) -> Part:
         """What another explanation would put into the model."""

@@ -188,15 +188,12 @@ class Models:
         starts = [{**before, **started_from(self.campaign, rows)}, before]
         found = self._fitted_once(free, scatter, starts, near)
         if near and found.gap[0] > near.gap[0] + FELT_GAP:  # though it holds that model
-            new = [number for number in free[0] if number.key not in self._keys_of_last]
+            held = {number.key for number in self.free[-1][0]}
+            new = [number for number in free[0] if number.key not in held]
             inside = {**before, **_next_to_nothing(new)}
             again = fit(self.campaign, self.windows, *free, scatter, [inside], near, self.jobs)
             found = self.known[_same(*free, scatter)] = min(found, again, key=lambda f: f.gap[0])
         return found
-
-    @property
-    def _keys_of_last(self) -> set[str]:
-        return {number.key for number in self.free[-1][0]}
 
     def _fitted_once(
         self, free: _Free, scatter: float, starts: Sequence[dict[str, float]], near: Fitted | None

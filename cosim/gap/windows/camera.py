@@ -20,13 +20,13 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.signal import lfilter
 
 from cosim.gap.data import Track
+from cosim.gap.data.noise import GAP
 from cosim.gap.weak_form.camera_faults import COURSES, crept, leaning
 
 #: Faults that can be undone; what a filter took away, or rounding, is gone.
 UNDONE = ("scale", "clock", "rotation", "drift", "latency")
-#: Times between samples, in parts of the usual, beyond which some were lost; how far a filter's
-#: kernel reaches, in standard deviations.
-LOST, REACH = 2.5, 5.0
+#: How far a filter's kernel reaches, in standard deviations.
+REACH = 5.0
 
 
 def fault(values: Mapping[str, float], name: str) -> float:
@@ -89,7 +89,7 @@ def _filtered(places: np.ndarray, time: np.ndarray, values: Mapping[str, float])
     if width <= 0.0:
         return places
     is_past = values.get("measurement.smoothing_past", 0.0) > 0.0
-    gaps = np.flatnonzero(np.diff(time) > LOST * interval) + 1
+    gaps = np.flatnonzero(np.diff(time) > GAP * interval) + 1
     return np.concatenate([_smoothed(part, width, is_past) for part in np.split(places, gaps)])
 
 

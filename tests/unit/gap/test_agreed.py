@@ -149,9 +149,10 @@ def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told
     models = SimpleNamespace(gained=lambda part: gains[part.finding.name])
     monkeypatch.setattr(fitting, "_fitted", lambda named, parts, is_shown=True: models)
     part = Part(one, None, (), (), {"on": 1.0})
-    others = fitting.told_apart([part], named).findings[0].others
+    rivals = fitting.rivals([part], named)
+    others = fitting.told_apart(named, rivals).findings[0].others
     assert others == pytest.approx({"film_drag": told, "other.order": -1.0})
-    assert fitting.overruled([part], named) is None
+    assert fitting.overruled([part], named, rivals) is None
 
 
 @pytest.mark.parametrize(
@@ -162,15 +163,15 @@ def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(
     monkeypatch, more, held_out, gone
 ):
     part, rival = (Part(finding(name, 30.0), None, (), (), {}) for name in ("run_in", "film_drag"))
-    monkeypatch.setattr(find._Fitting, "_rivals", lambda *_: {"film_drag": more})
-    monkeypatch.setattr(find._Fitting, "_in_place", lambda *_: rival)
     gaps = {(): 2.0, ("run_in",): 1.05, ("film_drag",): held_out}
     monkeypatch.setattr(
         find._Fitting, "_fitted", lambda self, named, parts, **_: SimpleNamespace(
             gained=lambda part: 20.0, ladder=[
                 SimpleNamespace(gap=Score(1.0, gaps[tuple(part.effect for part in parts)]))])
     )  # fmt: skip
-    rejected = find._Fitting(None, lambda: None, 1).overruled([part], None)
+    rejected = find._Fitting(None, lambda: None, 1).overruled(
+        [part], None, {"film_drag": (rival, more)}
+    )
     assert (rejected is not None) is gone
 
 
