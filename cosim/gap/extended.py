@@ -208,7 +208,9 @@ def _number(free: FreeParameter, value: float) -> Number:
 _ACROSS = {
     "turning_surface.curvature": (-20.0, 20.0),
     "spring_misalignment.angle_deg": (-60.0, 60.0),
+    "spring_misalignment.frame_angle_deg": (-60.0, 60.0),
     "spring_misalignment.lateral_offset": (-1.0, 1.0),
+    "spring_misalignment.diagonal_offset": (-1.0, 1.0),
     "measurement.rotation": (-0.5, 0.5),
 }
 
@@ -218,7 +220,9 @@ def _across(finding: Finding) -> Part:
     keys = {
         "curvature": ("turning_surface.curvature", 1.0),
         "turn": ("spring_misalignment.angle_deg", 180.0 / math.pi),
+        "frame": ("spring_misalignment.frame_angle_deg", 180.0 / math.pi),
         "shift": ("spring_misalignment.lateral_offset", 1.0),
+        "diagonal": ("spring_misalignment.diagonal_offset", 1.0),
         "rotation": ("measurement.rotation", 1.0),
     }
     numbers = []
@@ -291,8 +295,7 @@ def _wave(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
             faster = 1.0 + wave.faster.get(run.track.run.name, 0.0)
             pace = faster * abs(run.track.run.surface_speed) if wave.kind.unit == "m" else 1.0
             settings[f"{name}.frequency@{run.track.run.name}"] = wave.wavenumber * pace
-    harmonics = ("second", "third", "fourth") if pattern else ("second",)
-    for order, which in enumerate(harmonics, 2):
+    for order, which in enumerate(("second", "third", "fourth"), 2):
         size = complex(sizes[order - 1], -sizes[HARMONICS + order - 1])
         # b of cos(n a + b), or sin(n a + b), a the angle of the first
         ahead = math.degrees(np.angle(size)) - order * turn

@@ -225,17 +225,18 @@ class _Fitting:
     def _is_asked_for(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
         """Whether the simulated runs are more probable with a finding beside the others.
 
-        A lesser one below e^500 is no more than what a law leaves that is not quite the greater
-        one's, where the others explain the runs and friction need not scatter for it.
+        A lesser one below e^500, in rows and runs, is no more than what a law leaves that is not
+        quite the greater one's, where the others explain the runs and friction need not scatter.
         """
         without = self._without(part, parts, named)
         is_lesser = part.finding.gain < max(other.finding.gain for other in parts)
-        is_sure = part.finding.gain >= SURE
+        gained = without.gained(part) if part.in_kernel else 0.0
+        is_sure = max(part.finding.gain, gained) >= SURE
         if is_lesser and not is_sure and judged(without.unscattered) <= EXPLAINED:
             return False
         if not part.in_kernel:
             return leaves(without.ladder[-1].gap, EXPLAINED if is_lesser else NOTHING_MISSING)
-        return runs_ask(without.gained(part) - price_of(part.finding.name))
+        return runs_ask(gained - price_of(part.finding.name))
 
     def _makes_up(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
         """Whether it takes what is missing without it, or half of that; or half before scatter.

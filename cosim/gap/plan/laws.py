@@ -205,7 +205,7 @@ def _waves(system: System, effect: Effect, candidate: Candidate) -> Iterator[Law
     phases = {run.track.run.name: GOLDEN * n for n, run in enumerate(system.runs)}
     for kind in periodic.kinds(system.level.kinetic):
         wavenumbers = periodic.wavenumbers_of(system.fitted, kind)
-        if candidate.has_second or kind.name != effect.id or (kind.unit == "s") != in_time:
+        if kind.name != effect.id or (kind.unit == "s") != in_time:
             continue
         if wavenumbers.size:
             wavenumber = float(np.clip(start if in_time else 1.0 / start, *wavenumbers[[0, -1]]))

@@ -29,8 +29,10 @@ from cosim.gap.weak_form.rig_geometry import spring_loads
 from cosim.gap.weak_form.track import SmoothTrack, derivatives
 
 #: Unknowns of a form: 1/R (1/m), angle by which the surface runs askew under the resting block (a
-#: slab's centre ahead of it, rad), turn of the springs (rad), shift of their anchors (m), ln g.
-CURVATURE, ASKEW, TURN, SHIFT, SHARE = "curvature", "askew", "turn", "shift", "share"
+#: slab's centre ahead of it, rad), ln g; turn of each spring and of their frame (rad), shift of all
+#: anchors and of those on one diagonal against the others (m).
+CURVATURE, ASKEW, SHARE = "curvature", "askew", "share"
+PLACED = TURN, FRAME, SHIFT, DIAGONAL = "turn", "frame", "shift", "diagonal"
 #: Unknowns of every run: part by which the springs are stiffer; y (m), y' (m/s), phi (rad) and its
 #: rate (rad/s) where the record begins.
 OWN = ("springs", "y", "vy", "phi", "omega")
@@ -43,7 +45,7 @@ class Plane:
     Attributes
     ----------
     y, phi : (n,) m, rad; velocity_y, turning : (n,) m/s, rad/s, in the steps of the grid
-    curvature, askew, turn, shift : of surface and springs, 1/m, rad, rad, m
+    curvature, askew, turn, frame, shift, diagonal : of surface and springs, 1/m, rad, m
     share : g, how much friction acts across, as part of that along x
     """
 
@@ -54,7 +56,9 @@ class Plane:
     curvature: float = 0.0
     askew: float = 0.0
     turn: float = 0.0
+    frame: float = 0.0
     shift: float = 0.0
+    diagonal: float = 0.0
     share: float = 0.0
 
     def at(self, point: int) -> Plane:
@@ -82,7 +86,8 @@ class Plane:
 
     def loads(self, rig: Rig, stiffness: float, x: np.ndarray) -> np.ndarray:
         """(3, n) forces of the springs along x and y, N, and moment, N m, at places x (n,)."""
-        return spring_loads(rig, stiffness, x, self.y - self.shift, self.phi, self.turn)
+        y = self.y - self.shift
+        return spring_loads(rig, stiffness, x, y, self.phi, self.turn, self.frame, self.diagonal)
 
 
 def measured(track: SmoothTrack) -> Plane:
@@ -140,7 +145,7 @@ class Course:
         q = self.offset + np.tensordot(np.array(list(values.values())), self.columns, 1)
         q = np.array([_within(q[0], track.y, 0.0), _within(q[1], track.phi, MOST_TURN)])
         rates = np.gradient(q, track.interval, axis=1)
-        known = {name: values[name] for name in (CURVATURE, ASKEW, TURN, SHIFT) if name in values}
+        known = {name: values[name] for name in (CURVATURE, ASKEW, *PLACED) if name in values}
         share = float(np.exp(values[SHARE])) if SHARE in values else 0.0
         return Plane(q[0], q[1], rates[0], rates[1], share=share, **known)
 
@@ -167,12 +172,11 @@ def course(
     columns = {
         CURVATURE: drag * surface,
         ASKEW: drag * [v, np.zeros_like(v)],
-        TURN: _slope(held, track, rig, "turn"),
-        SHIFT: -slope[0],
         SHARE: drag * [about.drift(v, x) - about.velocity_y, about.curvature * v - about.turning],
     }
-    known = {CURVATURE: 0.0, ASKEW: 0.0, TURN: about.turn, SHIFT: about.shift,
-             SHARE: np.log(max(about.share, 1e-12))}  # fmt: skip
+    columns |= {name: _slope(held, track, rig, name) for name in PLACED if name in unknowns}
+    known = {CURVATURE: 0.0, ASKEW: 0.0, SHARE: np.log(max(about.share, 1e-12))}
+    known |= {name: getattr(about, name) for name in PLACED}
     right = np.zeros((1 + len(unknowns) + len(OWN), 2, x.size))
     right[0] = load - np.einsum("qcn,qn->cn", slope, [held.y, held.phi])
     for number, name in enumerate(unknowns, 1):
@@ -208,10 +212,13 @@ def _solve(
     """(u, 2, n) q of right sides (u, 2, n); the last four set out from y, y', phi, phi' of 1.
 
     M (q+ - 2 q + q-) / h^2 + W (b (q+ - q) + (1 - b) (q - q-)) / h - P' q = right, where b makes
-    the decay over a step exact (exponential fitting): 1/2 for weak friction, 1 in stick. One
-    triangular band matrix for all right sides.
+    the decay over a step exact (exponential fitting): 1/2 for weak friction, 1 in stick; and M
+    is larger by what makes the period of each swing exact, which nothing damps for hundreds of
+    periods. One triangular band matrix for all right sides.
     """
     n = right.shape[2]
+    swing = 0.5 * h * np.sqrt(np.maximum(-slope[[0, 1], [0, 1]] / mass, 0.0))
+    mass = mass / np.sinc(swing / np.pi) ** 2
     decay = np.maximum(drag * h / mass, 1e-6)
     b = 1.0 / -np.expm1(-decay) - 1.0 / decay
     after = mass / h**2 + drag * b / h

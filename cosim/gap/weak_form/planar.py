@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import interp1d
@@ -21,6 +22,8 @@ from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import (
     ASKEW,
     CURVATURE,
+    DIAGONAL,
+    FRAME,
     OWN,
     SHARE,
     SHIFT,
@@ -69,12 +72,21 @@ FORMS: dict[str, tuple[tuple[str, ...], ...]] = {
     LATERAL: ((SHARE,),),
     TURNING: ((CURVATURE, SHARE), (CURVATURE, ASKEW, SHARE)),
     MISALIGNED: tuple((*some, *share) for share in ((SHARE,), ())
-                      for some in ((TURN,), (SHIFT,), (TURN, SHIFT))),
+                      for some in ((TURN,), (FRAME,), (SHIFT,), (TURN, SHIFT), (SHIFT, DIAGONAL))),
 }  # fmt: skip
-#: What is expected at the largest, as standard deviations: curvature (1/m), turns (rad), shift (m)
+#: What is expected at the largest, as standard deviations: curvature (1/m), turns (rad), shifts (m)
 #: and camera angle (rad), creep of its zero (m), of which parts are tried; ln g, g the square of
 #: lateral_friction.ratio, about isotropic friction.
-SD = {CURVATURE: 3.0, ASKEW: 0.2, TURN: 0.2, SHIFT: 0.03, ROTATION: 0.2, SHARE: 0.5}
+SD = {
+    CURVATURE: 3.0,
+    ASKEW: 0.2,
+    TURN: 0.2,
+    FRAME: 0.2,
+    SHIFT: 0.03,
+    DIAGONAL: 0.03,
+    ROTATION: 0.2,
+    SHARE: 0.5,
+}
 SD |= dict.fromkeys(CREEPS, FAULT_SIZES["drift"])
 
 
@@ -235,23 +247,24 @@ def _best_fit(
     It keeps swinging by the error of a first guess, so that springs turned by far are found from
     near them alone. What came back from there to next to nothing is a swing, and no turn.
     """
-    tried = [_fit(campaign, runs, level, form, turned, 0.0)]
-    if TURN in form and SHARE not in form:
-        far = (_fit(campaign, runs, level, form, turned, turn) for turn in TURNS_ASKED)
-        tried += [each for each in far if abs(each.numbers.get(TURN, (0.0, 0.0))[0]) > LEAST_FAR]
+    tried = [_fit(campaign, runs, level, form, turned, {})]
+    for name in {TURN, FRAME} & set(form) if SHARE not in form else ():
+        far = (_fit(campaign, runs, level, form, turned, {name: turn}) for turn in TURNS_ASKED)
+        tried += [each for each in far if abs(each.numbers.get(name, (0.0, 0.0))[0]) > LEAST_FAR]
     return max(tried, key=lambda each: each.evidence)
 
 
 def _fit(
     campaign: Campaign, runs: Sequence[RunRows], level: float, form: tuple[str, ...],
-    turned: frozenset[str], turn: float,
+    turned: frozenset[str], about: Mapping[str, float],
 ) -> Fitted:  # fmt: skip
     """A form, its courses made anew about what came out until they stay.
 
-    turned : runs in which the camera may be; turn : of the springs, about which it sets out, rad
+    turned : runs in which the camera may be; about : numbers of the form that it sets out from
     """
-    planes = [replace(measured(run.track), share=float(SHARE in form), turn=turn) for run in runs]
-    values, rounds = np.array([turn * (name == TURN) for name in form]), []
+    start: dict[str, Any] = {"share": float(SHARE in form), **about}
+    planes = [replace(measured(run.track), **start) for run in runs]
+    values, rounds = np.array([about.get(name, 0.0) for name in form]), []
     nothing = Fitted(form, -np.inf, {}, {}, np.inf, turned)
     for _ in range(ROUNDS):
         try:

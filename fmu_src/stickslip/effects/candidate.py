@@ -6,10 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-#: Parts of a second harmonic in phase with the first and a quarter of its own period ahead: unlike
-#: amplitude and phase, which they are fitted for, they have a meaning where there is none of it.
-SECOND = ("second_in_phase", "second_ahead")
-
 #: Friction across the motion is part of what turning surfaces and crooked springs show.
 ACROSS = {"lateral_friction.ratio": 1.0}
 
@@ -94,8 +90,3 @@ class Candidate:
     settings: Mapping[str, float] = field(default_factory=dict)
     lateral: bool = False
     periodic: str = ""
-
-    @property
-    def has_second(self) -> bool:
-        """Whether it is periodic, but no sine."""
-        return any(each.key.endswith(SECOND) for each in self.free_parameters)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 from ..quantity import quantity
-from .candidate import SECOND, Candidate, FreeParameter
+from .candidate import Candidate, FreeParameter
 
 
 def harmonic_amplitude(which: str) -> Any:
@@ -31,14 +30,11 @@ def harmonic_phase(which: str) -> Any:
     )
 
 
-def periodic(effect: str, period: FreeParameter, form: str) -> Iterator[Candidate]:
-    """Candidates: a sine, and one with its second harmonic; a scan says where they start."""
+def periodic(effect: str, period: FreeParameter, form: str) -> Candidate:
+    """A sine; a scan says where its period starts."""
     free = (
         FreeParameter(f"{effect}.amplitude", 0.1, 0.05, 0.0, 1.0),
         period,
         FreeParameter(f"{effect}.phase_deg", 0.0, 30.0, per_run=True),
     )
-    yield Candidate(effect, form, free, periodic=period.key)
-    # what is periodic is seldom a sine: its second harmonic, relative to the first
-    second = tuple(FreeParameter(f"{effect}.{part}", 0.0, 0.1, -0.7, 0.7) for part in SECOND)
-    yield Candidate(effect, f"{form} and second harmonic", free + second, periodic=period.key)
+    return Candidate(effect, form, free, periodic=period.key)

@@ -106,7 +106,9 @@ LOCAL = ("dry_factor", "melting", "film_friction", "mixed")
 PACKED = (
     Place("coefficient_factor", "mu_s and mu_k in proportion", "multiply"),
     Place("spring_turn", "turn of every spring about its attachment, rad", "add"),
+    Place("frame_turn", "turn of all anchors about the middle of the rig, rad", "add"),
     Place("anchor_shift", "shift of every anchor along y, m", "add"),
+    Place("diagonal_shift", "shift along y of anchors 1 and 4, of 2 and 3 the other way, m", "add"),
     Place("fastest_rate", "rate of the drive's fastest change, rad/s", "largest"),
 )
 #: Not places of terms, but where the rate and the scale of a state take their numbers.

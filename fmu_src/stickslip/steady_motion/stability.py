@@ -215,7 +215,9 @@ def _has_line(parameters: Parameters) -> bool:
         parameters.rig.surface == "belt"
         and parameters.turning_surface.curvature == 0.0
         and off_axis.angle_deg == 0.0
+        and off_axis.frame_angle_deg == 0.0
         and off_axis.lateral_offset == 0.0
+        and off_axis.diagonal_offset == 0.0
         and places == {(c, 0.0 - s) for c, s in places}
     )
 

@@ -98,6 +98,24 @@ def test_springs_turned_by_far_are_found_where_nothing_holds_the_block(tmp_path)
     assert planar.numbers["turn"][0] == pytest.approx(np.deg2rad(-10.0), rel=0.05)
 
 
+PLACED = {
+    "frame": ({"frame_angle_deg": 9.0}, {"frame": np.deg2rad(9.0)}),
+    "one diagonal": (
+        {"lateral_offset": 5e-3, "diagonal_offset": 5e-3}, {"shift": 5e-3, "diagonal": 5e-3},
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("placed", PLACED)
+def test_a_turned_frame_and_a_diagonal_that_is_off_are_told_from_turned_springs(placed, tmp_path):
+    blocks, numbers = PLACED[placed]
+    campaign = measured(tmp_path, turn_noise=5e-4, spring_misalignment=blocks, initial={"phi": 0.1})
+    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    assert planar.answer == "spring_misalignment" and planar.fits[planar.answer].gap < 1.3
+    found = {name: value for name, (value, _) in planar.numbers.items()}
+    assert found == pytest.approx(numbers, rel=0.02)
+
+
 @pytest.mark.parametrize("turned", [(1, 1, 1), (0, 1, 0), (1, 0, 1)])
 def test_a_turned_camera_is_named_and_the_runs_in_which_it_is(turned, tmp_path):
     campaign = measured(tmp_path, rotation=[0.03 * each for each in turned])

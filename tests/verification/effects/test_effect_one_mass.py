@@ -44,27 +44,35 @@ def pattern(s):
     return 1.0 + 0.2 * np.cos(2.0 * np.pi * (s[X] - s[TRAVEL]) / 0.07 + np.radians(30.0))
 
 
-def with_second(wave, angle):
-    """A wave and 0.4 of it at twice the angle, 70 degrees on."""
-    return wave(angle) + 0.4 * wave(2.0 * angle + np.radians(70.0))
+#: Harmonics beside the first: part of it, and degrees by which they are on.
+HARMONICS = {2: (0.4, 70.0), 3: (0.3, -50.0), 4: (0.15, 110.0)}
 
 
-def second_ripple(t):
-    return SPEED * (1.0 + 0.2 * with_second(np.sin, 2.0 * np.pi * 1.3 * t + np.radians(40.0)))
+def with_harmonics(wave, angle):
+    """A wave and its harmonics."""
+    more = (part * wave(n * angle + np.radians(on)) for n, (part, on) in HARMONICS.items())
+    return wave(angle) + sum(more)
 
 
-def second_ripple_rate(t):
-    angle, rate = 2.0 * np.pi * 1.3 * t + np.radians(40.0), 2.0 * np.pi * 1.3
-    slope = np.cos(angle) + 0.4 * 2.0 * np.cos(2.0 * angle + np.radians(70.0))
-    return SPEED * 0.2 * rate * slope
+def harmonic_ripple(t):
+    return SPEED * (1.0 + 0.2 * with_harmonics(np.sin, 2.0 * np.pi * 1.3 * t + np.radians(40.0)))
 
 
-def second_pattern(s):
+def harmonic_ripple_rate(t):
+    before, after = harmonic_ripple(t - 1e-5), harmonic_ripple(t + 1e-5)
+    return (after - before) / 2e-5
+
+
+def harmonic_pattern(s):
     angle = 2.0 * np.pi * (s[X] - s[TRAVEL]) / 0.07 + np.radians(30.0)
-    return 1.0 + 0.2 * with_second(np.cos, angle)
+    return 1.0 + 0.2 * with_harmonics(np.cos, angle)
 
 
-SECOND = {"second_amplitude": 0.4, "second_phase_deg": 70.0}
+HIGHER = {
+    f"{which}_{what}": value
+    for which, (part, on) in zip(("second", "third", "fourth"), HARMONICS.values(), strict=True)
+    for what, value in (("amplitude", part), ("phase_deg", on))
+}
 
 
 def warm(s):
@@ -202,15 +210,15 @@ CASES = {
             "static": lambda held, s: MU_S * NORMAL * pattern(s),
         },
     ),
-    "speed_ripple, second harmonic": (
-        {"speed_ripple": {"amplitude": 0.2, "frequency": 1.3, "phase_deg": 40.0} | SECOND},
-        {"speed": second_ripple, "acceleration": second_ripple_rate},
+    "speed_ripple, four harmonics": (
+        {"speed_ripple": {"amplitude": 0.2, "frequency": 1.3, "phase_deg": 40.0} | HIGHER},
+        {"speed": harmonic_ripple, "acceleration": harmonic_ripple_rate},
     ),
-    "surface_pattern, second harmonic": (
-        {"surface_pattern": {"amplitude": 0.2, "wavelength": 0.07, "phase_deg": 30.0} | SECOND},
+    "surface_pattern, four harmonics": (
+        {"surface_pattern": {"amplitude": 0.2, "wavelength": 0.07, "phase_deg": 30.0} | HIGHER},
         {
-            "kinetic": kinetic(lambda u, s: second_pattern(s)),
-            "static": lambda held, s: MU_S * NORMAL * second_pattern(s),
+            "kinetic": kinetic(lambda u, s: harmonic_pattern(s)),
+            "static": lambda held, s: MU_S * NORMAL * harmonic_pattern(s),
         },
     ),
     "load_dependence": (

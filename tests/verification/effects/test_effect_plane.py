@@ -14,9 +14,13 @@ START = (0.02, 0.005, 0.05, -0.1, 0.01, -0.3)
 MU_K, NORMAL = 0.2086, 0.67 * 9.81
 
 
-def turned_anchors(angle_deg: float, offset: float) -> np.ndarray:
+def turned_anchors(angle_deg: float, offset: float, diagonal: float = 0.0) -> np.ndarray:
     turn = np.radians(angle_deg)
-    return CORNERS + 0.2 * OUTWARD * [[np.cos(turn)], [np.sin(turn)]] + np.array([[0.0], [offset]])
+    return (
+        CORNERS
+        + 0.2 * OUTWARD * [[np.cos(turn)], [np.sin(turn)]]
+        + [[0.0] * 4, offset + diagonal * np.array([1.0, -1.0, -1.0, 1.0])]
+    )
 
 
 # case -> (parameters, the other model's laws)
@@ -39,8 +43,14 @@ CASES = {
         {"spring_energy": lambda e: 0.5 * 20.17 * e**2 + 2e3 * (e - 0.015) ** 4},
     ),
     "spring_misalignment": (
-        {"spring_misalignment": {"angle_deg": 8.0, "lateral_offset": 0.02}},
-        {"anchors": turned_anchors(8.0, 0.02)},
+        {
+            "spring_misalignment": {
+                "angle_deg": 8.0,
+                "lateral_offset": 0.02,
+                "diagonal_offset": 0.01,
+            }
+        },
+        {"anchors": turned_anchors(8.0, 0.02, 0.01)},
     ),
     # laws of the local speed go through the kernel's quadrature, 8 x 4 points over the contact,
     # which is that exact where the speed varies little over it (see test_effect_local_law)

@@ -85,14 +85,14 @@ def place_variation(
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
-    """A sine, and one with its second harmonic."""
+    """A sine; a scan says where it starts."""
     # what no run passes once is no pattern: it would be a drift by another name
     longest = s.longest or s.distance
     start = min(0.1, 0.5 * longest)
     length = FreeParameter(
         "surface_pattern.wavelength", start, 0.02, min(1e-3, 0.1 * longest), longest, log=True
     )
-    yield from periodic("surface_pattern", length, "sine")
+    yield periodic("surface_pattern", length, "sine")
 
 
 EFFECT = Effect(

@@ -1,4 +1,4 @@
-"""The springs stand off the axis: turned by an angle, or with anchors shifted sideways."""
+"""The springs stand off the axis: turned, each or with their frame, or with anchors shifted."""
 
 from __future__ import annotations
 
@@ -11,13 +11,29 @@ from ..effect import Case, Effect
 
 
 class SpringMisalignment(Table):
-    """The springs stand off the axis: turned by an angle, or with anchors shifted sideways."""
+    """The springs stand off the axis: turned, each or with their frame, or with anchors shifted."""
 
     angle_deg: float = quantity(
         0.0, "deg", "turn of every spring about its attachment", ge=-60, le=60, typical=(-10, 10)
     )
+    frame_angle_deg: float = quantity(
+        0.0,
+        "deg",
+        "turn of all anchors about the middle of the rig",
+        ge=-60,
+        le=60,
+        typical=(-10, 10),
+    )
     lateral_offset: float = quantity(
         0.0, "m", "shift of all anchors along y", ge=-1, le=1, typical=(-0.03, 0.03)
+    )
+    diagonal_offset: float = quantity(
+        0.0,
+        "m",
+        "shift of the anchors of springs 1 and 4 along y, of 2 and 3 by as much the other way",
+        ge=-1,
+        le=1,
+        typical=(-0.03, 0.03),
     )
 
 
@@ -26,9 +42,19 @@ def spring_turn(angle_deg: float) -> float:
     return radians(angle_deg)
 
 
+def frame_turn(frame_angle_deg: float) -> float:
+    """Turn of all anchors about the middle of the rig, rad."""
+    return radians(frame_angle_deg)
+
+
 def anchor_shift(lateral_offset: float) -> float:
     """Shift of every anchor along y, m."""
     return lateral_offset
+
+
+def diagonal_shift(diagonal_offset: float) -> float:
+    """Shift along y of the anchors on one diagonal, and of the others the other way, m."""
+    return diagonal_offset
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
@@ -45,10 +71,10 @@ def candidates(s: Scales) -> Iterator[Candidate]:
 EFFECT = Effect(
     id="spring_misalignment",
     table=SpringMisalignment,
-    switch=("angle_deg", "lateral_offset"),
+    switch=("angle_deg", "frame_angle_deg", "lateral_offset", "diagonal_offset"),
     enters="springs",
     source="the source study: spring angles only estimated",
-    terms=(spring_turn, anchor_shift),
+    terms=(spring_turn, frame_turn, anchor_shift, diagonal_shift),
     candidates=candidates,
     case=Case({"angle_deg": 10.0}),
 )

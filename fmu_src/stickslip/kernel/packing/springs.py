@@ -6,7 +6,7 @@ from math import cos, radians, sin
 
 from .. import Floats
 from ..layout import *
-from ..terms import with_anchor_shift, with_spring_turn
+from ..terms import with_anchor_shift, with_diagonal_shift, with_frame_turn, with_spring_turn
 from .imperfections import departure
 from .points import copy_points, count_points, inner_slope, secant
 
@@ -22,7 +22,9 @@ def place_springs(v: Floats, d: Floats, p: Floats) -> None:
     if p[P_STIFFNESS] > 0.0:
         p[P_SHORTEST] = 0.05 * length
     turn = with_spring_turn(p, v, 0.0)
+    frame = with_frame_turn(p, v, 0.0)
     shift = with_anchor_shift(p, v, 0.0)
+    diagonal = with_diagonal_shift(p, v, 0.0)
     for i in range(4):
         angle = radians(v[V_RIG_ATTACHMENT_ANGLES_DEG + i])
         bx = v[V_RIG_ATTACHMENT_RADIUS] * cos(angle)
@@ -32,8 +34,13 @@ def place_springs(v: Floats, d: Floats, p: Floats) -> None:
             outward = -length
         p[P_ATTACH + 2 * i] = bx
         p[P_ATTACH + 2 * i + 1] = by
-        p[P_ANCHOR + 2 * i] = bx + outward * cos(turn)
-        p[P_ANCHOR + 2 * i + 1] = by + outward * sin(turn) + shift
+        ax = bx + outward * cos(turn)
+        ay = by + outward * sin(turn)
+        aside = shift - diagonal
+        if i == 0 or i == 3:
+            aside = shift + diagonal
+        p[P_ANCHOR + 2 * i] = cos(frame) * ax - sin(frame) * ay
+        p[P_ANCHOR + 2 * i + 1] = sin(frame) * ax + cos(frame) * ay + aside
     for i in range(4):
         more = departure(d, D_SPRING_STIFFNESS + i, v[V_IMPERFECTIONS_SPRING_STIFFNESS])
         p[P_RELATIVE_STIFFNESS + i] = 1.0 + more
