@@ -107,7 +107,7 @@ def laws_of(system: System, unknowns: Mapping[str, Sequence[Unknown]]) -> list[L
     found: dict[tuple[str, float], Law] = {}
     for effect in system.campaign.catalogue.effects:
         for candidate in effect.candidates(context.scales) if effect.offered else ():
-            if not candidate.free_parameters or candidate.lateral:
+            if not candidate.free_parameters:
                 continue
             if candidate.periodic:
                 laws = _waves(system, effect, candidate)
@@ -124,9 +124,9 @@ def laws_of(system: System, unknowns: Mapping[str, Sequence[Unknown]]) -> list[L
 def silent(laws: Sequence[Law], effects: Sequence[Effect]) -> dict[str, str]:
     """effect -> why no size is told, of those that `gap` offers."""
     there = {law.candidate.effect for law in laws}
-    offered = [one for one in effects if one.offered and one.candidates is not no_candidates]
-    return {one.id: WHY.get(one.id, "these runs cannot show it")
-            for one in offered if one.id not in there}  # fmt: skip
+    offered = {one.id for one in effects if one.offered and one.candidates is not no_candidates}
+    asked = [one.id for one in effects if one.id in offered | set(WHY)]
+    return {one: WHY.get(one, "these runs cannot show it") for one in asked if one not in there}
 
 
 def _starts(candidate: Candidate) -> dict[str, float]:

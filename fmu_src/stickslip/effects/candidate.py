@@ -6,9 +6,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-#: Friction across the motion is part of what turning surfaces and crooked springs show.
-ACROSS = {"lateral_friction.ratio": 1.0}
-
 
 @dataclass(frozen=True)
 class FreeParameter:
@@ -80,7 +77,6 @@ class Candidate:
     form : which of its laws, in a word
     free_parameters : what is fitted beside the plain parameters
     settings : parameters of the model that are set, not fitted
-    lateral : it moves the block across the surface, or turns it
     periodic : key of the free parameter that needs a scan before a fit can start, or ""
     """
 
@@ -88,5 +84,4 @@ class Candidate:
     form: str
     free_parameters: tuple[FreeParameter, ...]
     settings: Mapping[str, float] = field(default_factory=dict)
-    lateral: bool = False
     periodic: str = ""

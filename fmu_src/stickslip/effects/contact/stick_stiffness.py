@@ -5,10 +5,7 @@ The load that a stick takes is compared with mu_s N after it was multiplied by t
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
 from ..effect import Case, Effect
 
 
@@ -25,13 +22,6 @@ class StickStiffness(Table):
     )
 
 
-def candidates(s: Scales) -> Iterator[Candidate]:
-    """A large or a small part."""
-    for part in (0.8, 0.5, 0.3):
-        ratio = FreeParameter("stick_stiffness.ratio", part, 0.15, 0.05, 1.0)
-        yield Candidate("stick_stiffness", "part of the springs", (ratio,))
-
-
 EFFECT = Effect(
     id="stick_stiffness",
     table=StickStiffness,
@@ -40,6 +30,5 @@ EFFECT = Effect(
     source="a fault of the source study: one spring instead of four in stick",
     # the search for the break-away (`kernel.rest`) scales the load with it
     core={"ratio": "STICK_RATIO"},
-    candidates=candidates,
     case=Case({"ratio": 0.25}),
 )

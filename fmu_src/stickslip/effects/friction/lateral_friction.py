@@ -6,10 +6,7 @@ answers it with (F_x, kappa F_y, kappa M).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from ...quantity import Table, quantity
-from ..candidate import ACROSS, Candidate, FreeParameter, Scales
 from ..effect import Case, Effect
 
 
@@ -27,18 +24,6 @@ class LateralFriction(Table):
     )
 
 
-#: Next to none is no other motion than none, but a stiff one: it takes a thousand times as long.
-_LEAST_ACROSS = 0.05
-
-
-def candidates(s: Scales) -> Iterator[Candidate]:
-    """Isotropic, or less than along the motion."""
-    yield Candidate("lateral_friction", "isotropic", (), ACROSS, lateral=True)
-    for share in (0.8, 0.5):
-        ratio = FreeParameter("lateral_friction.ratio", share, 0.1, _LEAST_ACROSS, 1.0)
-        yield Candidate("lateral_friction", "less than along the motion", (ratio,), ACROSS, True)
-
-
 EFFECT = Effect(
     id="lateral_friction",
     table=LateralFriction,
@@ -47,6 +32,5 @@ EFFECT = Effect(
     source="Goyal, Ruina & Papadopoulos, Wear 143 (1991); named as missing by the source study",
     # every law of the contact is made of kappa (`kernel.friction`)
     core={"ratio": "LATERAL"},
-    candidates=candidates,
     case=Case({"ratio": 1.0}, {"initial": {"vx": 0.15, "y": 0.01, "phi": 0.2}}),
 )

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from math import radians
 
 from ...quantity import Table, quantity
-from ..candidate import ACROSS, Candidate, FreeParameter, Scales
 from ..effect import Case, Effect
 
 
@@ -57,17 +55,6 @@ def diagonal_shift(diagonal_offset: float) -> float:
     return diagonal_offset
 
 
-def candidates(s: Scales) -> Iterator[Candidate]:
-    """An angle or an offset either way, under friction across the motion or without."""
-    for across in (ACROSS, {}):
-        for sign in (3.0, -3.0):
-            angle = FreeParameter("spring_misalignment.angle_deg", sign, 2.0, -60.0, 60.0)
-            yield Candidate("spring_misalignment", "angle", (angle,), across, True)
-        for sign in (0.005, -0.005):
-            offset = FreeParameter("spring_misalignment.lateral_offset", sign, 0.003, -1.0, 1.0)
-            yield Candidate("spring_misalignment", "offset", (offset,), across, True)
-
-
 EFFECT = Effect(
     id="spring_misalignment",
     table=SpringMisalignment,
@@ -75,6 +62,5 @@ EFFECT = Effect(
     enters="springs",
     source="the source study: spring angles only estimated",
     terms=(spring_turn, frame_turn, anchor_shift, diagonal_shift),
-    candidates=candidates,
     case=Case({"angle_deg": 10.0}),
 )

@@ -6,10 +6,7 @@ installation.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 from ...quantity import Table, quantity
-from ..candidate import ACROSS, Candidate, FreeParameter, Scales
 from ..effect import Case, Effect
 
 
@@ -26,15 +23,6 @@ class TurningSurface(Table):
     )
 
 
-def candidates(s: Scales) -> Iterator[Candidate]:
-    """Turning either way, under friction across the motion or without."""
-    for across in (ACROSS, {}):
-        for sign in (0.5, -0.5):
-            curvature = FreeParameter("turning_surface.curvature", sign, 0.2, -20.0, 20.0)
-            form = "disc friction" if across else "friction along x"
-            yield Candidate("turning_surface", form, (curvature,), across, lateral=True)
-
-
 EFFECT = Effect(
     id="turning_surface",
     table=TurningSurface,
@@ -43,6 +31,5 @@ EFFECT = Effect(
     source="the source study's rotating slab, whose turning it leaves out",
     # stick and quasi-steady sliding need its accelerations (`kernel.rig.surface`)
     core={"curvature": "CURVATURE"},
-    candidates=candidates,
     case=Case({"curvature": 4.0}, {"lateral_friction": {"ratio": 1.0}}),
 )
