@@ -173,16 +173,18 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
         ranked.insert(0, ranked.pop(ranked.index(LATERAL)))  # it is in the others, with a zero
     best = ranked[0]
     explains = fits[best].misfit < PLANE_PART * fits[""].misfit
-    answer = best if evidence[best] > LEAST_GAIN and explains else ""
-    alike = [name for name, one in fits.items() if answer == LATERAL and _is_lateral(one)]
+    is_swing = "ratio" not in fits[best].numbers and _is_zero(fits[best])
+    answer = best if evidence[best] > LEAST_GAIN and explains and not is_swing else ""
+    alike = [name for name, one in fits.items()
+             if answer == LATERAL and "ratio" in one.numbers and _is_zero(one)]  # fmt: skip
     rivals = [name for name in ranked if name not in (answer, *alike)]
     return Planar(evidence, answer, rivals[0] if evidence[rivals[0]] > 0.0 else "", fits)
 
 
-def _is_lateral(fitted: Fitted) -> bool:
-    """Whether a form is friction across alone, as its other numbers may be zero."""
-    others = [number for name, number in fitted.numbers.items() if name not in ("ratio", ASKEW)]
-    return "ratio" in fitted.numbers and all(abs(value) < STILL_NUMBER * sd for value, sd in others)
+def _is_zero(fitted: Fitted) -> bool:
+    """Whether a form's numbers may be zero, but for friction across and a surface askew."""
+    numbers = [one for name, one in fitted.numbers.items() if name not in ("ratio", ASKEW)]
+    return all(abs(value) < STILL_NUMBER * sd for value, sd in numbers)
 
 
 def rows_in_plane(

@@ -8,6 +8,7 @@ from gap_campaigns import KNOWN, RIG, noisy, write_campaign
 from stickslip import Parameters, simulate
 
 from cosim.gap.data import read_campaign
+from cosim.gap.weak_form import planar as in_plane
 from cosim.gap.weak_form.across import disc
 from cosim.gap.weak_form.arguments import Arguments
 from cosim.gap.weak_form.planar import planar_effects, rows_in_plane
@@ -138,6 +139,20 @@ def test_a_block_that_stays_on_the_axis_shows_nothing(tmp_path):
 def test_a_block_that_swings_freely_shows_no_effect(creep, tmp_path):
     campaign = measured(tmp_path, creep=creep, initial={"y": 5e-3})
     assert planar_effects(campaign, tracks_and_rows(campaign)[1]).answer == ""
+
+
+@pytest.mark.parametrize("deviations, answer", [(3.5, ""), (4.5, "spring_misalignment")])
+def test_a_form_whose_numbers_may_be_zero_is_a_swing(deviations, answer, tmp_path, monkeypatch):
+    """Of a turn that is not measured the rounds of one form find more than those of another."""
+    campaign = measured(tmp_path, initial={"y": 5e-3})
+
+    def fitted(campaign, runs, level, form, turned):
+        shifted = form == ("shift",)
+        number = {name: (deviations * 1e-4, 1e-4) for name in form}
+        return in_plane.Fitted(form, 100.0 * shifted, number, {}, 1.0 if shifted else 2.0, turned)
+
+    monkeypatch.setattr(in_plane, "_best_fit", fitted)
+    assert planar_effects(campaign, tracks_and_rows(campaign)[1]).answer == answer
 
 
 def test_a_camera_that_creeps_moves_no_block(tmp_path):
