@@ -155,10 +155,13 @@ def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     fits, evidence = {}, {}
     every = frozenset(run.track.run.name for run in runs)
     moving = frozenset(run.track.run.name for run in runs if _moves(run.track.run))
+    turns = any(run.track.phi is not None for run in runs)
     for name in FORMS if free else ("", ROTATION):
         among = (every, moving) if name == ROTATION and moving < every else (every,)
+        # a diagonal that is off turns the block: without that it would be any swing's name
         tried = [_best_fit(campaign, runs, level, form, turned)
-                 for form in FORMS[name] for turned in among]  # fmt: skip
+                 for form in FORMS[name] if turns or DIAGONAL not in form
+                 for turned in among]  # fmt: skip
         fits[name] = max(tried, key=lambda each: each.evidence)
         evidence[name] = float(logsumexp([each.evidence for each in tried]) - np.log(len(tried)))
     nothing = evidence.pop("")
