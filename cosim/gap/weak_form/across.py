@@ -33,9 +33,10 @@ from cosim.gap.weak_form.track import SmoothTrack, derivatives
 #: anchors and of those on one diagonal against the others (m).
 CURVATURE, ASKEW, SHARE = "curvature", "askew", "share"
 PLACED = TURN, FRAME, SHIFT, DIAGONAL = "turn", "frame", "shift", "diagonal"
-#: Unknowns of every run: part by which the springs are stiffer; y (m), y' (m/s), phi (rad) and its
-#: rate (rad/s) where the record begins.
-OWN = ("springs", "y", "vy", "phi", "omega")
+#: Unknowns of every run: parts by which the springs are stiffer along y, as their pretension makes
+#: them, and against a turn, as inertia and places of the hooks seem to; y (m), y' (m/s), phi (rad)
+#: and its rate (rad/s) where the record begins.
+OWN = ("springs", "turning", "y", "vy", "phi", "omega")
 
 
 @dataclass(frozen=True)
@@ -182,7 +183,7 @@ def course(
     for number, name in enumerate(unknowns, 1):
         right[number] = columns[name]
         right[0] -= columns[name] * known[name]
-    right[1 + len(unknowns)] = load
+    right[1 + len(unknowns), 0], right[2 + len(unknowns), 1] = load
     solved = _solve(mass, drag, slope, right, h)
     return Course(solved[0], solved[1:])
 

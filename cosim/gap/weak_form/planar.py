@@ -375,7 +375,7 @@ def _solved(
     found = []
     for scale, start in product(SCALES_ASKED[1:], STARTS_ASKED):
         shared = [SD[name] * (1.0 if name == SHARE else scale) for name in form]
-        each = [2.0 * stiffness, start, 10.0 * start, turn, 10.0 * turn, 1.0, 1.0]
+        each = [2.0 * stiffness, 2.0 * stiffness, start, 10.0 * start, turn, 10.0 * turn, 1.0, 1.0]
         prior = np.diag(np.square([*shared, *each * len(samples)]))
         found.append((posterior(gram, right, square, prior), np.array(each)))
     evidence = float(logsumexp([one.log_evidence for one, _ in found]) - np.log(len(found)))
