@@ -170,10 +170,13 @@ class Search:
         return self.system.rung().misfit
 
     def _is_missed(self, without: Rung, rung: Rung) -> bool:
-        """Whether rows miss a finding; beside others, by more than a small part of all misfit."""
+        """Whether rows miss a finding; beside others, by no less than a small part of all misfit.
+
+        Where scatter and contact took it all from the first, at their price, evidence decides.
+        """
         if rung.evidence - without.evidence <= _least(without.added):
             return False
-        part = without.misfit - rung.misfit > LEAST_PART**2 * self._misfit_at_first
+        part = without.misfit - rung.misfit >= LEAST_PART**2 * self._misfit_at_first
         return part or not without.added
 
     def _exchanged(

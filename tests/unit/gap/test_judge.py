@@ -197,6 +197,10 @@ def test_a_second_finding_takes_a_part_that_counts():
     assert climbed(a=(90.0, 1.0), b=(50.0, 0.126)) == ["a", "b"]
 
 
+def test_where_nuisances_take_all_misfit_a_second_finding_is_told_by_evidence():
+    assert climbed(a=(90.0, 0.0), b=(50.0, 0.0)) == ["a", "b"]
+
+
 def test_more_than_three_findings_are_no_explanation():
     assert climbed(**{name: (90.0 - at, 1.0) for at, name in enumerate("abcd")}) == ["a", "b", "c"]
 
