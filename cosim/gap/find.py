@@ -160,6 +160,9 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
         most = max((part.finding.gain for part in parts), default=0.0)
         faint = {part.finding.name for part in parts
                  if may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
+        if outdone := fitting.outdone(parts, named, faint):
+            rejected += outdone
+            continue
         doubted = fitting.rejected(parts, named, faint)
         if doubted is None:
             found, models = fitting.best_of(parts, named)
@@ -218,6 +221,27 @@ class _Fitting:
                     gained = without.gained(part) if part.in_kernel else None
                     return Rejected(part.finding.name, part.finding.gain, gained)
         return None
+
+    def outdone(
+        self, parts: Sequence[Part], named: Named, asked: Collection[str]
+    ) -> list[Rejected]:
+        """Of several lesser findings those asked for, where the greatest explains the runs alone.
+
+        One by one they would all go (see `rejected`), each after fits of its own; not so where
+        simulated runs are sure of one.
+        """
+        greatest = max(parts, key=lambda part: part.finding.gain, default=None)
+        lesser = [part for part in parts if part is not greatest and part.finding.name in asked]
+        if greatest is None or len(lesser) < 2 or any(p.finding.gain >= SURE for p in lesser):
+            return []
+        alone = self._fitted(named, [greatest], is_shown=False)
+        if judged(alone.unscattered) > EXPLAINED:
+            return []
+        gained = [alone.gained(part) if part.in_kernel else None for part in lesser]
+        if any(gain is not None and gain >= SURE for gain in gained):
+            return []
+        return [Rejected(part.finding.name, part.finding.gain, gain)
+                for part, gain in zip(lesser, gained, strict=True)]  # fmt: skip
 
     def _without(self, part: Part, parts: Sequence[Part], named: Named) -> Models:
         return self._fitted(named, [other for other in parts if other is not part], is_shown=False)
