@@ -104,7 +104,8 @@ class Models:
             numbers, settings, _ = self.free[-1]
             more = [*part.numbers, *numbers], {**settings, **part.settings}
             rung = self.system.rung(added, contact=False, scatter=False)
-            self._add(part.effect, text_of(part), more, rung)
+            across = 0.0 if part.finding.added else part.finding.gain
+            self._add(part.effect, text_of(part), more, rung, across=across)
 
     def _add_at_once(self) -> None:
         numbers, settings, _ = self.free[-1]
@@ -208,8 +209,9 @@ class Models:
 
     def _add(
         self, name: str, text: str, free: _Free, rows: Rows, fitted: Fitted | None = None,
-        scatter: float = 0.0,
+        scatter: float = 0.0, across: float = 0.0,
     ) -> None:  # fmt: skip
+        """across : ln evidence of what moves the block across, which rows along x have not"""
         fitted = fitted or self._fit(free, scatter, rows)
         self.fits.append(fitted)
         self.free.append((*free, scatter))
@@ -217,7 +219,7 @@ class Models:
         if self.last is not None:
             missing = max(self.ladder[0].gap.fit ** 2 - 1.0, 1e-9)
             share = min(max(1.0 - (gap.fit**2 - 1.0) / missing, 0.0), 1.0)
-            evidence = rows.evidence - self.last
+            evidence = rows.evidence - self.last + across
         self.last = rows.evidence
         weak = Score(rows.gap, rows.held_out_gap)
         self.ladder.append(Rung(name, text, gap, weak, share, evidence))

@@ -267,6 +267,19 @@ def test_a_model_that_comes_out_worse_than_the_one_it_holds_sets_out_from_it(
     assert started[2:] == ([[nested]] if again else [])
 
 
+def test_a_rung_of_what_moves_the_block_across_has_the_evidence_of_the_plane(monkeypatch):
+    """Rows along x have none of it: the table of the ladder would say 0."""
+    rows = SimpleNamespace(evidence=-5.0, gap=1.0, held_out_gap=None)
+    system = SimpleNamespace(rung=lambda *added, **kinds: rows)
+    fitted = SimpleNamespace(gap=(1.0, 1.0))
+    monkeypatch.setattr(Models, "_fit", lambda *given: fitted)
+    turned = Finding("spring_misalignment", (), 250.0, numbers={"turn": (0.1, 0.01)})
+    ladder = Models(None, system, {}, [Part(turned, None, (), (), {})], 1)
+    ladder._add("user's model", "", ([], {}), rows)
+    ladder._add_parts()
+    assert [rung.evidence for rung in ladder.ladder] == [None, 250.0]
+
+
 def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):
     rows = Rows(finding("spring_hardening", 205.0))
     monkeypatch.setattr(find.Naming, "of", lambda campaign: rows)
