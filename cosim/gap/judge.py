@@ -34,7 +34,7 @@ from dataclasses import dataclass
 
 from cosim.gap.rates import confirmed
 from cosim.gap.result import Rates, Rung, Score
-from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN, MOST_FINDINGS, NEARLY_ALIKE
+from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN, MOST_FINDINGS, NEARLY_ALIKE, UNDECIDED
 from cosim.gap.weak_form.ladder import Finding
 
 #: Gap up to which nothing is missing: noise of a window's rows, whose states are free, and what
@@ -45,10 +45,8 @@ EXPLAINED = 1.3
 #: ln of a Bayes factor beyond which a finding is no slip of the contact's description: rows of
 #: foreign contacts (bristles, Iwan) have pretended up to 206.
 SURE = 500.0
-#: ln of a Bayes factor up to which rows do not decide between two explanations, twice what they are
-#: asked for a finding: smoothed arguments have turned 7; up to which a contact may have turned
-#: them; and how many rivals are simulated.
-UNSURE, TURNED, RIVALS = 12.0, 200.0, 3
+#: ln of a Bayes factor up to which a contact may have turned rows, and how many rivals are simulated
+TURNED, RIVALS = 200.0, 3
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5
 #: Part of the misfit that a finding must take to be named as a part of what is missing.
@@ -145,7 +143,7 @@ def told_by_both(rows: float, simulated: float) -> float:
     """
     if rows > -ALIKE:
         return simulated if simulated < -LEAST_GAIN else rows
-    return 0.0 if simulated > 0.0 and rows > -UNSURE else rows
+    return 0.0 if simulated > 0.0 and rows > -UNDECIDED else rows
 
 
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:

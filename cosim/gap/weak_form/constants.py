@@ -128,6 +128,10 @@ PRICE = 3.0
 #: A further finding counts from this part of what is missing at first (root mean square): what is
 #: smaller may be what smoothed arguments and the nodes of the first one's curve leave.
 LEAST_PART = 0.12
+#: ln by which a further finding counts where there is no misfit to take a part of, and up to which
+#: rows do not decide between two explanations: twice what they are asked for a finding; smoothed
+#: arguments have turned 7.
+UNDECIDED = 12.0
 #: More findings than these are no explanation.
 MOST_FINDINGS = 3
 

@@ -21,6 +21,7 @@ from cosim.gap.weak_form.constants import (
     MOST_FINDINGS,
     NEARLY_ALIKE,
     PRICE,
+    UNDECIDED,
 )
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.weak_form.unknowns import Unknown
@@ -170,14 +171,16 @@ class Search:
         return self.system.rung().misfit
 
     def _is_missed(self, without: Rung, rung: Rung) -> bool:
-        """Whether rows miss a finding; beside others, by no less than a small part of all misfit.
+        """Whether rows miss a finding; beside others, by more than a small part of all misfit.
 
         Where scatter and contact took it all from the first, at their price, evidence decides.
         """
-        if rung.evidence - without.evidence <= _least(without.added):
+        gained = rung.evidence - without.evidence
+        if gained <= _least(without.added):
             return False
-        part = without.misfit - rung.misfit >= LEAST_PART**2 * self._misfit_at_first
-        return part or not without.added
+        if not without.added or self._misfit_at_first == 0.0:
+            return not without.added or gained > UNDECIDED
+        return without.misfit - rung.misfit > LEAST_PART**2 * self._misfit_at_first
 
     def _exchanged(
         self, found: list[tuple[str, tuple[Added, ...]]]

@@ -198,7 +198,8 @@ def test_a_second_finding_takes_a_part_that_counts():
 
 
 def test_where_nuisances_take_all_misfit_a_second_finding_is_told_by_evidence():
-    assert climbed(a=(90.0, 0.0), b=(50.0, 0.0)) == ["a", "b"]
+    assert climbed(a=(90.0, 0.0), b=(12.1, 0.0)) == ["a", "b"]
+    assert climbed(a=(90.0, 0.0), b=(11.9, 0.0)) == ["a"]
 
 
 def test_more_than_three_findings_are_no_explanation():
