@@ -12,7 +12,7 @@ import pandas as pd
 
 from .case import Case
 from .changes import Change, FrictionEffect
-from .drift import Drift, Wait
+from .drift import CAMERA, Drift, Wait
 from .lengths import Length, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
@@ -87,7 +87,7 @@ class Row:
             "shortest_steady": self.shortest_steady,
             "shortest_interface": self.shortest_interface,
             "changes": [asdict(one) for one in self.changes],
-            "seen_by_camera": self.drift.seen_by_camera,
+            "seen_by_camera": self.drift.run > CAMERA,
         }
 
 

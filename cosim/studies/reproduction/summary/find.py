@@ -10,10 +10,10 @@ import numpy as np
 from cosim.gap.data import Campaign
 
 from . import search
-from .candidates import Candidate, extensions, not_felt, plain_candidate
+from .candidates import Candidate, extensions, plain_candidate
 from .draws import SEEDS, Bench, Draws, observations
-from .result import SummaryGap, open_figures, ranked, where
-from .trial import BOOTSTRAPS, Trial, misfit, ordered, p_of_the_best, scatter_of_kin
+from .result import SummaryGap
+from .trial import BOOTSTRAPS, Trial, misfit, ordered, p_of_the_best, ranked, scatter_of_kin
 
 PLAIN_DRAWS, PLAIN_CLOSELY = 32, 6
 ROBUST_DRAWS = 32
@@ -165,9 +165,7 @@ def _with_free_friction(bench: Bench, plain: Trial) -> Trial | None:
 
 def _answer(bench: Bench, plain: Trial, free: Trial | None, found: Sequence[Found]) -> SummaryGap:
     held = [one for one in found if one.holds]
-    extended = held[-1].best.fitted() if held else None
     before = plain.fitted()
-    after = extended or before
     verdict, effects, classes = _judge(plain, held)
     chance = {"p": 1.0, "draws": 0, "delta_bic": 0.0}
     if found:
@@ -180,18 +178,13 @@ def _answer(bench: Bench, plain: Trial, free: Trial | None, found: Sequence[Foun
         effects=effects,
         found=held[-1].best.candidate.effects if held else (),
         classes=classes,
-        where=where(bench.seen, before),
         ranking=ranked(found[0].tried, plain) if found else (),
-        gap_before=(before.gap, before.held_out_gap),
-        gap_after=(after.gap, after.held_out_gap),
         printed=plain.fitted(plain.draws.take(FIRST_ONE)),
         plain=before,
-        extended=extended,
+        extended=held[-1].best.fitted() if held else None,
         chance=chance,
         determined={key: (before.values[key], *interval) for key, interval in intervals},
         free_friction=free.fitted() if free else None,
-        not_felt=not_felt(bench.campaign),
-        open_figures=open_figures(bench.seen, after),
         remarks=_remarks(bench.campaign, found),
     )
 

@@ -17,6 +17,8 @@ from functools import cached_property
 import numpy as np
 from scipy.stats import chi2
 
+from cosim.gap.result import Ranked, Score
+
 from .candidates import Candidate
 from .draws import Array, Draws, Target
 
@@ -52,9 +54,13 @@ def spread(draws: Draws, kin: Array | float = 0.0) -> Array:
 
 def misfit(draws: Draws, target: Target, kin: Array | float = 0.0) -> Array:
     """(d,) -2 log likelihood, less that of a draw that meets every figure without scatter."""
-    wider = 1.0 + spread(draws, kin) / target.sds**2  # variance of the prediction, in sds squared
-    terms = target.distances(draws.mean) ** 2 / wider + np.log(wider)
-    return np.asarray(terms.sum(axis=1) + draws.surprise)
+    return np.asarray(_off(draws.mean, spread(draws, kin), target) + draws.surprise)
+
+
+def _off(means: Array, variances: Array, target: Target) -> Array:
+    """(d,) of figures (d, n) with the variances of a realisation, before what is known counts."""
+    wider = 1.0 + variances / target.sds**2  # variance of the prediction, in sds squared
+    return np.asarray((target.distances(means) ** 2 / wider + np.log(wider)).sum(axis=1))
 
 
 def ordered(draws: Draws, target: Target, kin: Array | float = 0.0) -> Draws:
@@ -164,6 +170,27 @@ class Trial:
         )
 
 
+def ranked(tried: Sequence[Trial], plain: Trial) -> tuple[Ranked, ...]:
+    """The best form of every effect, the least BIC first, of trials in that order."""
+    best: dict[str, Trial] = {}
+    for trial in tried:
+        best.setdefault(trial.candidate.effects[-1], trial)
+    weights = [math.exp(0.5 * (tried[0].bic - trial.bic)) for trial in best.values()]
+    fits = [trial.fitted() for trial in best.values()]
+    return tuple(
+        Ranked(
+            effect=effect,
+            form=trial.candidate.form,
+            evidence=0.5 * (plain.bic - trial.bic),
+            probability=weight / sum(weights),
+            gap=Score(fit.gap, fit.held_out_gap),
+            parameters=dict(fit.values),
+            intervals=trial.intervals(),
+        )
+        for (effect, trial), fit, weight in zip(best.items(), fits, weights, strict=True)
+    )
+
+
 def p_of_the_best(plain: Trial, others: Sequence[Trial], seed: int) -> float:
     """Probability, under the plain model, of an improvement like that of the best of ``others``.
 
@@ -171,18 +198,23 @@ def p_of_the_best(plain: Trial, others: Sequence[Trial], seed: int) -> float:
     observations' standard deviations), and everything that was drawn is fitted to them again, so
     that choosing the best of many is part of what chance may do.
     """
-    rng = np.random.default_rng(seed)
-    sds, rows = plain.target.sds, plain.best.shown[0, : plain.best.seeds[0]]
+    rng, target = np.random.default_rng(seed), plain.target
+    rows = plain.best.shown[0, : plain.best.seeds[0]]
     before, after = _table([plain]), _table(others)
 
     def gained(sizes: Array) -> float:
-        return _least_bic(before, sizes, sds) - _least_bic(after, sizes, sds)
+        drawn = Target(sizes, target.sds)
+        plainly, extended = (
+            float((_off(means, variances, drawn) + prices).min())
+            for means, variances, prices in (before, after)
+        )
+        return plainly - extended
 
-    found = gained(plain.target.sizes)
+    found = gained(target.sizes)
     as_good = 0
     for _ in range(BOOTSTRAPS):
         row = rows[rng.integers(len(rows))]
-        as_good += gained(row + sds * rng.standard_normal(len(row))) >= found
+        as_good += gained(row + target.sds * rng.standard_normal(len(row))) >= found
     return (1 + as_good) / (1 + BOOTSTRAPS)
 
 
@@ -191,10 +223,3 @@ def _table(trials: Sequence[Trial]) -> tuple[Array, Array, Array]:
     means = np.concatenate([trial.draws.mean for trial in trials])
     variances = np.concatenate([spread(trial.draws, trial.kin) for trial in trials])
     return means, variances, np.concatenate([t.draws.surprise + t.price for t in trials])
-
-
-def _least_bic(table: tuple[Array, Array, Array], sizes: Array, sds: Array) -> float:
-    means, variances, prices = table
-    wider = 1.0 + variances / sds**2
-    terms = ((means - sizes) / sds) ** 2 / wider + np.log(wider)
-    return float((terms.sum(axis=1) + prices).min())
