@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -22,22 +21,20 @@ COLOURS = (RED, BLUE, GREEN)
 WIDER: dict[str, Any] = {"linewidth": 4.0, "markersize": 9.0}
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(NamedTuple):
     """y (n,) over x (n,), in the units of the panel's labels; style: as matplotlib's `plot`."""
 
     x: Any
     y: Any
-    style: Mapping[str, Any] = field(default_factory=dict)
+    style: Mapping[str, Any] = {}
 
 
-@dataclass(frozen=True)
-class Panel:
+class Panel(NamedTuple):
     """Curves on one pair of axes; levels: label -> height of a broken line; end: of the x axis."""
 
     curves: Sequence[Curve]
     title: str = ""
-    levels: Mapping[str, float] = field(default_factory=dict)
+    levels: Mapping[str, float] = {}
     end: float | None = None
 
 

@@ -1,12 +1,19 @@
-"""Draws of a model: numbers that are tried, and the figures that come of them, seed by seed."""
+"""Draws of a model: numbers that are tried, the figures that come of them, how far off these are.
+
+The *misfit* is -2 log likelihood less that of a perfect model: it takes the scatter of the model's
+own figures from seed to seed (the study's scheme is chaotic) as part of what the model predicts, at
+the price of a wider prediction, and adds how far the known numbers were stretched. The *gap* is the
+root mean square distance of the model's mean figures from the observed ones, in the observations'
+standard deviations: what is drawn and reported.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -21,6 +28,8 @@ Array = np.ndarray
 # which way the reporter's y axis points is not known, nor which way a symmetric rig swerves
 MIRRORED = ("mean_y",)
 SEEDS = 6  # most runs of a draw
+# seeds from which a draw's own scatter is taken; below, that of its kin
+ENOUGH_SEEDS = 4
 
 
 class Observation(NamedTuple):
@@ -63,68 +72,6 @@ def predict(campaign: Campaign, seen: tuple[Observation, ...], values: Values, s
 
 
 @dataclass(frozen=True)
-class Draws:
-    """Numbers tried of a candidate, a row a draw, and what came of them.
-
-    shares (d, p): the spans' numbers as shares of their ranges, NaN for one that a draw has not;
-    values: of each draw, settings included; surprise (d,): squared distance of known numbers from
-    what is known; shown (d, seeds, n): the observations' figures, NaN where it was not run.
-    """
-
-    shares: Array
-    values: tuple[Mapping[str, float], ...]
-    surprise: Array
-    shown: Array
-
-    @classmethod
-    def of(cls, candidate: Candidate, shares: Array, n: int) -> Draws:
-        """Draws (d, p) of a candidate that have not been run yet."""
-        spans, values = candidate.spans, []
-        for row in shares:
-            numbers = {span.key: float(span.at(one)) for span, one in zip(spans, row, strict=True)}
-            # a contact at rest holds at least what it holds in sliding
-            numbers["friction.mu_k"] = min(numbers["friction.mu_k"], numbers["friction.mu_s"])
-            values.append(dict(candidate.settings) | numbers)
-        surprise = [sum(span.surprise(one[span.key]) for span in spans) for one in values]
-        shown = np.full((len(values), SEEDS, n), np.nan)
-        return cls(np.asarray(shares, float), tuple(values), np.array(surprise), shown)
-
-    def __len__(self) -> int:
-        return len(self.values)
-
-    def __add__(self, other: Draws) -> Draws:
-        """Both, of one candidate."""
-        return Draws(
-            np.concatenate([self.shares, other.shares]),
-            self.values + other.values,
-            np.concatenate([self.surprise, other.surprise]),
-            np.concatenate([self.shown, other.shown]),
-        )
-
-    def take(self, rows: Array | slice) -> Draws:
-        """Some of them: numbers of rows, which of all, or (d,) whether."""
-        places = np.arange(len(self))[rows]
-        values = tuple(self.values[i] for i in places)
-        return Draws(self.shares[places], values, self.surprise[places], self.shown[places])
-
-    def without_effect(self, candidate: Candidate) -> Draws:
-        """The same as draws of a candidate with one effect more, which is off."""
-        more = np.full((len(self), len(candidate.spans) - self.shares.shape[1]), np.nan)
-        values = tuple(candidate.off | dict(one) for one in self.values)
-        return replace(self, shares=np.hstack([self.shares, more]), values=values)
-
-    @property
-    def seeds(self) -> Array:
-        """(d,) how often each was run."""
-        return np.asarray(np.isfinite(self.shown[:, :, 0]).sum(axis=1))
-
-    @property
-    def mean(self) -> Array:
-        """(d, n) mean of each figure over the seeds."""
-        return np.asarray(np.nanmean(self.shown, axis=1))
-
-
-@dataclass(frozen=True)
 class Target:
     """What is to be met: sizes and standard deviations (n,) of the figures."""
 
@@ -144,9 +91,113 @@ class Target:
         """(..., n) of figures from the observed ones, in standard deviations."""
         return np.asarray((mean - self.sizes) / self.sds)
 
+    def misfit(self, means: Array, variances: Array) -> Array:
+        """(d,) -2 log likelihood of figures (d, n) with the variances of a realisation."""
+        wider = 1.0 + variances / self.sds**2  # variance of the prediction, in sds squared
+        return np.asarray((self.distances(means) ** 2 / wider + np.log(wider)).sum(axis=1))
+
     def gap(self, mean: Array) -> Array:
         """(...) root mean square distance, in standard deviations."""
         return np.asarray(np.sqrt(np.mean(self.distances(mean) ** 2, axis=-1)))
+
+
+@dataclass(frozen=True)
+class Draws:
+    """Numbers tried of a candidate, a row a draw, what came of them, and how far off they are.
+
+    shares (d, p): the spans' numbers as shares of their ranges, NaN for one that a draw has not;
+    values (d,): mappings, settings included; surprise (d,): squared distance of known numbers from
+    what is known; shown (d, seeds, n): the observations' figures, NaN where it was not run. kin
+    (n,): scatter of a figure from seed to seed, for draws of too few seeds to tell their own.
+    """
+
+    candidate: Candidate
+    target: Target
+    shares: Array
+    values: Array
+    surprise: Array
+    shown: Array
+    kin: Array | float = 0.0
+
+    @classmethod
+    def of(cls, candidate: Candidate, shares: Array, target: Target) -> Draws:
+        """Draws (d, p) of a candidate that have not been run yet."""
+        spans, values = candidate.spans, []
+        for row in shares:
+            numbers = {span.key: float(span.at(one)) for span, one in zip(spans, row, strict=True)}
+            # a contact at rest holds at least what it holds in sliding
+            numbers["friction.mu_k"] = min(numbers["friction.mu_k"], numbers["friction.mu_s"])
+            values.append(dict(candidate.settings) | numbers)
+        surprise = [sum(span.surprise(one[span.key]) for span in spans) for one in values]
+        shown = np.full((len(values), SEEDS, len(target.sizes)), np.nan)
+        told = np.asarray(shares, float), np.array(values, dtype=object), np.array(surprise)
+        return cls(candidate, target, *told, shown)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def _rows(self, of: Callable[[str], Any]) -> Draws:
+        return replace(
+            self, **{name: of(name) for name in ("shares", "values", "surprise", "shown")}
+        )
+
+    def __add__(self, other: Draws) -> Draws:
+        """Both, of one candidate."""
+        return self._rows(lambda name: np.concatenate([getattr(self, name), getattr(other, name)]))
+
+    def take(self, rows: Array | slice) -> Draws:
+        """Some of them: numbers of rows, which of all, or (d,) whether."""
+        return self._rows(lambda name: getattr(self, name)[rows])
+
+    def with_effect_off(self, candidate: Candidate) -> Draws:
+        """The same as draws of a candidate with one effect more, which is off."""
+        more = np.full((len(self), len(candidate.spans) - self.shares.shape[1]), np.nan)
+        values = np.array([candidate.off | one for one in self.values], dtype=object)
+        shares = np.hstack([self.shares, more])
+        return replace(self, candidate=candidate, shares=shares, values=values)
+
+    @property
+    def seeds(self) -> Array:
+        """(d,) how often each was run."""
+        return np.asarray(np.isfinite(self.shown[:, :, 0]).sum(axis=1))
+
+    @property
+    def mean(self) -> Array:
+        """(d, n) mean of each figure over the seeds."""
+        return np.asarray(np.nanmean(self.shown, axis=1))
+
+    @property
+    def scatter(self) -> Array:
+        """(d, n) standard deviation of each draw's figures from seed to seed."""
+        n = self.seeds[:, None]
+        squares = np.nansum((self.shown - self.mean[:, None]) ** 2, axis=1)
+        return np.where(n >= ENOUGH_SEEDS, np.sqrt(squares / np.maximum(n - 1, 1)), self.kin)
+
+    @property
+    def spread(self) -> Array:
+        """(d, n) variance of the next realisation about a draw's mean.
+
+        Mean and scatter are both from a few seeds: Student's t, whose variance counts here.
+        """
+        n = self.seeds[:, None]
+        wider = (1.0 + 1.0 / n) * (n - 1) / np.where(n > 3, n - 3, 1)
+        return np.where(n < ENOUGH_SEEDS, 2.0 * self.kin**2, self.scatter**2 * wider)
+
+    @property
+    def misfit(self) -> Array:
+        """(d,) -2 log likelihood, less that of a draw that meets every figure without scatter."""
+        return np.asarray(self.target.misfit(self.mean, self.spread) + self.surprise)
+
+    @property
+    def ordered(self) -> Draws:
+        """From the least misfit on."""
+        return self.take(np.argsort(self.misfit, kind="stable"))
+
+    @property
+    def with_own_scatter(self) -> Draws:
+        """With the typical scatter of those that tell it, its median, for those that do not."""
+        told = self.take(self.seeds >= ENOUGH_SEEDS)
+        return replace(self, kin=np.asarray(np.median(told.scatter, axis=0)))
 
 
 @dataclass(frozen=True)
@@ -174,7 +225,7 @@ class Bench:
 
     def draw(self, candidate: Candidate, shares: Array) -> Draws:
         """Draws (d, p) of a candidate, a seed each."""
-        return self.run(Draws.of(candidate, np.atleast_2d(shares), len(self.seen)))
+        return self.run(Draws.of(candidate, np.atleast_2d(shares), self.target))
 
     def run(self, draws: Draws, seeds: int = 1) -> Draws:
         """The draws with ``seeds`` more runs each."""

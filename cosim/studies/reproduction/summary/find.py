@@ -10,10 +10,10 @@ import numpy as np
 from cosim.gap.data import Campaign
 
 from . import search
-from .candidates import Candidate, extensions, plain_candidate
+from .candidates import extensions, plain_candidate
 from .draws import SEEDS, Bench, Draws, observations
 from .result import SummaryGap
-from .trial import BOOTSTRAPS, Trial, misfit, ordered, p_of_the_best, ranked, scatter_of_kin
+from .trial import BOOTSTRAPS, Trial, p_of_the_best, ranked
 
 PLAIN_DRAWS, PLAIN_CLOSELY = 32, 6
 ROBUST_DRAWS = 32
@@ -101,42 +101,40 @@ def _plain(bench: Bench) -> Trial:
     draws = search.screening(bench, candidate, PLAIN_DRAWS)
     known, draws = bench.run(draws.take(FIRST_ONE), SEEDS - 1), draws.take(slice(1, None))
     if bench.smooth:
-        for start in ordered(draws, bench.target).shares[:2]:
+        for start in draws.ordered.shares[:2]:
             draws += search.polished(bench, candidate, start)
     draws = search.with_all_seeds(bench, draws, PLAIN_CLOSELY)
-    return Trial(candidate, known + draws, bench.target, scatter_of_kin(draws))
+    return Trial(replace(known + draws, kin=draws.with_own_scatter.kin))
 
 
 def _add(bench: Bench, before: Trial) -> Found:
     """Every effect on top of ``before``; those in the running searched to the end."""
     share = 1.0 if before.candidate.effects else NEAR_PLAIN[bench.smooth]
-    screened = []
-    for candidate in extensions(bench.campaign, before.candidate):
-        draws = search.screening(bench, candidate, search.FIRST, before.best, share)
-        screened.append((misfit(draws, bench.target).min(), candidate, draws))
-    screened.sort(key=lambda one: one[0])
-    tried = []
-    for place, (_, candidate, draws) in enumerate(screened):
-        draws = search.refined(bench, candidate, draws, place < IN_THE_RUNNING)
-        tried.append(_nested(candidate, draws, before))
+    screened = [
+        search.screening(bench, candidate, search.FIRST, before.best, share)
+        for candidate in extensions(bench.campaign, before.candidate)
+    ]
+    screened.sort(key=lambda draws: draws.misfit.min())
+    tried = [
+        _nested(search.refined(bench, draws, place < IN_THE_RUNNING), before)
+        for place, draws in enumerate(screened)
+    ]
     tried.sort(key=lambda trial: trial.bic)
     tried[0] = _with_ranges(bench, tried[0], before)
     tried.sort(key=lambda trial: trial.bic)
     return Found(before, tuple(tried), p_of_the_best(before, tried, bench.seed))
 
 
-def _nested(candidate: Candidate, draws: Draws, before: Trial) -> Trial:
-    """The trial of ``candidate``; an effect may also be off, so it is never worse than without."""
-    every = draws + before.close.without_effect(candidate)
-    return Trial(candidate, every, before.target, scatter_of_kin(draws))
+def _nested(draws: Draws, before: Trial) -> Trial:
+    """The trial of draws; an effect may also be off, so it is never worse than without."""
+    return Trial(draws.with_own_scatter + before.close.with_effect_off(draws.candidate))
 
 
 def _with_ranges(bench: Bench, trial: Trial, before: Trial) -> Trial:
     """The trial with more draws about its good ones: its intervals, and perhaps a better best."""
     own = trial.draws.take(np.isfinite(trial.draws.shares).all(axis=1))
-    draws = search.widened(bench, trial.candidate, own, RANGE_DRAWS)
-    draws = search.with_all_seeds(bench, draws, SEEDS, kin=trial.kin)
-    return _nested(trial.candidate, draws, before)
+    draws = replace(search.widened(bench, own, RANGE_DRAWS), kin=trial.draws.kin)
+    return _nested(search.with_all_seeds(bench, draws, SEEDS), before)
 
 
 def _share_that_fits(bench: Bench, trial: Trial) -> float:
@@ -157,10 +155,8 @@ def _with_free_friction(bench: Bench, plain: Trial) -> Trial | None:
     if candidate == plain.candidate:
         return None
     draws = search.screening(bench, candidate, PLAIN_DRAWS)
-    good = ordered(draws, bench.target).take(slice(3))
-    draws += search.near(bench, candidate, good, PLAIN_DRAWS // 2)
-    draws = search.refined(bench, candidate, draws, running=False)
-    return Trial(candidate, draws, bench.target, scatter_of_kin(draws))
+    draws += search.near(bench, draws.ordered.take(slice(3)), PLAIN_DRAWS // 2)
+    return Trial(search.refined(bench, draws, running=False).with_own_scatter)
 
 
 def _answer(bench: Bench, plain: Trial, free: Trial | None, found: Sequence[Found]) -> SummaryGap:

@@ -1,17 +1,10 @@
-"""How far off a model's draws are from the observed figures, and what a whole trial amounts to.
-
-Two measures. The *gap* is the root mean square distance of the model's mean figures from the
-observed ones, in the observations' standard deviations: what is drawn and reported. The
-*misfit* is -2 log likelihood less that of a perfect model: it takes the scatter of the model's own
-figures from seed to seed (the study's scheme is chaotic) as part of what the model predicts, at the
-price of a wider prediction, and adds how far the known numbers were stretched.
-"""
+"""What a whole trial of a model amounts to: its best draw, its price, and what chance would do."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -22,50 +15,9 @@ from cosim.gap.result import Ranked, Score
 from .candidates import Candidate
 from .draws import Array, Draws, Target
 
-# seeds from which a draw's own scatter is taken; below, that of its kin
-ENOUGH_SEEDS = 4
 #: misfit by which a draw may be worse than the best and still lie in the 95 % interval (one number)
 WITHIN = 3.84
 BOOTSTRAPS = 999
-
-
-def scatter(draws: Draws, kin: Array | float = 0.0) -> Array:
-    """(d, n) standard deviation of each draw's figures from seed to seed."""
-    n = draws.seeds[:, None]
-    squares = np.nansum((draws.shown - draws.mean[:, None]) ** 2, axis=1)
-    return np.where(n >= ENOUGH_SEEDS, np.sqrt(squares / np.maximum(n - 1, 1)), kin)
-
-
-def scatter_of_kin(draws: Draws) -> Array:
-    """(n,) typical scatter of a figure from seed to seed: median over the draws that tell it."""
-    told = draws.take(draws.seeds >= ENOUGH_SEEDS)
-    return np.asarray(np.median(scatter(told), axis=0))
-
-
-def spread(draws: Draws, kin: Array | float = 0.0) -> Array:
-    """(d, n) variance of the next realisation about a draw's mean.
-
-    Mean and scatter are both from a few seeds: Student's t, whose variance counts here.
-    """
-    n = draws.seeds[:, None]
-    wider = (1.0 + 1.0 / n) * (n - 1) / np.where(n > 3, n - 3, 1)
-    return np.where(n < ENOUGH_SEEDS, 2.0 * kin**2, scatter(draws, kin) ** 2 * wider)
-
-
-def misfit(draws: Draws, target: Target, kin: Array | float = 0.0) -> Array:
-    """(d,) -2 log likelihood, less that of a draw that meets every figure without scatter."""
-    return np.asarray(_off(draws.mean, spread(draws, kin), target) + draws.surprise)
-
-
-def _off(means: Array, variances: Array, target: Target) -> Array:
-    """(d,) of figures (d, n) with the variances of a realisation, before what is known counts."""
-    wider = 1.0 + variances / target.sds**2  # variance of the prediction, in sds squared
-    return np.asarray((target.distances(means) ** 2 / wider + np.log(wider)).sum(axis=1))
-
-
-def ordered(draws: Draws, target: Target, kin: Array | float = 0.0) -> Draws:
-    """The draws from the least misfit on."""
-    return draws.take(np.argsort(misfit(draws, target, kin), kind="stable"))
 
 
 @dataclass(frozen=True)
@@ -89,21 +41,19 @@ class FittedSummary:
 
 @dataclass(frozen=True)
 class Trial:
-    """A candidate, everything that was tried of it, and the scatter of its kin (n,).
+    """Everything that was tried of a candidate; at least one draw has several seeds."""
 
-    At least one draw has several seeds.
-    """
-
-    candidate: Candidate
     draws: Draws
-    target: Target
-    kin: Array
+
+    @property
+    def candidate(self) -> Candidate:
+        """Of which all draws are."""
+        return self.draws.candidate
 
     @cached_property
     def close(self) -> Draws:
         """Draws that were run with all seeds, from the least misfit on."""
-        several = self.draws.take(self.draws.seeds > 1)
-        return ordered(several, self.target, self.kin)
+        return self.draws.take(self.draws.seeds > 1).ordered
 
     @property
     def best(self) -> Draws:
@@ -113,12 +63,12 @@ class Trial:
     @property
     def misfit(self) -> float:
         """Of the best."""
-        return float(misfit(self.best, self.target, self.kin)[0])
+        return float(self.best.misfit[0])
 
     @property
     def price(self) -> float:
         """ln n for each number that was added."""
-        return self.candidate.added * math.log(len(self.target.sizes))
+        return self.candidate.added * math.log(len(self.draws.target.sizes))
 
     @property
     def bic(self) -> float:
@@ -128,10 +78,10 @@ class Trial:
     @cached_property
     def held_out_gap(self) -> float:
         """Root mean square distance of the figures, each predicted by the fit to the others."""
-        found = []
-        for i in range(len(self.target.sizes)):
-            other = np.argmin(misfit(self.close, self.target.without(i), self.kin))
-            found.append(self.target.distances(self.close.mean[other])[i])
+        found, target = [], self.draws.target
+        for i in range(len(target.sizes)):
+            other = np.argmin(replace(self.close, target=target.without(i)).misfit)
+            found.append(target.distances(self.close.mean[other])[i])
         return float(np.sqrt(np.mean(np.square(found))))
 
     @cached_property
@@ -140,16 +90,16 @@ class Trial:
 
         Of coefficients a known one brings its own observation.
         """
-        spans = self.candidate.spans
+        spans, target = self.candidate.spans, self.draws.target
         free = sum(span.of_friction and span.prior is None for span in spans)
-        freedom = len(self.target.sizes) - self.candidate.added - free
-        variance = self.target.sds**2 + spread(self.best, self.kin)
-        off = np.sum((self.best.mean - self.target.sizes) ** 2 / variance) + self.best.surprise[0]
+        freedom = len(target.sizes) - self.candidate.added - free
+        variance = target.sds**2 + self.best.spread
+        off = np.sum((self.best.mean - target.sizes) ** 2 / variance) + self.best.surprise[0]
         return float(chi2.sf(off, max(freedom, 1)))
 
     def intervals(self) -> dict[str, tuple[float, float]]:
         """block.parameter -> range over the draws that are nearly as good as the best."""
-        good = misfit(self.draws, self.target, self.kin) <= self.misfit + WITHIN
+        good = self.draws.misfit <= self.misfit + WITHIN
         values = self.draws.take(good).values
         keys = [span.key for span in self.candidate.spans]
         return {
@@ -162,9 +112,9 @@ class Trial:
         return FittedSummary(
             values=dict(draw.values[0]),
             shown=draw.mean[0],
-            scatter=scatter(draw, self.kin)[0],
-            residuals=self.target.distances(draw.mean[0]),
-            gap=float(self.target.gap(draw.mean[0])),
+            scatter=draw.scatter[0],
+            residuals=draw.target.distances(draw.mean[0]),
+            gap=float(draw.target.gap(draw.mean[0])),
             held_out_gap=self.held_out_gap,
             lack_of_fit=self.lack_of_fit,
         )
@@ -198,14 +148,14 @@ def p_of_the_best(plain: Trial, others: Sequence[Trial], seed: int) -> float:
     observations' standard deviations), and everything that was drawn is fitted to them again, so
     that choosing the best of many is part of what chance may do.
     """
-    rng, target = np.random.default_rng(seed), plain.target
+    rng, target = np.random.default_rng(seed), plain.draws.target
     rows = plain.best.shown[0, : plain.best.seeds[0]]
     before, after = _table([plain]), _table(others)
 
     def gained(sizes: Array) -> float:
         drawn = Target(sizes, target.sds)
         plainly, extended = (
-            float((_off(means, variances, drawn) + prices).min())
+            float((drawn.misfit(means, variances) + prices).min())
             for means, variances, prices in (before, after)
         )
         return plainly - extended
@@ -221,5 +171,5 @@ def p_of_the_best(plain: Trial, others: Sequence[Trial], seed: int) -> float:
 def _table(trials: Sequence[Trial]) -> tuple[Array, Array, Array]:
     """Of all draws of all trials: means (d, n), variances of a realisation (d, n), prices (d,)."""
     means = np.concatenate([trial.draws.mean for trial in trials])
-    variances = np.concatenate([spread(trial.draws, trial.kin) for trial in trials])
+    variances = np.concatenate([trial.draws.spread for trial in trials])
     return means, variances, np.concatenate([t.draws.surprise + t.price for t in trials])
