@@ -153,11 +153,12 @@ def _counts_29(counts: Array) -> Array:
 @judges("C11")
 def judge_ratio(claim: Claim) -> dict[str, Any]:
     """Oscillations in 20 s by model, for mu_k/mu_s of 0.5, 0.77 and 1.0."""
-    found = [cases.three_figures(case) for case in RATIO_CASES]
-    counts = np.array([[one.oscillations for one in models] for models in found]).T
+    counts, ranges = (
+        cases.tabulated(figure, RATIO_CASES, cases.SEEDS, rig={})
+        for figure in ("oscillations", "half_range_x")
+    )
     for ratio, ours in zip(RATIOS, counts.T, strict=True):
         claim.row(f"count_{ratio:g}", ours)
-    ranges = np.array([[one.half_range_x for one in models] for models in found]).T
     claim.row_each("half_range", ranges, ratio=RATIOS)
     claim.check("more", answers=_counts_more(counts), margin=gaps(counts[2]).min())
     _turn_ratio(claim, _counts_more)
@@ -196,9 +197,7 @@ def _turn_ratio(claim: Claim, holds: Callable[[Array], Array]) -> None:
         said = {"name": one.name, "counts": singles.mean(axis=1), "share": 100.0 * share}
         claim.turn("reading", sound=share >= ALLOWED, weight=weight, **said)
     for loose in OTHER_PRETENSIONS:
-        counts = np.array(
-            [cases.exact_figures(case, pretension=loose).oscillations for case in RATIO_CASES]
-        )
+        counts = cases.exact_table("oscillations", RATIO_CASES, pretension=loose)
         claim.turn("pretension", sound=holds(counts), mm=1e3 * loose, counts=counts)
     for fault in ("F2", "F1"):
         counts = _mended(fault)

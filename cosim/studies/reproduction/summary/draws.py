@@ -9,13 +9,14 @@ standard deviations: what is drawn and reported.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.stats import chi2
 
 from cosim.gap.data import Campaign
 from cosim.gap.data.errors import CampaignError
@@ -28,6 +29,8 @@ Array = np.ndarray
 # which way the reporter's y axis points is not known, nor which way a symmetric rig swerves
 MIRRORED = ("mean_y",)
 SEEDS = 6  # most runs of a draw
+#: misfit by which a draw may be worse than the best and still lie in the 95 % interval (one number)
+WITHIN = 3.84
 # seeds from which a draw's own scatter is taken; below, that of its kin
 ENOUGH_SEEDS = 4
 
@@ -102,13 +105,33 @@ class Target:
 
 
 @dataclass(frozen=True)
+class FittedSummary:
+    """A model beside the observed figures.
+
+    values: block.parameter -> number. shown, scatter (n,): mean of each figure over the seeds and
+    its standard deviation from seed to seed. residuals (n,): distance in the observations'
+    standard deviations. gap: their root mean square. lack_of_fit: probability of figures this far
+    off or farther, were the model (its scatter included) true.
+    """
+
+    values: Mapping[str, float]
+    shown: Array
+    scatter: Array
+    residuals: Array
+    gap: float
+    held_out_gap: float
+    lack_of_fit: float
+
+
+@dataclass(frozen=True)
 class Draws:
     """Numbers tried of a candidate, a row a draw, what came of them, and how far off they are.
 
     shares (d, p): the spans' numbers as shares of their ranges, NaN for one that a draw has not;
     values (d,): mappings, settings included; surprise (d,): squared distance of known numbers from
     what is known; shown (d, seeds, n): the observations' figures, NaN where it was not run. kin
-    (n,): scatter of a figure from seed to seed, for draws of too few seeds to tell their own.
+    (n,): scatter of a figure from seed to seed, for draws of too few seeds to tell their own. From
+    `close` on: of all that was tried of the candidate, some of it with several seeds.
     """
 
     candidate: Candidate
@@ -199,51 +222,65 @@ class Draws:
         told = self.take(self.seeds >= ENOUGH_SEEDS)
         return replace(self, kin=np.asarray(np.median(told.scatter, axis=0)))
 
-
-@dataclass(frozen=True)
-class Bench:
-    """Runs the campaign's model for draws, a few at a time.
-
-    seed: of the whole search; jobs: threads; step: called with the number of draws just done.
-    """
-
-    campaign: Campaign
-    seen: tuple[Observation, ...]
-    seed: int = 0
-    jobs: int = 2
-    step: Callable[[int], object] = lambda _count: None
+    @cached_property
+    def close(self) -> Draws:
+        """Draws that were run with all seeds, from the least misfit on."""
+        return self.take(self.seeds > 1).ordered
 
     @property
-    def smooth(self) -> bool:
-        """Do figures follow the numbers smoothly? Those of the study's scheme do not."""
-        return self.campaign.scheme == "exact"
+    def best(self) -> Draws:
+        """The first of those, by itself."""
+        return self.close.take(slice(1))
+
+    @property
+    def price(self) -> float:
+        """ln n for each number that was added."""
+        return self.candidate.added * math.log(len(self.target.sizes))
+
+    @property
+    def bic(self) -> float:
+        """Misfit of the best plus the price of the numbers that were added."""
+        return float(self.best.misfit[0]) + self.price
 
     @cached_property
-    def target(self) -> Target:
-        """What is to be met."""
-        return Target.of(self.seen)
+    def held_out_gap(self) -> float:
+        """Root mean square distance of the figures, each predicted by the fit to the others."""
+        found = []
+        for i in range(len(self.target.sizes)):
+            other = np.argmin(replace(self.close, target=self.target.without(i)).misfit)
+            found.append(self.target.distances(self.close.mean[other])[i])
+        return float(np.sqrt(np.mean(np.square(found))))
 
-    def draw(self, candidate: Candidate, shares: Array) -> Draws:
-        """Draws (d, p) of a candidate, a seed each."""
-        return self.run(Draws.of(candidate, np.atleast_2d(shares), self.target))
+    @cached_property
+    def lack_of_fit(self) -> float:
+        """Probability of figures this far off, were the best draw's model true.
 
-    def run(self, draws: Draws, seeds: int = 1) -> Draws:
-        """The draws with ``seeds`` more runs each."""
-        if not len(draws):
-            return draws
-        places = draws.seeds[:, None] + np.arange(seeds)
-        requests = [
-            (values, int(seed))
-            for values, row in zip(draws.values, self.seed + places, strict=True)
-            for seed in row
-        ]
-        with ThreadPoolExecutor(max_workers=self.jobs) as pool:
-            rows = list(pool.map(self._row, requests))
-        shown = draws.shown.copy()
-        shown[np.arange(len(draws))[:, None], places] = np.reshape(rows, (*places.shape, -1))
-        return replace(draws, shown=shown)
+        Of coefficients a known one brings its own observation.
+        """
+        target = self.target
+        free = sum(span.of_friction and span.prior is None for span in self.candidate.spans)
+        freedom = len(target.sizes) - self.candidate.added - free
+        variance = target.sds**2 + self.best.spread
+        off = np.sum((self.best.mean - target.sizes) ** 2 / variance) + self.best.surprise[0]
+        return float(chi2.sf(off, max(freedom, 1)))
 
-    def _row(self, request: tuple[Values, int]) -> Array:
-        row = predict(self.campaign, self.seen, *request)
-        self.step(1)
-        return row
+    def intervals(self) -> dict[str, tuple[float, float]]:
+        """block.parameter -> range over the draws that are nearly as good as the best."""
+        values = self.values[self.misfit <= self.best.misfit[0] + WITHIN]
+        keys = [span.key for span in self.candidate.spans]
+        return {
+            key: (min(one[key] for one in values), max(one[key] for one in values)) for key in keys
+        }
+
+    def fitted(self, draw: Draws | None = None) -> FittedSummary:
+        """A draw beside the observed figures, the best where none is given."""
+        draw = self.best if draw is None else draw
+        return FittedSummary(
+            values=dict(draw.values[0]),
+            shown=draw.mean[0],
+            scatter=draw.scatter[0],
+            residuals=self.target.distances(draw.mean[0]),
+            gap=float(self.target.gap(draw.mean[0])),
+            held_out_gap=self.held_out_gap,
+            lack_of_fit=self.lack_of_fit,
+        )

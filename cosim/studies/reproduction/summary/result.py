@@ -11,8 +11,7 @@ from cosim.gap.data import Campaign
 from cosim.gap.result import Ranked, Where
 
 from .candidates import not_felt
-from .draws import Observation
-from .trial import FittedSummary
+from .draws import FittedSummary, Observation
 
 # distance in standard deviations from which a figure is not met
 MET = 2.0

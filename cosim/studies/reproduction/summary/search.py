@@ -6,13 +6,20 @@ differentiated. All draws are kept, as a table, from which everything else is re
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import cached_property
+
 import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import qmc
 
+from cosim.gap.data import Campaign
+
 from .candidates import Candidate
-from .draws import ENOUGH_SEEDS, SEEDS, Array, Bench, Draws
-from .trial import WITHIN
+from .draws import ENOUGH_SEEDS, SEEDS, WITHIN, Array, Draws, Observation, Target, predict
+from .models import Values
 
 FIRST, MORE = 12, 40  # draws of a model: to begin with, and where it is in the running
 CLOSELY = 6  # of them run with all seeds
@@ -20,6 +27,55 @@ DIFFERENCE, EDGE = 1e-3, 1e-3  # of shares: for a derivative, and from the end o
 MOST_STEPS = 25  # of the least squares
 OFF = 0.75  # share at which an effect of either sign is surely on
 STEP = 0.08  # standard deviation of a step about a good draw, as share of the range
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Runs the campaign's model for draws, a few at a time.
+
+    seed: of the whole search; jobs: threads; step: called with the number of draws just done.
+    """
+
+    campaign: Campaign
+    seen: tuple[Observation, ...]
+    seed: int = 0
+    jobs: int = 2
+    step: Callable[[int], object] = lambda _count: None
+
+    @property
+    def smooth(self) -> bool:
+        """Do figures follow the numbers smoothly? Those of the study's scheme do not."""
+        return self.campaign.scheme == "exact"
+
+    @cached_property
+    def target(self) -> Target:
+        """What is to be met."""
+        return Target.of(self.seen)
+
+    def draw(self, candidate: Candidate, shares: Array) -> Draws:
+        """Draws (d, p) of a candidate, a seed each."""
+        return self.run(Draws.of(candidate, np.atleast_2d(shares), self.target))
+
+    def run(self, draws: Draws, seeds: int = 1) -> Draws:
+        """The draws with ``seeds`` more runs each."""
+        if not len(draws):
+            return draws
+        places = draws.seeds[:, None] + np.arange(seeds)
+        requests = [
+            (values, int(seed))
+            for values, row in zip(draws.values, self.seed + places, strict=True)
+            for seed in row
+        ]
+        with ThreadPoolExecutor(max_workers=self.jobs) as pool:
+            rows = list(pool.map(self._row, requests))
+        shown = draws.shown.copy()
+        shown[np.arange(len(draws))[:, None], places] = np.reshape(rows, (*places.shape, -1))
+        return replace(draws, shown=shown)
+
+    def _row(self, request: tuple[Values, int]) -> Array:
+        row = predict(self.campaign, self.seen, *request)
+        self.step(1)
+        return row
 
 
 def even_shares(candidate: Candidate, count: int, seed: int) -> Array:
