@@ -160,6 +160,7 @@ class Draws:
         return len(self.values)
 
     def _rows(self, of: Callable[[str], Any]) -> Draws:
+        """With other rows: of each table, by its name."""
         return replace(
             self, **{name: of(name) for name in ("shares", "values", "surprise", "shown")}
         )

@@ -238,7 +238,7 @@ def _answer(bench: Bench, plain: Draws, free: Draws | None, found: Sequence[Foun
         extended=held[-1].best.fitted() if held else None,
         chance=chance,
         determined={key: (before.values[key], *interval) for key, interval in intervals},
-        free_friction=free.fitted() if free else None,
+        free_friction=free.fitted() if free is not None else None,
         remarks=_remarks(bench.campaign, found),
     )
 
