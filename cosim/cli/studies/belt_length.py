@@ -43,7 +43,7 @@ from cosim.studies.belt_length import (
     with_ranges,
     work_off,
 )
-from cosim.studies.belt_length.lengths import rounded_up
+from cosim.studies.belt_length.lengths import length_text
 from cosim.studies.belt_length.show.page import page
 from cosim.studies.belt_length.show.wording import two_digits
 from cosim.studies.belt_length.study import BOUNDS, check_case, check_options
@@ -322,9 +322,8 @@ def _draw(study: Study, grid: DriftMap | None, case: Case, folder: Path) -> list
     from cosim.studies.belt_length.show.figures import draw_doubt, draw_drift, draw_map
 
     pictures: list[Picture] = [draw_drift(study)]
-    doubted = [row for row in study.rows if row.uncertainty is not None]
-    if doubted:
-        pictures.append(draw_doubt(max(doubted, key=lambda row: row.drift.run)))
+    if (row := study.most_doubted) is not None and row.uncertainty is not None:
+        pictures.append(draw_doubt(row, row.uncertainty))
     if grid is not None:
         pictures.append(draw_map(grid, case, study.options.limit))
     for one in pictures:
@@ -383,9 +382,9 @@ def _print_answers(study: Study) -> None:
             ("comes round cold", answer.run),
             ("interface steady", answer.interface),
         ):
-            ever = _length(question.for_ever) if question is answer.run else "-"
+            ever = length_text(question.for_ever) if question is answer.run else "-"
             numbers = [
-                _length(question.shortest),
+                length_text(question.shortest),
                 *(level.says if level else "-" for level in question.levels),
                 ever,
             ]
@@ -411,15 +410,11 @@ def _print_shortest(study: Study) -> None:
             ("interface steady", "interface", row.shortest_interface, None),
         ):
             levels = [doubted[case][rise][level].says or "-" for level in ("median", "high")]
-            ever = "-" if rise == "interface" else _length(steady)
+            ever = "-" if rise == "interface" else length_text(steady)
             print(
-                f"{case.speed:12g} {name:<20} {_length(said):>8} {levels[0]:>8} {levels[1]:>8}"
+                f"{case.speed:12g} {name:<20} {length_text(said):>8} {levels[0]:>8} {levels[1]:>8}"
                 f" {ever:>8}"
             )
-
-
-def _length(value: float | None) -> str:
-    return "none" if value is None else rounded_up(value)[0]
 
 
 def _print_changes(study: Study) -> None:

@@ -7,7 +7,7 @@ import sys
 import time
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_force, add_json, add_output
@@ -19,7 +19,6 @@ from cosim.manifest import made_by, own_folder, results_in
 
 if TYPE_CHECKING:
     from cosim.studies.reproduction import Claim
-    from cosim.studies.reproduction.attributions import Datasets
 
 EXAMPLE = "stickslip reproduce C6 C13 -o results/claims"
 IMPORTS = ("cosim.studies.reproduction.claims",)
@@ -79,7 +78,7 @@ def execute(arguments: Namespace) -> int:
             print(f"     {claim.first}")
         print(f"     {_firmness(claim)}")
     if found:
-        print(f"Datasets: {found.says}")
+        print(f"Datasets: {found['says']}")
     print(f"{len(claims)} claims in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
     return DONE
 
@@ -96,7 +95,7 @@ def _codes(claims: list[Claim]) -> list[str]:
     return ["Faults of the study's scheme, by their numbers:", *lines] if lines else []
 
 
-def _datasets(wanted: tuple[str, ...]) -> Datasets | None:
+def _datasets(wanted: tuple[str, ...]) -> dict[str, Any] | None:
     """The study's datasets in every reading, where a claim was asked for that hangs on them."""
     from cosim.studies.reproduction.attributions import CLAIMS, datasets
 
@@ -117,7 +116,7 @@ def _write(
     claims: list[Claim],
     folder: Path,
     wall_time: float,
-    datasets: Datasets | None = None,
+    datasets: dict[str, Any] | None = None,
 ) -> str:
     """Numbers first, then figures, then the page; the numbers as JSON."""
     from stickslip.reference.scheme_errors import DESCRIPTIONS

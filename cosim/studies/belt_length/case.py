@@ -142,6 +142,11 @@ class Case:
         return self.friction * self.mass * GRAVITY
 
     @property
+    def travel(self) -> float:
+        """How far the belt goes in all runs, m."""
+        return self.protocol.runs * self.protocol.moving * self.speed
+
+    @property
     def film(self) -> float:
         """Heat transfer on each face of the running belt, W/m2K.
 

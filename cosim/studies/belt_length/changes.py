@@ -19,7 +19,7 @@ from stickslip.trajectory import break_away_frequency
 from thermal.materials import MELTING_POINT_DEGC
 
 from .case import Case
-from .drift import endless_belt, followed, never_comes_round
+from .drift import endless_belt, followed
 
 #: What the changes take: K, W/m2K, 1, and a roller's good contact, W/m2K, over 0.1 m of belt.
 COLDER_AIR, COLDER_SAMPLE, WARMER_SAMPLE, GOOD_ROLLER, ROLLER_ARC = 8.0, 1.0, 0.3, 1000.0, 0.1
@@ -46,14 +46,7 @@ class Change:
 
 def changes(case: Case) -> list[Change]:
     """As the case is, then each change alone; what has no room on the rig is left out."""
-    found = []
-    for what, changed in _changed(case):
-        before, after = followed(changed)
-        entry = 0.0 if never_comes_round(changed) else after.entry
-        found.append(
-            Change(what, entry, after.mean_interface - before.mean_interface, after.mean_interface)
-        )
-    return found
+    return [Change(what, *followed(changed)[0]) for what, changed in _changed(case)]
 
 
 def _changed(case: Case) -> Iterator[tuple[str, Case]]:

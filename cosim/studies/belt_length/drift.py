@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
@@ -46,29 +47,24 @@ class Drift:
     belt_share_steady: float
     steady_melts: bool
 
-    @property
-    def seen_by_camera(self) -> bool:
-        """Would the camera see the drift of a run?"""
-        return self.run > CAMERA
-
 
 def drift(case: Case) -> Drift:
     """All of it. NoSteadyState for h = 0, ParameterError for a belt that cannot be."""
-    before, run = followed(case)
+    rises, run = followed(case)
     steady = case.lasting.sliding().settle()
-    endless_before, endless = followed(endless_belt(case))
+    endless = followed(endless_belt(case))[0]
     ambient = case.ambient_degC
     return Drift(
         study=case.as_the_study().temperature_degC(case.length) - ambient,
         single_pass=case.single_pass().temperature_degC(case.length) - ambient,
-        run=0.0 if never_comes_round(case) else run.entry,
+        run=rises.run,
         steady=steady.entry,
         ice_run=run.ice_face,
         ice_steady=steady.ice_face,
-        interface_run=run.mean_interface,
-        interface_drift=run.mean_interface - before.mean_interface,
-        interface_run_endless=endless.mean_interface,
-        interface_drift_endless=endless.mean_interface - endless_before.mean_interface,
+        interface_run=rises.interface_run,
+        interface_drift=rises.interface_drift,
+        interface_run_endless=endless.interface_run,
+        interface_drift_endless=endless.interface_drift,
         flash_run=run.hottest_interface,
         belt_share=run.belt_share_so_far,
         belt_share_steady=steady.belt_share,
@@ -76,20 +72,31 @@ def drift(case: Case) -> Drift:
     )
 
 
-def followed(case: Case) -> tuple[SlidingState, SlidingState]:
-    """Cold at the start: where the last ramp ends, and at the end of the last run."""
-    return case.follow(case.sliding())
+class Rises(NamedTuple):
+    """At the end of the last run, K: of the belt where it enters the contact, of the interface at
+    constant speed and from the start on."""
+
+    run: float
+    interface_drift: float
+    interface_run: float
+
+
+def followed(case: Case) -> tuple[Rises, SlidingState]:
+    """Cold at the start: the rises at the end of the last run, and all of the state there."""
+    before, end = case.follow(case.sliding())
+    entry = 0.0 if never_comes_round(case) else end.entry
+    interface = end.mean_interface
+    return Rises(entry, interface - before.mean_interface, interface), end
 
 
 def run_drift(case: Case) -> float:
     """Rise where the belt enters the contact at the end of the last run, K."""
-    return 0.0 if never_comes_round(case) else followed(case)[1].entry
+    return 0.0 if never_comes_round(case) else followed(case)[0].run
 
 
 def interface_drift(case: Case) -> float:
     """Rise of the interface at constant speed in the last run, K."""
-    before, after = followed(case)
-    return after.mean_interface - before.mean_interface
+    return followed(case)[0].interface_drift
 
 
 def steady_drift(case: Case) -> float:
@@ -142,7 +149,7 @@ def endless_belt(case: Case) -> Case:
 def _never_round(case: Case) -> float:
     """Length that a belt must have never to come round, m."""
     heated = 2.0 * CONTACT_LENGTH + case.rig.belt.railing_length
-    return case.protocol.runs * case.protocol.moving * case.speed + heated
+    return case.travel + heated
 
 
 #: Shortest and longest pause that is tried, s.
@@ -178,28 +185,20 @@ def wait(case: Case, limit: float) -> Wait:
     first = once.follow(sliding)[1].entry
     after_first = sliding.snapshot()
 
-    def at_start(pause: float) -> None:
+    def at_start(pause: float) -> SteadySliding:
         """Where the last run begins."""
         sliding.restore(after_first)
         for run in range(1, runs):
             if run > 1:
                 once.follow(sliding)
             case.rest(sliding, pause)
+        return sliding
 
-    def warmest(pause: float) -> float:
-        at_start(pause)
-        return _warmest(sliding)
-
-    def ice_face(pause: float) -> float:
-        at_start(pause)
-        return abs(sliding.state().ice_face)
-
-    def entry(pause: float) -> float:
-        at_start(pause)
-        return once.follow(sliding)[1].entry
-
-    belt, ice = _least_pause(warmest, limit), _least_pause(ice_face, limit)
-    through = None if first > limit else _least_pause(entry, limit)
+    belt = _least_pause(lambda pause: _warmest(at_start(pause)), limit)
+    ice = _least_pause(lambda pause: abs(at_start(pause).state().ice_face), limit)
+    through = None
+    if first <= limit:
+        through = _least_pause(lambda pause: once.follow(at_start(pause))[1].entry, limit)
     begin = None if belt is None or ice is None else max(belt, ice)
     return Wait(runs, belt, ice, begin, through, _reason(belt, ice, through, first, limit))
 

@@ -23,13 +23,6 @@ from .uncertainty import INTERVAL, Uncertainty
 LONGEST = 50.0
 #: How well the length is found, relative; the drift is known to less.
 _TOLERANCE = 5e-3
-#: Rise and level -> the quantile of it in `Uncertainty`, and what it is called.
-_QUANTILES = {
-    ("run", "median"): ("median", "median"),
-    ("run", "high"): ("high", f"{INTERVAL[1]:.0%} level"),
-    ("interface", "median"): ("interface_median", "median"),
-    ("interface", "high"): ("interface_high", f"{INTERVAL[1]:.0%} level"),
-}
 #: Shortest belts by rise, "run" or "interface", and level.
 Levels = dict[str, dict[str, "Length"]]
 
@@ -60,6 +53,11 @@ def rounded_up(length: float) -> tuple[str, str]:
     step = 10.0 ** (math.floor(math.log10(length)) - 1)
     # what is two digits but for the binary rounding stays so
     return f"{step * math.ceil(length / step - 1e-9):.3g}", f"{step:g}"
+
+
+def length_text(length: float | None) -> str:
+    """A shortest belt for a table; none where no belt does."""
+    return "none" if length is None else rounded_up(length)[0]
 
 
 def metres(length: float) -> str:
@@ -126,16 +124,18 @@ def shortest_in_doubt(
 
     lengths: in m, increasing, with the doubt on each. Nothing is told beyond them.
     """
-    found: Levels = {"run": {}, "interface": {}}
     known = [one for one in doubts if one is not None]
-    for (rise, level), (name, called) in _QUANTILES.items():
-        if len(known) < len(doubts):
-            why = "no doubt was computed: --samples 0, or the ice melts"
-            found[rise][level] = Length(None, "", why)
-        else:
-            rises = [getattr(one, name) for one in known]
-            found[rise][level] = between(lengths, rises, limit, called)
-    return found
+    if len(known) < len(doubts):
+        none = Length(None, "", "no doubt was computed: --samples 0, or the ice melts")
+        return {rise: {"median": none, "high": none} for rise in ("run", "interface")}
+    levels = {"median": "median", "high": f"{INTERVAL[1]:.0%} level"}
+    return {
+        rise: {
+            level: between(lengths, [getattr(one, prefix + level) for one in known], limit, called)
+            for level, called in levels.items()
+        }
+        for rise, prefix in (("run", ""), ("interface", "interface_"))
+    }
 
 
 def between(lengths: Sequence[float], rises: Sequence[float], limit: float, level: str) -> Length:

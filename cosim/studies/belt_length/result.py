@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, field
 from importlib.resources import files
 from typing import Any
 
@@ -12,7 +12,7 @@ import pandas as pd
 
 from .case import Case
 from .changes import Change, FrictionEffect
-from .drift import Drift, Wait
+from .drift import CAMERA, Drift, Wait
 from .lengths import Length, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
@@ -64,8 +64,8 @@ class Row:
 
     def as_dict(self, limit: float) -> dict[str, object]:
         """Everything, for JSON."""
-        case = {one.name: getattr(self.case, one.name) for one in fields(Case)}
-        case = {name: value for name, value in case.items() if name not in _NOT_TOLD}
+        told = asdict(self)
+        case = {name: value for name, value in told["case"].items() if name not in _NOT_TOLD}
         thermal = self.case.thermal()
         layered = bool(thermal.belt.layers)
         used = {
@@ -76,18 +76,10 @@ class Row:
             "h_of_still_air": self.case.h is None,
             "frost": self.case.frost and self.case.frost._asdict(),
         }
-        return {
+        return told | {
             "case": case | used,
             "questions": self.questions(limit),
-            "drift": asdict(self.drift),
-            "effect": asdict(self.effect),
-            "wait": asdict(self.wait),
-            "uncertainty": self.uncertainty and asdict(self.uncertainty),
-            "shortest_run": self.shortest_run,
-            "shortest_steady": self.shortest_steady,
-            "shortest_interface": self.shortest_interface,
-            "changes": [asdict(one) for one in self.changes],
-            "seen_by_camera": self.drift.seen_by_camera,
+            "seen_by_camera": self.drift.run > CAMERA,
         }
 
 

@@ -99,14 +99,13 @@ def check_case(case: Case, arguments: Namespace) -> None:
 
 def _check_travel(case: Case, arguments: Namespace) -> None:
     protocol = case.protocol
-    travel = protocol.runs * protocol.moving * case.speed
-    if travel <= MOST_TRAVEL:
+    if case.travel <= MOST_TRAVEL:
         return
     file = f"{arguments.scenario}: " if arguments.scenario is not None else ""
     raise StudyError(
         f"{file}--ramp = {protocol.ramp:g} s, --run = {protocol.run:g} s, --runs = {protocol.runs}"
         f" at --speed = {case.speed:g} m/s (surface.run_up_time, run.duration, surface.speed of a"
-        f" scenario): the belt would go {travel:.3g} m, allowed is at most {MOST_TRAVEL:g} m"
+        f" scenario): the belt would go {case.travel:.3g} m, allowed is at most {MOST_TRAVEL:g} m"
     )
 
 

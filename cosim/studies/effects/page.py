@@ -80,13 +80,11 @@ def draw_overview(entries: Sequence[Entry]) -> Figure:
         if entry is None:
             ax.set_visible(False)
             continue
-        shown = motion(entry, True)
-        curves = [_curve(entry, on, shown) for on in (False, True)]
+        curves = _curves(entry)
         if curves[1] is not None:
             _draw_law(ax, curves)
         else:
-            channel = channels_shown(motion(entry, False), shown, entry.effect.case.window[0])[0]
-            _draw_motion(ax, entry, channel)
+            _draw_motion(ax, entry, channels_shown(entry)[0])
         ax.set_title(entry.effect.id, fontsize=8.0)
         for axis in (ax.xaxis, ax.yaxis):
             axis.label.set_size(7.0)
@@ -116,13 +114,12 @@ def effect_figure(entry: Entry) -> Picture:
 
 def _live(entry: Entry) -> Live:
     """The motions for the page, which has the law as a drawing above them."""
-    plain, shown = motion(entry, False), motion(entry, True)
     panels = []
-    for name in channels_shown(plain, shown, entry.effect.case.window[0]):
+    for name in channels_shown(entry):
         label, factor = CHANNELS[name]
         series = [
             Series(run.time, Curve(said, factor * run[name], colour))
-            for said, run, colour in (("without", plain, GREY), ("with", shown, BLUE))
+            for said, run, colour in _runs(entry)
         ]
         panels.append((Panel(label, []), series))
     return over_time(*panels_on_one_axis(panels, entry.effect.case.window))
@@ -130,7 +127,7 @@ def _live(entry: Entry) -> Live:
 
 def law_figure(entry: Entry) -> Picture | None:
     """The law alone, to stand above motions that move; None for an effect without a curve."""
-    curves = [_curve(entry, on, motion(entry, True)) for on in (False, True)]
+    curves = _curves(entry)
     if curves[1] is None:
         return None
 
@@ -145,9 +142,7 @@ def law_figure(entry: Entry) -> Picture | None:
 
 
 def _draw(entry: Entry) -> Figure:
-    shown = motion(entry, True)
-    channels = channels_shown(motion(entry, False), shown, entry.effect.case.window[0])
-    curves = [_curve(entry, on, shown) for on in (False, True)]
+    channels, curves = channels_shown(entry), _curves(entry)
     figure = Figure(figsize=(10.0, max(2.6, 0.6 + 1.8 * len(channels))), layout="constrained")
     right: FigureBase = figure
     if curves[1] is not None:
@@ -167,8 +162,7 @@ def _draw(entry: Entry) -> Figure:
 def _draw_motion(ax: Axes, entry: Entry, channel: str) -> None:
     begin, end = entry.effect.case.window
     label, factor = CHANNELS[channel]
-    for said, on, colour in (("without", False, GREY), ("with", True, BLUE)):
-        run = motion(entry, on)
+    for said, run, colour in _runs(entry):
         late = run.time >= begin
         ax.plot(run.time[late], factor * run[channel][late], color=colour, label=said)
     ax.set(xlabel="time [s]", ylabel=label, xlim=(begin, end))
@@ -190,9 +184,14 @@ def _draw_law(ax: Axes, curves: Sequence[LawCurve | None]) -> None:
         ax.set_ylim(bottom=0.0)
 
 
-def _curve(entry: Entry, on: bool, run: Trajectory) -> LawCurve | None:
-    """The law as far as the motion with the effect goes."""
-    effect, case = entry.effect, entry.effect.case
+def _runs(entry: Entry) -> list[tuple[str, Trajectory, str]]:
+    """Name, motion and colour, without the effect and with it."""
+    return [("without", motion(entry, False), GREY), ("with", motion(entry, True), BLUE)]
+
+
+def _curves(entry: Entry) -> list[LawCurve | None]:
+    """The law without and with the effect, as far as the motion with it goes."""
+    effect, case, run = entry.effect, entry.effect.case, motion(entry, True)
     reach = {
         "heat memory": float(run["heat"][-1]),
         "distance": float(run["sliding_distance"][-1]),
@@ -200,16 +199,17 @@ def _curve(entry: Entry, on: bool, run: Trajectory) -> LawCurve | None:
         "time": case.window[1] - case.window[0],
         "sliding speed": 3.0 * run.parameters.surface.speed,
     }.get(axis_of(effect), 0.0)
-    return law_curve(effect, case_parameters(entry, on), _warmth(entry), case.water, reach)
+    return [
+        law_curve(effect, case_parameters(entry, on), _warmth(entry), case.water, reach)
+        for on in (False, True)
+    ]
 
 
-def channels_shown(plain: Trajectory, shown: Trajectory, begin: float) -> list[str]:
-    """Those in which an effect shows: x, y and the way of the rim by phi, compared in metres.
-
-    begin : from when on, s
-    """
+def channels_shown(entry: Entry) -> list[str]:
+    """Those in which an effect shows: x, y and the way of the rim by phi, compared in metres."""
+    plain, shown = motion(entry, False), motion(entry, True)
     rows = min(plain.time.size, shown.time.size)
-    late = plain.time[:rows] >= begin
+    late = plain.time[:rows] >= entry.effect.case.window[0]
     lever = {"phi": plain.parameters.rig.contact_radius}
     differ = {
         name: lever.get(name, 1.0)

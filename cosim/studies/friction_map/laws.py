@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 from stickslip.packing import GRAVITY
@@ -26,35 +25,30 @@ class Law:
 
 def laws_of(found: FrictionMap) -> list[Law]:
     """Those of the scenario that are on."""
-    return [*_dry(found), *_asperities(found), *_film(found), *_flooded(found)]
+    laws = (_dry(found), _asperities(found), _film(found), _flooded(found))
+    return [law for law in laws if law is not None]
 
 
-def _dry(found: FrictionMap) -> Iterator[Law]:
+def _dry(found: FrictionMap) -> Law | None:
     law = found.scenario.mechanics.temperature_dependence
     if law.sensitivity == 0.0:
-        return
+        return None
     nothing_left = law.reference_degC + 1.0 / law.sensitivity
-    yield Law(
+    fall = law.static_sensitivity * (nothing_left - law.reference_degC)
+    static = found.scenario.mechanics.friction.mu_s * max(0.0, 1.0 - fall)
+    return Law(
         "temperature_dependence",
         "a dry contact between two measured temperatures, by a straight line",
-        f"nothing is left of mu_k at {nothing_left:.3g} °C; mu_s there is "
-        f"{_static_at(found, nothing_left):.3g}",
+        f"nothing is left of mu_k at {nothing_left:.3g} °C; mu_s there is {static:.3g}",
         "assumed: sensitivity, reference_degC",
     )
 
 
-def _static_at(found: FrictionMap, temperature: float) -> float:
-    mechanics = found.scenario.mechanics
-    law = mechanics.temperature_dependence
-    fall = law.static_sensitivity * (temperature - law.reference_degC)
-    return float(mechanics.friction.mu_s * max(0.0, 1.0 - fall))
-
-
-def _asperities(found: FrictionMap) -> Iterator[Law]:
+def _asperities(found: FrictionMap) -> Law | None:
     mechanics = found.scenario.mechanics
     law = mechanics.asperity_melting
     if law.length == 0.0:
-        return
+        return None
     load = mechanics.rig.mass * GRAVITY
     bears = load / law.hardness
     slow = LEAST_PECLET * diffusivity(found) / law.length
@@ -62,7 +56,7 @@ def _asperities(found: FrictionMap) -> Iterator[Law]:
     below = sum(speed < slow for speed in speeds)
     slowest = min(speeds)
     share = conducted_share(found, slowest)
-    yield Law(
+    return Law(
         "asperity_melting",
         "a real contact of N/H in patches of the length l, warmed one-dimensionally: a Péclet "
         "number v l/κ above 1. Slower, both bodies conduct, and Evans' term with 1/v would be "
@@ -104,17 +98,17 @@ def conducted_share(found: FrictionMap, speed: float) -> float:
     return float(conducted / warmed)
 
 
-def _film(found: FrictionMap) -> Iterator[Law]:
+def _film(found: FrictionMap) -> Law | None:
     mechanics = found.scenario.mechanics
     law = mechanics.melt_film
     if law.wetted_share == 0.0:
-        return
+        return None
     wetted = law.wetted_share * math.pi * mechanics.rig.contact_radius**2
     pressure = mechanics.rig.mass * GRAVITY / wetted
     thickness = math.sqrt(
         2.0 * law.viscosity * max(p.speed for p in found.points) * law.length / law.latent_heat
     )
-    yield Law(
+    return Law(
         "melt_film",
         "a wetted patch that bears the whole load, on a film that its own shear melts; no heat "
         "goes into the ice or the belt, so it holds near the melting point only",
@@ -124,11 +118,11 @@ def _film(found: FrictionMap) -> Iterator[Law]:
     )
 
 
-def _flooded(found: FrictionMap) -> Iterator[Law]:
+def _flooded(found: FrictionMap) -> Law | None:
     law = found.scenario.mechanics.mixed_lubrication
     if law.share == 0.0:
-        return
-    yield Law(
+        return None
+    return Law(
         "mixed_lubrication",
         "a face that melts as a whole and floods the roughness of the surface",
         f"roughness {1e6 * law.roughness:.2g} µm",

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from .claim import Check, Claim, Row, UnknownClaim, claim_ids
+from .claim import JUDGES, Check, Claim, Row, UnknownClaim, claim_ids
 
 __all__ = ["Check", "Claim", "Row", "UnknownClaim", "claim_ids", "reproduce"]
 
@@ -22,10 +22,10 @@ def reproduce(
     ``progress`` is called with each id when its claim is judged. Raises `UnknownClaim`.
     """
     wanted = claim_ids(ids)
-    from .claims import CLAIMS  # matplotlib and the thermal model: only when there is work
+    from . import claims as claims  # matplotlib and the thermal model: only when there is work
 
     judged = []
     for one in wanted:
-        judged.append(CLAIMS[one]())
+        judged.append(JUDGES[one]())
         progress(one)
     return judged

@@ -2,108 +2,93 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 from . import readings
+from .claim import WRITTEN
 from .claims.friction_level import misfit, observed
 from .claims.rotation import ROTATES, turns_far_and_near
 from .readings import AS_PRINTED, MARKS, Outcome, Reading, reading_figures
-from .sheet import WRITTEN
 
 #: Claims that this bears on.
 CLAIMS = ("C5", "C6", "C7")
 
 
-@dataclass(frozen=True)
-class Attribution:
+def attribution(reading: Reading) -> dict[str, Any]:
     """What a reading makes of the claims, and which mended fault undoes it.
 
     rotates: #1 turns by more than the study's least (C5); without: #1's largest rotation with each
     of F2 and F13 mended, deg. misfits: with mu full, with a quarter, with mu full and F1 mended
-    (C6). both: #1 turns far and #2 stays within what was measured (C7).
+    (C6): the quarter fits better, as the study has it, and F1 alone better than the quarter. both:
+    #1 turns far and #2 stays within what was measured (C7).
     """
-
-    reading: Reading
-    rotates: bool
-    without: dict[str, float]
-    misfits: tuple[float, float, float]
-    both: bool
-
-    @property
-    def quarter_fits_better(self) -> bool:
-        """As the study has it."""
-        return self.misfits[1] < self.misfits[0]
-
-    @property
-    def one_spring_explains(self) -> bool:
-        """Whether mu full with F1 mended fits better than the quarter."""
-        return self.misfits[2] < self.misfits[1]
-
-
-def attribution(reading: Reading) -> Attribution:
-    """The three claims under a reading."""
 
     def fit(one: Reading, dataset: int) -> float:
         return misfit(observed(lambda k: reading_figures(one, dataset, stiffness=k)))
 
     first, second = (reading_figures(reading, dataset).max_rotation for dataset in (1, 2))
-    without = {f: reading_figures(reading.mended(f), 1).max_rotation for f in ("F2", "F13")}
-    misfits = fit(reading, 1), fit(reading, 2), fit(reading.mended("F1"), 1)
-    both = turns_far_and_near(first, second)
-    return Attribution(reading, first > ROTATES, without, misfits, both)
+    full, quarter, mended = fit(reading, 1), fit(reading, 2), fit(reading.mended("F1"), 1)
+    return {
+        "rotates": first > ROTATES,
+        "without": {
+            fault: reading_figures(reading.mended(fault), 1).max_rotation for fault in ("F2", "F13")
+        },
+        "misfits": (full, quarter, mended),
+        "both": turns_far_and_near(first, second),
+        "quarter_fits_better": quarter < full,
+        "one_spring_explains": mended < quarter,
+        "reading": reading.name,
+    }
 
 
-@dataclass(frozen=True)
-class Datasets:
-    """Whether the scheme gives the study's two datasets, in every reading."""
-
-    outcomes: tuple[Outcome, ...]
-    attributions: tuple[Attribution, ...]
-
-    @property
-    def found(self) -> bool:
-        """Whether a reading meets every mark."""
-        return any(all(one.met) for one in self.outcomes)
-
-    @property
-    def says(self) -> str:
-        """What came of it, in sentences."""
-        of, written = {one.reading: one for one in self.outcomes}, WRITTEN["datasets"]
-        most = max(sum(one.met) for one in self.outcomes)
-        said = written["says"].format(
-            printed=of[AS_PRINTED].values,
-            balanced=of[readings.BALANCED].values,
-            rounded=of[readings.ROUNDED],
-            marks=len(MARKS),
-            most=most,
-            closest=_names(one.reading for one in self.outcomes if sum(one.met) == most),
-        )
-        return str(written["found" if self.found else "none"]).format(said=said)
-
-    @property
-    def bears(self) -> str:
-        """What it does to the three claims, in sentences."""
-        every = self.attributions
-        turning = [one.without for one in every if one.rotates]
-        others = _names(one.reading for one in every if not one.one_spring_explains)
-        both = [one.reading for one in every if one.both]
-        return str(WRITTEN["datasets"]["bears"]).format(
-            all=len(every),
-            turning=len(turning),
-            ended=[sum(one[fault] < ROTATES for one in turning) for fault in ("F2", "F13")],
-            explained=sum(one.one_spring_explains for one in every),
-            others=f"; not in: {others}" if others else "",
-            both=len(both),
-            both_in=f": {_names(both)}" if both else "",
-        )
-
-
-def _names(of: Iterable[Reading]) -> str:
-    return "; ".join(one.name for one in of)
-
-
-def datasets() -> Datasets:
+def datasets() -> dict[str, Any]:
     """Every reading beside the marks, and the claims as printed and under those that stand."""
     bearing = [AS_PRINTED, *(one for one in readings.standing() if one != AS_PRINTED)]
-    return Datasets(tuple(readings.outcomes()), tuple(map(attribution, bearing)))
+    return as_data(readings.outcomes(), [attribution(one) for one in bearing])
+
+
+def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """Whether the scheme gives the study's two datasets, in every reading; for JSON and page.
+
+    says: what came of it, in sentences; bears: what it does to the three claims.
+    """
+    of, written = {one.reading: one for one in outcomes}, WRITTEN["datasets"]
+    most = max(sum(one.met) for one in outcomes)
+    found = most == len(MARKS)
+    says = written["says"].format(
+        printed=of[AS_PRINTED].values,
+        balanced=of[readings.BALANCED].values,
+        rounded=of[readings.ROUNDED],
+        marks=len(MARKS),
+        most=most,
+        closest=_names(one.reading.name for one in outcomes if sum(one.met) == most),
+    )
+    turning = [one["without"] for one in every if one["rotates"]]
+    others = _names(one["reading"] for one in every if not one["one_spring_explains"])
+    both = [one["reading"] for one in every if one["both"]]
+    bears = written["bears"].format(
+        all=len(every),
+        turning=len(turning),
+        ended=[sum(one[fault] < ROTATES for one in turning) for fault in ("F2", "F13")],
+        explained=sum(one["one_spring_explains"] for one in every),
+        others=f"; not in: {others}" if others else "",
+        both=len(both),
+        both_in=f": {_names(both)}" if both else "",
+    )
+    return {
+        "says": written["found" if found else "none"].format(said=says),
+        "bears": bears,
+        "found": found,
+        "marks": MARKS,
+        "readings": [
+            {"values": one.values, "met": one.met, "reading": one.reading.name}
+            | {"place": one.reading.place, "turned_by_1deg_after_s": one.onset}
+            for one in outcomes
+        ],
+        "attributions": every,
+    }
+
+
+def _names(of: Iterable[str]) -> str:
+    return "; ".join(of)

@@ -172,23 +172,24 @@ def _exact_figures(parameters: Parameters) -> MotionFigures:
     return figures(_exact_motion(parameters, SETTLING + WINDOW).between(SETTLING))
 
 
-def three_figures(
-    case: Case, seeds: tuple[int, ...] = SEEDS, **model: Any
-) -> tuple[MotionFigures, MotionFigures, MotionFigures]:
-    """Steady figures as printed, mended, exact; model: of `exact_parameters`."""
-    printed, mended = (scheme_figures(case, faults, seeds) for faults in (PRINTED, MENDED))
-    return printed, mended, exact_figures(case, **model)
-
-
 def three_motions(case: Case, **model: Any) -> tuple[Motion, Motion, Motion]:
     """Whole runs as printed, mended, exact; model: of `exact_parameters`."""
     printed, mended = (scheme_motion(case, faults) for faults in (PRINTED, MENDED))
     return printed, mended, exact_motion(case, **model)
 
 
-def tabulated(figure: str, cases: Sequence[Case], seeds: tuple[int, ...] = SEEDS[:1]) -> Array:
+def tabulated(
+    figure: str,
+    cases: Sequence[Case],
+    seeds: tuple[int, ...] = SEEDS[:1],
+    rig: dict[str, Any] = GUIDED,
+) -> Array:
     """A steady figure of each case: (3, n), as printed, mended, exact with the block guided."""
-    found = [three_figures(case, seeds, rig=GUIDED) for case in cases]
+    found = [
+        [scheme_figures(case, faults, seeds) for faults in (PRINTED, MENDED)]
+        + [exact_figures(case, rig=rig)]
+        for case in cases
+    ]
     return np.array([[getattr(one, figure) for one in three] for three in found]).T
 
 

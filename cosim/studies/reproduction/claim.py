@@ -1,16 +1,29 @@
-"""What a judged claim is: rows of numbers, checks against limits, what turns them, its verdict."""
+"""A claim of the study as it is judged: rows of numbers, checks against limits, what turns them.
+
+What is written of each claim stands in `claims.toml`, its texts with places in braces for what is
+computed. A check compares a number of each model with its limit. Changes that are one computation
+with other numbers stand there with these.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import KW_ONLY, dataclass
+import operator
+import tomllib
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field
 from itertools import combinations
+from pathlib import Path
+from typing import Any, NamedTuple
 
+import numpy as np
 from stickslip.reference.scheme_errors import DESCRIPTIONS, PRINTED, Faults
 
 from cosim.report.page import Picture
 
 CLAIM_IDS = tuple(f"C{n}" for n in range(1, 19))
+WRITTEN: dict[str, Any] = tomllib.loads(
+    Path(__file__).with_name("claims.toml").read_text(encoding="utf-8")
+)
 
 
 class UnknownClaim(ValueError):
@@ -27,6 +40,36 @@ def claim_ids(wanted: Sequence[str]) -> tuple[str, ...]:
     asked = {one.upper() for one in wanted} or set(CLAIM_IDS)
     return tuple(one for one in CLAIM_IDS if one in asked)
 
+
+class Printed(NamedTuple):
+    """A number of the study, or in words a range between two of its numbers, and its place."""
+
+    value: float | str
+    place: str
+
+    @property
+    def number(self) -> float:
+        """The value; ValueError where the study prints words."""
+        return float(self.value)
+
+
+#: Every number of the study that is compared with, by name.
+STUDY = {
+    name: Printed(value, place)
+    for place, numbers in WRITTEN["study"].items()
+    for name, value in numbers.items()
+}
+#: How a check compares a number with its limit.
+COMPARED = {
+    "above": operator.gt,
+    "below": operator.lt,
+    "at most": operator.le,
+    "at least": operator.ge,
+}
+MODELS = ("printed", "mended", "exact")
+#: As printed, mended, exact; None, or nothing: the model has no such number, or cannot tell.
+Numbers = Sequence[float | None] | np.ndarray
+NONE = (None, None, None)
 
 HOLDS = "holds"
 FOLLOWS = "follows from the assumption"
@@ -95,7 +138,7 @@ class Turn:
     weight: str = FAR
 
 
-@dataclass(frozen=True)
+@dataclass
 class Check:
     """One part of a claim, asked of each model; None: the model cannot tell.
 
@@ -108,10 +151,10 @@ class Check:
     mended: bool | None
     exact: bool | None
     _: KW_ONLY
-    faults: tuple[str, ...] = ()
+    faults: Sequence[str] = ()
     margin: Margin | None = None
-    turns: tuple[Turn, ...] = ()
-    together: tuple[tuple[str, str], ...] = ()
+    turns: list[Turn] = field(default_factory=list)
+    together: Sequence[tuple[str, str]] = ()
 
     @property
     def sound(self) -> bool | None:
@@ -120,9 +163,9 @@ class Check:
         return next((answer for answer in asked if answer is not None), None)
 
     @property
-    def turned_by(self) -> tuple[Turn, ...]:
+    def turned_by(self) -> list[Turn]:
         """The changes after which the answer is another one."""
-        return tuple(turn for turn in self.turns if turn.sound != self.sound)
+        return [turn for turn in self.turns if turn.sound != self.sound]
 
     @property
     def verdict(self) -> str:
@@ -150,16 +193,16 @@ class Check:
     @property
     def reason(self) -> str:
         """The part with what the models say to it."""
-        answers = zip(
-            ("as printed", "mended", "exact"), (self.printed, self.mended, self.exact), strict=True
+        models = zip(
+            ("as printed", *MODELS[1:]), (self.printed, self.mended, self.exact), strict=True
         )
-        said = [f"{name}: {'yes' if one else 'no'}" for name, one in answers if one is not None]
+        said = [f"{name}: {'yes' if one else 'no'}" for name, one in models if one is not None]
         return f"{self.says} ({', '.join(said) or 'no figure to compare with'})"
 
 
-@dataclass(frozen=True)
+@dataclass
 class Claim:
-    """A claim of the study, judged.
+    """A claim of the study; rows, checks and pictures stand in the order of the calls.
 
     place: where the study makes it; rests: what the verdict rests on; first: what must be known to
     read the numbers; remarks: what was found on the way; assumed: what the study does not print and
@@ -168,17 +211,91 @@ class Claim:
     """
 
     id: str
-    title: str
-    rows: tuple[Row, ...]
-    checks: tuple[Check, ...]
-    remarks: tuple[str, ...] = ()
-    assumed: tuple[str, ...] = ()
-    pictures: tuple[Picture, ...] = ()
-    leading: int = 0
+    title: str = ""
     place: str = ""
     rests: str = ""
     first: str = ""
     scope: str = ""
+    leading: int = 0
+    remarks: Sequence[str] = ()
+    assumed: Sequence[str] = ()
+    rows: list[Row] = field(default_factory=list)
+    checks: list[Check] = field(default_factory=list)
+    pictures: list[Picture] = field(default_factory=list)
+
+    def row(
+        self, name: str, ours: Numbers = (), /, *, study: str = "", derived: Any = None, **said: Any
+    ) -> None:
+        """A row of numbers; study: name of the study's, where the text does not say it."""
+        written = WRITTEN[self.id]["row"][name]
+        told, place = STUDY.get(study or written.get("study", ""), (None, ""))
+        derived = written.get("derived") if derived is None else derived
+        how = "" if derived is None else written["how"]
+        numbers = [None if one is None else float(one) for one in (*ours, *NONE)[:3]]
+        text, unit = written["says"].format(**said), written.get("unit", "1")
+        self.rows.append(
+            Row(text, unit, told, place, derived, how, written.get("digits", 4), *numbers)
+        )
+
+    def row_each(self, name: str, table: Any, /, **said: Any) -> None:
+        """A row for each column of numbers (3, n); said: of each its own."""
+        for i, ours in enumerate(np.transpose(table)):
+            self.row(name, ours, **{key: values[i] for key, values in said.items()})
+
+    def check(
+        self,
+        name: str,
+        ours: Numbers = (),
+        /,
+        *,
+        answers: Iterable[bool | None] | None = None,
+        margin: float | None = None,
+        limit: float | None = None,
+        faults: Sequence[str] = (),
+        together: Sequence[tuple[str, str]] = (),
+        **said: Any,
+    ) -> None:
+        """A part of the claim: numbers against a limit, or answers that are known already.
+
+        margin: the number beside the limit, where it is not that of the model that decides.
+        """
+        written = WRITTEN[self.id]["check"][name]
+        limit = written.get("limit", 0.0) if limit is None else limit
+        compare, unit = COMPARED[written.get("so", "below")], written.get("unit", "1")
+        self._said = said = said | {"limit": limit}
+        self._passes: Callable[[float | None], bool | None] = lambda one: (
+            None if one is None else bool(compare(one, limit))
+        )
+        known = [one for one in (*ours, margin) if one is not None]
+        shown = None
+        if known:
+            shown = Margin(written["margin"].format(**said), float(known[-1]), float(limit), unit)
+        answers = map(self._passes, ours) if answers is None else answers
+        told = [None if one is None else bool(one) for one in (*answers, *NONE)[:3]]
+        says = written["says"].format(**said)
+        self.checks.append(Check(says, *told, faults=faults, margin=shown, together=together))
+
+    def turn(
+        self,
+        name: str,
+        value: float | None = None,
+        /,
+        *,
+        sound: Any = None,
+        weight: str = "",
+        **said: Any,
+    ) -> None:
+        """What the last check comes to under a change: a number against the same limit."""
+        written, said = WRITTEN[self.id]["turn"][name], self._said | said | {"value": value}
+        change, figure = (written[text].format(**said) for text in ("change", "figure"))
+        sound = self._passes(value) if sound is None else sound
+        weight = weight or written.get("weight", FAR)
+        self.checks[-1].turns.append(Turn(change, figure, bool(sound), weight))
+
+    def changes(self, key: str) -> dict[str, Any]:
+        """The changes that are written with their numbers under a key: name -> those."""
+        written = WRITTEN[self.id]["turn"].items()
+        return {name: one[key] for name, one in written if key in one}
 
     @property
     def word(self) -> str:
@@ -187,10 +304,10 @@ class Claim:
         return max(told, key=ORDER.index) if told else CANNOT_BE_CHECKED
 
     @property
-    def faults(self) -> tuple[str, ...]:
+    def faults(self) -> list[str]:
         """Faults behind the parts that hold only with one."""
         part = [check.faults for check in self.checks if check.verdict == ONLY_WITH_FAULT]
-        return tuple(sorted(set().union(*part), key=lambda fault: int(fault[1:])))
+        return sorted(set().union(*part), key=lambda fault: int(fault[1:]))
 
     @property
     def verdict(self) -> str:
@@ -200,20 +317,20 @@ class Claim:
         return f"{ONLY_WITH_FAULT} {', '.join(self.faults) or SEVERAL}"
 
     @property
-    def deciding(self) -> tuple[Check, ...]:
+    def deciding(self) -> list[Check]:
         """The parts that the verdict is taken from."""
-        return tuple(check for check in self.checks if check.verdict == self.word)
+        return [check for check in self.checks if check.verdict == self.word]
 
     @property
-    def margins(self) -> tuple[Margin, ...]:
+    def margins(self) -> list[Margin]:
         """How far the deciding parts are from their limits."""
-        return tuple(check.margin for check in self.deciding if check.margin is not None)
+        return [check.margin for check in self.deciding if check.margin is not None]
 
     @property
-    def turns(self) -> tuple[Turn, ...]:
+    def turns(self) -> list[Turn]:
         """What turns a deciding part; where nothing that was tried does, all that was tried."""
-        turned = tuple(turn for check in self.deciding for turn in check.turned_by)
-        return turned or tuple(turn for check in self.deciding for turn in check.turns)
+        turned = [turn for check in self.deciding for turn in check.turned_by]
+        return turned or [turn for check in self.deciding for turn in check.turns]
 
     @property
     def steady(self) -> bool:
@@ -229,6 +346,33 @@ class Claim:
         if others:
             said += " (other parts: " + ", ".join(f"{words.count(w)} {w}" for w in others) + ")"
         return said
+
+
+#: Id -> what judges the claim, of the modules that have been imported.
+JUDGES: dict[str, Callable[[], Claim]] = {}
+#: What computes the numbers of a claim, and returns what its texts leave open.
+Judge = Callable[[Claim], Mapping[str, Any]]
+
+
+def judges(claim: str) -> Callable[[Judge], Judge]:
+    """Of a function that fills a claim: it is the one that judges it."""
+
+    def named(fill: Judge) -> Judge:
+        def judged() -> Claim:
+            written, shared = WRITTEN[claim], WRITTEN["assumed"]
+            found = Claim(claim, leading=written.get("leading", 0))
+            said = fill(found)
+            for name in ("title", "place", "rests", "first", "scope"):
+                setattr(found, name, written.get(name, "").format(**said))
+            assumed = [shared.get(one, one) for one in written.get("assumed", ())]
+            found.remarks = [text.format(**said) for text in written.get("remarks", ())]
+            found.assumed = [text.format(**said) for text in assumed]
+            return found
+
+        JUDGES[claim] = judged
+        return fill
+
+    return named
 
 
 def responsible(holds: Callable[[Faults], bool]) -> tuple[str, ...]:

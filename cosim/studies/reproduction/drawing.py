@@ -2,41 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
 
-from cosim.report.style import BLUE, GREEN, INK, RED, SERIES, panels
+from cosim.report.live import live_of
+from cosim.report.style import BLUE, GREEN, INK, RED, SERIES, panels, picture
 
 from .cases import MASSES, SPEEDS
+from .claim import WRITTEN, Claim
 from .motion import Motion
 
-MODELS = ("printed", "mended", "exact")
 LABELS = ("scheme as printed", "scheme mended", "exact model")
 COLOURS = (RED, BLUE, GREEN)
 # the scheme mended and the exact model often coincide: the one shows as a rim about the other
 WIDER: dict[str, Any] = {"linewidth": 4.0, "markersize": 9.0}
 
 
-@dataclass(frozen=True)
-class Curve:
+class Curve(NamedTuple):
     """y (n,) over x (n,), in the units of the panel's labels; style: as matplotlib's `plot`."""
 
     x: Any
     y: Any
-    style: Mapping[str, Any] = field(default_factory=dict)
+    style: Mapping[str, Any] = {}
 
 
-@dataclass(frozen=True)
-class Panel:
+class Panel(NamedTuple):
     """Curves on one pair of axes; levels: label -> height of a broken line; end: of the x axis."""
 
     curves: Sequence[Curve]
     title: str = ""
-    levels: Mapping[str, float] = field(default_factory=dict)
+    levels: Mapping[str, float] = {}
     end: float | None = None
 
 
@@ -59,6 +57,18 @@ def figure_of(rows: Sequence[Sequence[Panel]], written: Mapping[str, Any]) -> Fi
     named = axes[0, 0].get_legend_handles_labels()
     figure.legend(*named, ncols=written.get("legend", 3), loc="outside upper center")
     return figure
+
+
+def add_picture(
+    claim: Claim,
+    name: str,
+    rows: Sequence[Sequence[Panel]] = (),
+    draw: Callable[..., Figure] = figure_of,
+) -> None:
+    """A figure of a claim as it is written, of panels in rows; draw: what makes it of them."""
+    written = WRITTEN[claim.id]["picture"][name]
+    live = live_of if written.get("live") else None
+    claim.pictures.append(picture(name, written["caption"], live=live)(draw)(rows, written))
 
 
 def by_model(x: Any, series: Iterable[Any]) -> list[Curve]:

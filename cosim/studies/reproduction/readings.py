@@ -17,8 +17,8 @@ import numpy as np
 from stickslip.reference.scheme_errors import PRINTED, Faults
 
 from .cases import DATASETS, SEEDS, Case, scheme
+from .claim import STUDY
 from .motion import Motion, MotionFigures, average, figures
-from .sheet import STUDY
 
 SETTLING_CYCLES = 10  # section 5 of the study
 STEADY = 20.0  # s

@@ -10,9 +10,7 @@ from stickslip.reference.scheme_errors import DESCRIPTIONS
 from cosim.report.files import without_nan
 from cosim.report.page import render
 
-from .attributions import Datasets
 from .claim import Claim
-from .readings import MARKS
 
 #: The study's faults that are no switch of the scheme but stand behind a verdict.
 OTHER_FAULTS = {
@@ -22,12 +20,12 @@ OTHER_FAULTS = {
 
 
 def as_data(
-    claims: list[Claim], wall_time: float | None = None, datasets: Datasets | None = None
+    claims: list[Claim], wall_time: float | None = None, datasets: dict[str, Any] | None = None
 ) -> dict[str, Any]:
     """A tree of plain values; numbers that a model does not have are None."""
     found: dict[str, Any] = without_nan(
         {
-            "datasets": _datasets(datasets) if datasets else None,
+            "datasets": datasets,
             "referee": [_referee(one) for one in claims],
             "claims": [_claim(one) for one in claims],
             "faults": DESCRIPTIONS | OTHER_FAULTS,
@@ -60,26 +58,11 @@ def _claim(claim: Claim) -> dict[str, Any]:
     }
 
 
-def _datasets(datasets: Datasets) -> dict[str, Any]:
-    """The study's datasets in every reading of its scheme."""
-    judged = ("rotates", "without", "misfits", "both", "quarter_fits_better", "one_spring_explains")
-    return _named(datasets, "says", "bears", "found") | {
-        "marks": MARKS,
-        "readings": [
-            _named(one, "values", "met")
-            | {"reading": one.reading.name, "place": one.reading.place}
-            | {"turned_by_1deg_after_s": one.onset}
-            for one in datasets.outcomes
-        ],
-        "attributions": [
-            _named(one, *judged) | {"reading": one.reading.name} for one in datasets.attributions
-        ],
-    }
-
-
-def page(claims: list[Claim], faults: dict[str, str], datasets: Datasets | None = None) -> str:
+def page(
+    claims: list[Claim], faults: dict[str, str], datasets: dict[str, Any] | None = None
+) -> str:
     """HTML with every picture inside; ``faults`` are the descriptions of the scheme's."""
     return render(
         "report.html.j2", "cosim.studies.reproduction", claims=claims, datasets=datasets,
-        faults=faults | OTHER_FAULTS, marks=MARKS, words=[claim.word for claim in claims],
+        faults=faults | OTHER_FAULTS, words=[claim.word for claim in claims],
     )  # fmt: skip

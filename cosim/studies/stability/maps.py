@@ -252,20 +252,15 @@ def _borders(
         return STICKS[start](belt_start(with_ratio(at_speed(parameters, speed), ratio)))
 
     grid = np.stack(np.meshgrid(speeds, ratios), axis=-1)
-    pairs = [
-        *zip(
-            *(part[names[:, 1:] != names[:, :-1]] for part in (grid[:, :-1], grid[:, 1:])),
-            strict=True,
-        ),
-        *zip(*(part[names[1:] != names[:-1]] for part in (grid[:-1], grid[1:])), strict=True),
-    ]
     found = []
-    for one, other in pairs:
-        here = sticks(one)
-        for _ in range(HALVINGS):
-            middle = 0.5 * (one + other)
-            one, other = (middle, other) if sticks(middle) == here else (one, middle)
-        found.append(0.5 * (one + other))
+    for before, after in ((np.s_[:, :-1], np.s_[:, 1:]), (np.s_[:-1], np.s_[1:])):
+        differ = names[before] != names[after]
+        for one, other in zip(grid[before][differ], grid[after][differ], strict=True):
+            here = sticks(one)
+            for _ in range(HALVINGS):
+                middle = 0.5 * (one + other)
+                one, other = (middle, other) if sticks(middle) == here else (one, middle)
+            found.append(0.5 * (one + other))
     return np.reshape(found, (-1, 2))
 
 
@@ -277,12 +272,10 @@ def as_json(
         "name": case.name,
         **case.assessment.as_dict(),
         "starts": STARTS,
-        "pretension_map": None
-        if stretched is None
-        else {key: without_nan(values.tolist()) for key, values in vars(stretched).items()},
-        "regime_map": None
-        if regimes is None
-        else {
+        "pretension_map": stretched
+        and {key: without_nan(values.tolist()) for key, values in vars(stretched).items()},
+        "regime_map": regimes
+        and {
             "ratios": regimes.ratios.tolist(),
             "speeds": regimes.speeds.tolist(),
             "simulated": dict(zip(MAPPED, regimes.simulated.tolist(), strict=True)),

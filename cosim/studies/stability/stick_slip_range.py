@@ -10,7 +10,7 @@ from stickslip.steady_motion.borders import FARTHEST, all_borders, follower
 from stickslip.steady_motion.regimes import STICK_SLIP
 from stickslip.steady_motion.starts import RAMP, REST, RIDING, disturbed, other_starts
 
-from .maps import Case, NotAMotion, run_length
+from .maps import MAPPED, Case, NotAMotion, run_length
 
 #: What the command line calls the numbers of `numbers.numbers_of`.
 NUMBERS = {
@@ -20,7 +20,6 @@ NUMBERS = {
     "pretension": rig.PRETENSION,
     "ratio": rig.RATIO,
 }
-STARTS = (REST, RIDING, RAMP)
 TOLD = {REST: "from rest", RIDING: "riding on the surface", RAMP: "from a speed ramp"}
 
 
@@ -40,7 +39,7 @@ def stick_slip_range(
     number = known[NUMBERS[word]]
     starts = other_starts(case.parameters)
     windows = {}
-    tried = (RAMP,) if number.key == rig.RAMP else STARTS
+    tried = (RAMP,) if number.key == rig.RAMP else MAPPED
     for start in tried:
         parameters = disturbed(starts[start])
         duration = run_length(parameters)

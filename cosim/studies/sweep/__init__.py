@@ -8,8 +8,8 @@
 (2, 2)
 """
 
-from .combination import Run
-from .errors import SweepError, SweepStopped
+from .axis import SweepError
+from .combination import Run, SweepStopped
 from .features import FEATURES, features
 from .grid import Grid, product_grid
 from .run import run_grid, sweep

@@ -20,8 +20,6 @@ from cosim.names import nearest_key
 from cosim.scenario import Scenario
 from cosim.scenario.validation import known_keys
 
-from .errors import SweepError
-
 LINK = "+"
 #: In place of a key: a whole scenario.
 SCENARIO = "scenario"
@@ -30,6 +28,10 @@ LIST_ENTRY = re.compile(r"^(\w+\.\w+)\[(\d+)\]\.(\w+)$")
 _LARGEST = 2**1023
 #: Longest label of a value on an axis.
 LONGEST_LABEL = 32
+
+
+class SweepError(ValueError):
+    """A sweep that cannot be started; one line: key, what is wrong, what is allowed."""
 
 
 @cache
@@ -238,15 +240,16 @@ def parse_vary(texts: Iterable[str]) -> dict[tuple[str, ...], list[Any]]:
 def _values(text: str, values: str, count: int) -> list[Any]:
     if not values.strip():
         raise SweepError(f"--vary {text}: no values, {FORM}")
-    parts = _split(text, values, ",")
-    entries = [[part] if count == 1 else _split(text, part, ":") for part in parts]
     wanted = "a value" if count == 1 else f"{count} values for the linked keys"
-    for entry in entries:
-        if len(entry) != count or not all(part.strip() for part in entry):
+    found = []
+    for part in _split(text, values, ","):
+        entry = [part] if count == 1 else _split(text, part, ":")
+        if len(entry) != count or not all(one.strip() for one in entry):
             shown = ":".join(entry).strip() or "an empty value"
             raise SweepError(f"--vary {text}: {shown} is not {wanted}, {FORM}")
-    parsed = [tuple(_value(text, part) for part in entry) for entry in entries]
-    return [entry[0] for entry in parsed] if count == 1 else parsed
+        row = tuple(_value(text, one) for one in entry)
+        found.append(row[0] if count == 1 else row)
+    return found
 
 
 def _split(text: str, values: str, separator: str) -> list[str]:

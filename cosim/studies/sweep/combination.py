@@ -6,6 +6,7 @@ import ast
 import hashlib
 import inspect
 import json
+import math
 import platform
 import warnings
 from collections.abc import Mapping, Sequence
@@ -14,16 +15,24 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from stickslip import Parameters, simulate
+import numpy as np
+from stickslip import Parameters, Trajectory, simulate
 from stickslip.catalogue import CATALOGUE, Catalogue
+from stickslip.trajectory import break_away_frequency, counted_break_aways
 
+from cosim.coupling import CoupledResult
 from cosim.processes import stop_if_told
-from cosim.scenario import Scenario
+from cosim.scenario import Scenario, ScenarioError
+from cosim.scenario.changes import changed_tables
 
 from . import features as feature_module
-from .coupled import changed, coupled_features
-from .errors import SweepStopped
+from .axis import SCENARIO, list_entry
 from .features import ALL, FEATURES, Feature, features
+
+
+class SweepStopped(RuntimeError):
+    """A sweep that could not be finished; one line, with what is kept and how to go on."""
+
 
 COMPLETE, FAILED, ERROR = 0, 1, 2
 STATUS_MEANINGS = "complete failed error"
@@ -115,15 +124,33 @@ def content_key(parameters: Parameters, run: Run) -> str:
 
 
 def with_changes(base: Parameters, changes: Mapping[str, Any]) -> Parameters:
-    """``base`` with `block.key` -> value; raises pydantic's ValidationError, of a whole scenario
-    ScenarioError."""
-    if isinstance(base, Scenario):
-        return changed(base, changes)
-    tables = base.model_dump()
+    """``base`` with `block.key` -> value; of a scenario `block.key[2].entry` is one of the second
+    table of a list, and `SCENARIO` -> another takes the base's place.
+
+    Raises pydantic's ValidationError, of a whole scenario ScenarioError in one line.
+    """
+    if not isinstance(base, Scenario):
+        tables = changed_tables(base.model_dump(), changes)
+        return type(base).model_validate(tables, strict=True)
+    given: Scenario = changes.get(SCENARIO, base)
+    tables = given.to_tables()
     for key, value in changes.items():
-        block, _, entry = key.partition(".")
-        tables[block][entry] = value
-    return type(base).model_validate(tables, strict=True)
+        if key != SCENARIO:
+            tables = changed_tables(tables, _of_list(tables, key, value))
+    return type(given).from_tables(tables)
+
+
+def _of_list(tables: Mapping[str, Any], key: str, value: Any) -> dict[str, Any]:
+    """The key and value, of one table of a list the list's."""
+    if (place := list_entry(key)) is None:
+        return {key: value}
+    name, number, entry = place
+    block, _, of_list = name.partition(".")
+    entries = [dict(one) for one in tables.get(block, {}).get(of_list, ())]
+    if not 1 <= number <= len(entries):
+        raise ScenarioError(f"{key}: the scenario has {len(entries)} of {name}, counted from 1")
+    entries[number - 1][entry] = value
+    return {name: tuple(entries)}
 
 
 def compute_chunk(work: Work, tasks: Sequence[Task]) -> list[Row]:
@@ -159,7 +186,7 @@ def _simulated(parameters: Parameters, run: Run) -> tuple[dict[str, float], str]
     if not isinstance(parameters, Scenario):
         trajectory = simulate(parameters, duration, output_interval, progress=stop_if_told)
     elif coupled:
-        return coupled_features(parameters, stop_if_told)
+        return _coupled(parameters)
     else:
         trajectory = simulate(
             parameters.mechanics,
@@ -169,3 +196,50 @@ def _simulated(parameters: Parameters, run: Run) -> tuple[dict[str, float], str]
             progress=stop_if_told,
         )
     return ({}, trajectory.reason) if trajectory.reason else (features(trajectory), "")
+
+
+def _coupled(scenario: Scenario) -> tuple[dict[str, float], str]:
+    """Features of motion and heat of a coupled run; and why it is not complete, "" where it is."""
+    from cosim.coupling.case import run_scenario
+
+    result = run_scenario(scenario, progress=stop_if_told).result
+    if result.status != "complete":
+        return {}, result.reason
+    trajectory = as_trajectory(result, scenario)
+    numbers = features(trajectory) | _heat(result, scenario)
+    late = trajectory.time >= scenario.surface.run_up_time
+    if np.count_nonzero(late) > 1:
+        # the unit counts break-aways that fall between two rows, too
+        starts = counted_break_aways(trajectory.time, trajectory["slip_count"])
+        begin, end = scenario.surface.run_up_time, trajectory.time[-1]
+        numbers["frequency"] = break_away_frequency(starts[(starts >= begin) & (starts <= end)])
+    return numbers, ""
+
+
+def as_trajectory(result: CoupledResult, scenario: Scenario) -> Trajectory:
+    """The block's motion of a coupled run; its events to one row."""
+    prefix = "mechanics."
+    columns = {
+        name.removeprefix(prefix): np.asarray(result[name])
+        for name in result.values
+        if name.startswith(prefix)
+    }
+    mode = columns["mode"]
+    changed_at = np.flatnonzero(np.diff(mode)) + 1
+    events = np.column_stack((result.time[changed_at], mode[changed_at], columns["x"][changed_at]))
+    return Trajectory(result.time, columns, events, scenario.mechanics)
+
+
+def _heat(result: CoupledResult, scenario: Scenario) -> dict[str, float]:
+    air = scenario.ambient.temperature_degC
+    interface = result["thermal.interface_temperature"] - air
+    late = interface[result.time >= scenario.surface.run_up_time]
+    return {
+        "interface_rise": float(interface[-1]),
+        "interface_drift": float(late[-1] - late[0]) if late.size > 1 else math.nan,
+        "belt_entry_rise": float(result["thermal.belt_entry_temperature"][-1] - air),
+        "ice_face_rise": float(result["thermal.ice_face_temperature"][-1] - air),
+        "belt_share": float(result["thermal.belt_share"][-1]),
+        "melted_mass": float(result["thermal.melted_mass"][-1]),
+        "heat_residual": float(np.max(np.abs(result["thermal.heat_residual"]))),
+    }

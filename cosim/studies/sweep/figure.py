@@ -19,7 +19,7 @@ from cosim.names import nearest
 from cosim.report.page import unit_text
 from cosim.report.style import BLUE, FAINT_BLUE, INK, LIGHT_BLUE, at_least, picture
 
-from .errors import SweepError
+from .axis import SweepError
 from .features import ALL
 
 Array = NDArray[np.float64]

@@ -16,13 +16,13 @@ from stickslip import Parameters
 
 from cosim.scenario import Scenario, ScenarioError
 from cosim.scenario.validation import describe_faults
-from cosim.scenario.work import check_mechanics
+from cosim.scenario.work import check_mechanics, check_work
 
-from .axis import SCENARIO, Axis, axis, keys_of, scenario_axis
+from .axis import SCENARIO, Axis, SweepError, axis, keys_of, scenario_axis
 from .combination import Run, content_key, with_changes
-from .coupled import check_coupled, differ_in_heat, is_heat
-from .errors import SweepError
 
+#: Tables of a scenario that only a coupled run has a use for.
+HEAT_TABLES = ("belt", "ice", "contact", "coupling")
 #: More combinations than this are a slip of the product: hours of checking before the first run.
 MOST = 1_000_000
 
@@ -115,7 +115,8 @@ class Grid:
     def _check_work(self, parameters: Parameters, changes: Settings, run: Run) -> None:
         try:
             if self.coupled and isinstance(parameters, Scenario):
-                check_coupled(parameters)
+                _ = parameters.record_every
+                check_work(parameters, coupled=True)
             else:
                 patience = patience_of(parameters, self.patience)
                 check_mechanics(parameters, run.of(parameters).duration, patience)
@@ -143,14 +144,18 @@ def product_grid(
     axes = tuple(axis(*entry, Scenario.of(catalogue)) for entry in vary.items())
     keys = [key for each in axes for setting in each.settings[:1] for key in setting]
     scenarios = [one for one in several if isinstance(one, Scenario)]
-    heat = [key for key in keys if is_heat(key)]
+    heat = [key for key in keys if key.partition(".")[0] in HEAT_TABLES]
     whole = [key for key in keys if key not in keys_of(Parameters.of(catalogue))]
     if not scenarios and whole:
         raise SweepError(f"{whole[0]}: is no key of the mechanics, allowed with a scenario")
     if coupled is False and heat:
         raise SweepError(f"{heat[0]}: does nothing in the mechanics alone, allowed is coupled")
     if coupled is None:
-        coupled = bool(heat) or (len(scenarios) > 1 and differ_in_heat(scenarios))
+        coupled = bool(heat) or any(
+            getattr(one, table) != getattr(scenarios[0], table)
+            for one in scenarios[1:]
+            for table in HEAT_TABLES
+        )
     if coupled and not scenarios:
         raise SweepError("coupled: mechanics alone cannot be, allowed is a scenario")
     if len(several) > 1:

@@ -65,15 +65,8 @@ def records(dataset: xr.Dataset) -> list[dict[str, Any]]:
     """A dictionary for each run: dimensions, linked keys, features, status, reason."""
     table = dataset.to_dataframe().reset_index()
     meanings = str(dataset["status"].attrs["flag_meanings"]).split()
-    found = []
-    for entries in table.to_dict("records"):
-        row = {str(key): _plain(value) for key, value in entries.items()}
-        found.append(row | {"status": meanings[int(row["status"])]})
-    return found
-
-
-def _plain(value: Any) -> Any:
-    return value.item() if isinstance(value, np.generic) else value
+    table["status"] = [meanings[status] for status in table["status"]]
+    return [{str(key): value for key, value in row.items()} for row in table.to_dict("records")]
 
 
 def regime(row: Mapping[str, Any]) -> str:

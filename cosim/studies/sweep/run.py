@@ -6,6 +6,7 @@ import json
 import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
+from functools import partial
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -17,11 +18,20 @@ from stickslip import Parameters
 from cosim.report.files import provenance
 from cosim.scenario import Scenario
 
-from .combination import COMPLETE, STATUS_MEANINGS, Row, Run, Task, Work, model_version
-from .errors import SweepError, SweepStopped, WorkersLost
+from .axis import SweepError
+from .combination import (
+    COMPLETE,
+    STATUS_MEANINGS,
+    Row,
+    Run,
+    SweepStopped,
+    Task,
+    Work,
+    model_version,
+)
 from .grid import Grid, product_grid
 from .store import Store
-from .workers import Workers, dask_workers, local_workers
+from .workers import Chunks, Rows, WorkersLost, workers
 
 #: Simulated time in a chunk of the mechanics, s: half a second of work, which is long against the
 #: milliseconds of handing it over, and short to lose. A coupled run is a chunk of its own.
@@ -97,7 +107,11 @@ def run_grid(
     progress: Progress | None = None,
 ) -> xr.Dataset:
     """`sweep` over combinations that are made already."""
-    _check(run, jobs)
+    for name, value in (("duration", run.duration), ("output_interval", run.output_interval)):
+        if not (math.isfinite(value) and value > 0.0):
+            raise SweepError(f"{name}: out of range ({value:g}), allowed is above 0 s")
+    if jobs is not None and jobs < 1:
+        raise SweepError(f"jobs: out of range ({jobs}), allowed is a whole number from 1")
     keys = grid.keys(run)
     version = model_version(grid.base.catalogue)
     store = Store(None if folder is None else Path(folder), version)
@@ -121,36 +135,31 @@ def run_grid(
     keep(())
     if todo := len(missing()):
         few = not run.coupled and todo * run.duration < NOT_WORTH_PROCESSES * CHUNK_TIME
-        here = local_workers(1 if few else jobs)
-        with here if dask is None else dask_workers(dask) as workers:
-            _finish(workers, Work(grid.base, run, version), missing, keep)
+        with workers(1 if few else jobs, dask) as (count, compute):
+            work = partial(compute, Work(grid.base, run, version))
+            _finish(count, work, run, missing, keep)
     return _dataset(grid, run, [rows[key] for key in keys])
 
 
-def _check(run: Run, jobs: int | None) -> None:
-    for name, value in (("duration", run.duration), ("output_interval", run.output_interval)):
-        if not (math.isfinite(value) and value > 0.0):
-            raise SweepError(f"{name}: out of range ({value:g}), allowed is above 0 s")
-    if jobs is not None and jobs < 1:
-        raise SweepError(f"jobs: out of range ({jobs}), allowed is a whole number from 1")
-
-
 def _finish(
-    workers: Workers,
-    work: Work,
+    count: int,
+    compute: Callable[[Chunks], Rows],
+    run: Run,
     missing: Callable[[], list[Task]],
     keep: Callable[[Sequence[Row]], None],
 ) -> None:
-    """Compute what is missing, with fresh workers when some were lost."""
+    """Compute what is missing, ``count`` at once, with fresh workers when some were lost."""
     lost: WorkersLost | None = None
     for attempt in range(ATTEMPTS):
         tasks = missing()
+        most = math.ceil(len(tasks) / (SHARES * count))
+        size = 1 if run.coupled else min(round(CHUNK_TIME / run.duration), most, MOST_IN_CHUNK)
         # shorter chunks after a loss: what is lost with a worker is less
-        size = max(_chunk_size(len(tasks), work.run, workers.count) // 4**attempt, 1)
+        size = max(max(size, 1) // 4**attempt, 1)
         chunks = [tasks[i : i + size] for i in range(0, len(tasks), size)]
         try:
             # closed at once where it is left in the middle, not when it is collected
-            with closing(workers.run(work, chunks)) as results:
+            with closing(compute(chunks)) as results:
                 for rows in results:
                     keep(rows)
             return
@@ -162,43 +171,33 @@ def _finish(
     ) from lost
 
 
-def _chunk_size(tasks: int, run: Run, workers: int) -> int:
-    """Combinations in a chunk."""
-    if run.coupled:
-        return 1
-    most = math.ceil(tasks / (SHARES * workers))
-    return max(min(round(CHUNK_TIME / run.duration), most, MOST_IN_CHUNK), 1)
-
-
 def _dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
     """``rows``, in the grid's order, as variables over the grid's dimensions."""
+
+    def over_grid(values: Sequence[Any], dtype: Any, attributes: dict[str, Any]) -> Any:
+        return grid.dims, np.array(values, dtype=dtype).reshape(grid.shape), attributes
+
     blank = (math.nan,) * len(run.features)
-    table = np.array([row.values or blank for row in rows], dtype=float)
-    status = np.array([row.status for row in rows], dtype=np.int8)
-    reason = np.array([row.reason for row in rows], dtype=object)
-    variables: dict[str, Any] = {
-        name: (grid.dims, column.reshape(grid.shape), {"units": of.unit, "long_name": of.long_name})
-        for column, (name, of) in zip(table.T, run.features.items(), strict=True)
+    columns = zip(*(row.values or blank for row in rows), strict=True)
+    variables = {
+        name: over_grid(column, float, {"units": of.unit, "long_name": of.long_name})
+        for column, (name, of) in zip(columns, run.features.items(), strict=True)
     }
     how: dict[str, Any] = {"units": "1", "long_name": "how the run ended"}
     how["flag_values"] = np.arange(len(STATUS_MEANINGS.split()), dtype=np.int8)
     how["flag_meanings"] = STATUS_MEANINGS
     why = {"units": "1", "long_name": "why the run is not complete; empty when it is"}
-    variables["status"] = (grid.dims, status.reshape(grid.shape), how)
-    variables["reason"] = (grid.dims, reason.reshape(grid.shape), why)
+    variables["status"] = over_grid([row.status for row in rows], np.int8, how)
+    variables["reason"] = over_grid([row.reason for row in rows], object, why)
     coordinates = {
         name: (axis.name, values, attributes)
         for axis in grid.axes
         for name, (values, attributes) in axis.coordinates.items()
     }
-    return xr.Dataset(variables, coordinates, _attributes(grid, run, status))
-
-
-def _attributes(grid: Grid, run: Run, status: np.ndarray) -> dict[str, object]:
-    failed = int(np.count_nonzero(status != COMPLETE))
-    return {
+    failed = sum(row.status != COMPLETE for row in rows)
+    attributes = {
         "title": " x ".join(f"{axis.name} ({len(axis)})" for axis in grid.axes),
-        "status": "complete" if not failed else f"{failed} of {status.size} combinations failed",
+        "status": "complete" if not failed else f"{failed} of {len(rows)} combinations failed",
         "coupled": int(run.coupled),
         "duration": run.duration,
         "output_interval": run.output_interval,
@@ -207,3 +206,4 @@ def _attributes(grid: Grid, run: Run, status: np.ndarray) -> dict[str, object]:
         "stickslip": version("stickslip"),
         **provenance(),
     }
+    return xr.Dataset(variables, coordinates, attributes)

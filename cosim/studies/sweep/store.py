@@ -15,8 +15,8 @@ from pathlib import Path
 
 from cosim.files import OutputError, OutputRefused, writable, write_text
 
-from .combination import ERROR, Row
-from .errors import SweepError, SweepStopped
+from .axis import SweepError
+from .combination import ERROR, Row, SweepStopped
 
 FOLDER = "chunks"
 VERSION_DIGITS = 12

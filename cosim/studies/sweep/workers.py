@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -12,8 +11,8 @@ import joblib
 
 from cosim.processes import BrokenProcessPool, as_finished
 
-from .combination import Row, Task, Work, compute_chunk
-from .errors import SweepError, SweepStopped, WorkersLost
+from .axis import SweepError
+from .combination import Row, SweepStopped, Task, Work, compute_chunk
 
 if TYPE_CHECKING:
     from distributed import Client
@@ -23,24 +22,31 @@ CONNECT_SECONDS = 10.0
 
 Chunks = Sequence[Sequence[Task]]
 Rows = Generator[list[Row], None, None]
+Run = Callable[[Work, Chunks], Rows]
 
 
-@dataclass(frozen=True)
-class Workers:
-    """count: of those that compute at once; run: the rows of each chunk as it is finished.
-
-    It raises WorkersLost where chunks are to be handed out again.
-    """
-
-    count: int
-    run: Callable[[Work, Chunks], Rows]
+class WorkersLost(RuntimeError):
+    """Worker processes ended in mid-work; what they had not returned is to be done again."""
 
 
 @contextmanager
-def local_workers(jobs: int | None = None) -> Iterator[Workers]:
-    """``jobs`` processes with one thread each, all cores when left out; 1 is this process."""
-    count = joblib.cpu_count() if jobs is None else jobs
-    yield Workers(count, partial(_in_processes, count))
+def workers(jobs: int | None, dask: str | None) -> Iterator[tuple[int, Run]]:
+    """How many compute at once; and the rows of each chunk as it is finished, of work in chunks.
+
+    ``jobs`` processes with one thread each, all cores where left out; 1 is this process. Or the
+    threads behind a scheduler's address, one chunk at a time on each: a chunk whose worker dies is
+    handed to another one by the scheduler; without workers it waits for new ones. SweepStopped when
+    the scheduler is gone, WorkersLost where chunks are to be handed out again.
+    """
+    if dask is None:
+        count = joblib.cpu_count() if jobs is None else jobs
+        yield count, partial(_in_processes, count)
+        return
+    with _client(dask) as client:
+        with _connected():
+            # at least one, for a cluster whose workers are yet to come
+            count = max(sum(client.nthreads().values()), 1)
+        yield count, partial(_on_cluster, client)
 
 
 def _in_processes(count: int, work: Work, chunks: Chunks) -> Rows:
@@ -56,13 +62,7 @@ def _in_processes(count: int, work: Work, chunks: Chunks) -> Rows:
         raise WorkersLost(_in_a_line(error)) from error
 
 
-@contextmanager
-def dask_workers(address: str) -> Iterator[Workers]:
-    """The threads behind a scheduler's address, one chunk at a time on each.
-
-    A chunk whose worker dies is handed to another one by the scheduler; without workers it waits
-    for new ones. SweepStopped when the scheduler is gone.
-    """
+def _client(address: str) -> Client:
     try:
         from distributed import Client
     except ImportError as error:
@@ -71,17 +71,12 @@ def dask_workers(address: str) -> Iterator[Workers]:
             "allowed after pip install 'stickslip[dask]'"
         ) from error
     try:
-        client = Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
+        return Client(address, timeout=CONNECT_SECONDS, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise SweepError(
             f"dask: no scheduler answers at {address} ({_in_a_line(error)}), allowed is an address "
             "such as tcp://127.0.0.1:8786"
         ) from error
-    with client:
-        with _connected():
-            # at least one, for a cluster whose workers are yet to come
-            count = max(sum(client.nthreads().values()), 1)
-        yield Workers(count, partial(_on_cluster, client))
 
 
 @contextmanager

@@ -23,7 +23,7 @@ def test_the_case_shows(entry):
     assert plain.time[-1] == shown.time[-1] == end  # neither run gave up
     assert np.max(np.abs(plain["x"] - shown["x"])) > 0.1 * np.ptp(plain["x"])
     aside = entry.effect.id in ("lateral_friction", "turning_surface", "spring_misalignment")
-    assert aside == bool({"y", "phi"} & set(effects_page.channels_shown(plain, shown, begin)))
+    assert aside == bool({"y", "phi"} & set(effects_page.channels_shown(entry)))
 
 
 def test_command(tmp_path, capsys):

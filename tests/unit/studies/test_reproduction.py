@@ -19,22 +19,24 @@ from cosim.studies.reproduction.claim import (
     DOES_NOT_HOLD,
     FAR,
     HOLDS,
+    JUDGES,
     ONLY_WITH_FAULT,
     OPEN,
     PUT_IN,
+    WRITTEN,
     Margin,
     Turn,
+    judges,
     responsible,
     responsible_pairs,
 )
 from cosim.studies.reproduction.motion import Motion, figures
 from cosim.studies.reproduction.result import as_data, page
-from cosim.studies.reproduction.sheet import WRITTEN, Sheet
 
 
 def claim_of(*checks: Check) -> Claim:
     row = Row("q", "m", 1.0, "§0", printed=2.0, mended=math.nan)
-    return Claim("C0", "a claim", (row,), checks)
+    return Claim("C0", "a claim", rows=[row], checks=list(checks))
 
 
 @pytest.mark.parametrize("answers", list(product((True, False, None), repeat=3)))
@@ -58,11 +60,11 @@ def test_a_part_is_decided_by_the_soundest_model_that_can_tell(answers):
 def test_a_turn_softens_the_verdict(sound, weight, verdict):
     turned = Turn("another law", "it is otherwise", not sound, weight)
     kept = Turn("another start", "it is the same", sound, weight)
-    check = Check("it is so", False, None, sound, turns=(kept, turned))
-    assert check.verdict == verdict and claim_of(check).turns == (turned,)
-    untouched = replace(check, turns=(kept,))
+    check = Check("it is so", False, None, sound, turns=[kept, turned])
+    assert check.verdict == verdict and claim_of(check).turns == [turned]
+    untouched = replace(check, turns=[kept])
     assert untouched.verdict == (HOLDS if sound else DOES_NOT_HOLD)
-    assert claim_of(untouched).steady and claim_of(untouched).turns == (kept,)
+    assert claim_of(untouched).steady and claim_of(untouched).turns == [kept]
 
 
 def test_a_claim_is_as_good_as_its_worst_part():
@@ -76,7 +78,7 @@ def test_a_claim_is_as_good_as_its_worst_part():
     assert claim_of(good, faulty, bad).verdict == "does not hold"
     assert claim_of(open_).verdict == "cannot be checked"
     assert "(other parts: 1 holds, 1 holds only with fault)" in claim_of(good, faulty, bad).reason
-    undecided = Check("open", True, True, False, turns=(Turn("a change", "x", True, OPEN),))
+    undecided = Check("open", True, True, False, turns=[Turn("a change", "x", True, OPEN)])
     assert claim_of(faulty, undecided).verdict == "undecided"
     assert claim_of(good, bad).reason.startswith("bad (as printed: no")
 
@@ -92,8 +94,8 @@ def test_faults_behind_a_part_are_found_alone_and_in_pairs():
     assert several == "holds only with fault of the scheme (several together)"
 
 
-@pytest.fixture
-def sheet(monkeypatch) -> Sheet:
+@pytest.mark.parametrize("size", [1.0, 2.0, 2.1])
+def test_numbers_are_judged_by_the_written_limit(monkeypatch, size):
     written = {
         "title": "small", "place": "§1", "rests": "{n} runs", "assumed": ["masses", "own"],
         "scope": "up to {n}", "remarks": ["{n} of them"],
@@ -102,22 +104,23 @@ def sheet(monkeypatch) -> Sheet:
         "turn": {"wider": {"change": "wider", "figure": "size {value:.1f}", "weight": "open"}},
     }  # fmt: skip
     monkeypatch.setitem(WRITTEN, "C0", written)
-    return Sheet("C0")
+    monkeypatch.setitem(JUDGES, "C0", None)
 
+    @judges("C0")
+    def judge(claim):
+        claim.row("size", [size, None, math.nan], who="a block")
+        claim.check("below", [None, 3.0, size])
+        claim.turn("wider", 2.0 * size)
+        return {"n": 7}
 
-@pytest.mark.parametrize("size", [1.0, 2.0, 2.1])
-def test_a_sheet_judges_numbers_by_the_written_limit(sheet, size):
-    sheet.row("size", [size, None, math.nan], who="a block")
-    sheet.check("below", [None, 3.0, size])
-    sheet.turn("wider", 2.0 * size)
-    claim = sheet.claim(n=7)
+    claim = JUDGES["C0"]()
     check, row = claim.checks[0], claim.rows[0]
     assert (check.printed, check.mended, check.exact) == (None, False, size <= 2.0)
     assert check.margin == Margin("size", size, 2.0)
-    assert check.turns == (Turn("wider", f"size {2 * size:.1f}", size <= 1.0, OPEN),)
+    assert check.turns == [Turn("wider", f"size {2 * size:.1f}", size <= 1.0, OPEN)]
     assert (row.quantity, row.place, row.printed) == ("size of a block", "§3.3.3, §6.1", size)
-    assert (claim.rests, claim.scope, claim.remarks) == ("7 runs", "up to 7", ("7 of them",))
-    assert claim.assumed == (WRITTEN["assumed"]["masses"], "own")
+    assert (claim.rests, claim.scope, claim.remarks) == ("7 runs", "up to 7", ["7 of them"])
+    assert claim.assumed == [WRITTEN["assumed"]["masses"], "own"]
 
 
 def test_figures_of_a_known_motion():

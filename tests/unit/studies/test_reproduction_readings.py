@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from cosim.studies.reproduction.attributions import Attribution, Datasets, attribution
+from cosim.studies.reproduction.attributions import as_data, attribution
 from cosim.studies.reproduction.readings import (
     AS_PRINTED,
     BALANCED,
@@ -44,26 +44,26 @@ def test_less_scatter_only_postpones(start):
 
 def test_f1_is_not_the_cause_where_four_springs_hold_in_stick():
     four = attribution(reading("four springs"))
-    assert four.rotates and four.quarter_fits_better and not four.one_spring_explains
-    assert max(four.without.values()) < 5.0  # its rotation needs F2 and F13 all the same
+    assert four["rotates"] and four["quarter_fits_better"] and not four["one_spring_explains"]
+    assert max(four["without"].values()) < 5.0  # its rotation needs F2 and F13 all the same
 
 
 def test_the_rotation_does_not_need_f2_where_switching_is_clean():
     """r in the rise, events located, velocities handed over: #1 turns by the study's 150°."""
-    clean = attribution(reading("clean switching, slips never cut"))
-    values = outcome(clean.reading).values
+    way = reading("clean switching, slips never cut")
+    clean, values = attribution(way), outcome(way).values
     assert values[3] == pytest.approx(150.0, abs=15.0)
     assert values[1] == pytest.approx(0.004, abs=3e-4)
-    assert clean.rotates and clean.both and clean.without["F13"] < 1.0
-    assert clean.one_spring_explains
+    assert clean["rotates"] and clean["both"] and clean["without"]["F13"] < 1.0
+    assert clean["one_spring_explains"]
 
 
 def test_what_is_said_follows_from_the_figures():
     met = tuple(0.5 * (mark["low"] + mark["high"]) for mark in MARKS)
     of = [Outcome(one, met, 8.0) for one in (AS_PRINTED, ROUNDED, BALANCED)]
-    bears = Attribution(AS_PRINTED, True, {"F2": 0.1, "F13": 50.0}, (3.0, 2.0, 1.0), True)
-    found = Datasets(tuple(of), (bears,))
-    assert found.found and found.says.startswith("A reading")
-    assert "mending F2 ends that in 1 of them, mending F13 in 0" in found.bears
-    assert "1 of 1. C7" in found.bears
+    bears = {"reading": "as printed", "rotates": True, "without": {"F2": 0.1, "F13": 50.0}}
+    found = as_data(of, [bears | {"one_spring_explains": True, "both": True}])
+    assert found["found"] and found["says"].startswith("A reading")
+    assert "mending F2 ends that in 1 of them, mending F13 in 0" in found["bears"]
+    assert "1 of 1. C7" in found["bears"]
     assert Outcome(AS_PRINTED, (0.0,) * len(MARKS), 2.0).met == (False,) * len(MARKS)

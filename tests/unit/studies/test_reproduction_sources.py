@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from cosim.studies.reproduction.sheet import STUDY, Printed
+from cosim.studies.reproduction.claim import STUDY, Printed
 
 SECTION = re.compile(r"§(\d+(?:\.\d+)+)")
 HEADING = re.compile(r"^(\d+(?:\.\d+)+)\.?\s", re.MULTILINE)

@@ -14,14 +14,14 @@ from cosim.gap.data.errors import CampaignError
 from cosim.studies.reproduction.motion import Motion
 from cosim.studies.reproduction.summary import find, find_summary_gap
 from cosim.studies.reproduction.summary.candidates import (
+    Candidate,
     Span,
     extensions,
     not_felt,
     plain_candidate,
 )
-from cosim.studies.reproduction.summary.draws import Draws, observations, predict
+from cosim.studies.reproduction.summary.draws import Draws, Target, observations, predict
 from cosim.studies.reproduction.summary.models import figures, motion_of
-from cosim.studies.reproduction.summary.trial import Target, misfit
 
 FRICTION = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
 SDS = {"mean_x": 5e-4, "frequency": 0.02, "slip_share": 0.01, "amplitude_x": 5e-4}
@@ -78,24 +78,27 @@ def test_an_effect_that_is_off_leaves_the_plain_model():
         np.testing.assert_allclose(off, bare, atol=1e-12, err_msg=str(candidate))
 
 
-def drawn(*rows: list[float]) -> Draws:
+def drawn(target: Target, *rows: list[float]) -> Draws:
     """A draw for each row: its figure, seed by seed."""
     shown = np.full((len(rows), 6, 1), np.nan)
     for place, row in enumerate(rows):
         shown[place, : len(row), 0] = row
-    return Draws(np.zeros((len(rows), 1)), ({},) * len(rows), np.zeros(len(rows)), shown)
+    none = np.zeros(len(rows))
+    return Draws(Candidate((), "", ()), target, none[:, None], none, none, shown)
 
 
 def test_misfit_is_of_distance_and_of_scatter():
     target = Target(np.array([1.0]), np.array([0.1]))
     # met; a standard deviation off; right in the mean, at the price of a wide prediction
-    draws = drawn([1.0] * 4, [1.1] * 4, [0.5, 1.5, 0.5, 1.5])
-    met, off, scattering = misfit(draws, target, np.zeros(1))
+    draws = drawn(target, [1.0] * 4, [1.1] * 4, [0.5, 1.5, 0.5, 1.5])
+    met, off, scattering = draws.misfit
     assert (met, off) == pytest.approx((0.0, 1.0)) and scattering > 2.25
+    assert draws.ordered.misfit.tolist() == sorted(draws.misfit)
     assert target.gap(draws.mean[1]) == pytest.approx(1.0)
-    assert misfit(draws, target.without(0), np.zeros(1)) == pytest.approx(np.zeros(3))
-    single = drawn([1.1])  # one seed: the scatter of its kin
-    assert misfit(single, target, np.array([0.1])) == pytest.approx(1 / 3 + np.log(3.0))
+    assert replace(draws, target=target.without(0)).misfit == pytest.approx(np.zeros(3))
+    single = drawn(target, [1.1])  # one seed: the scatter of its kin
+    told = replace(single, kin=np.array([0.1])).misfit
+    assert told == pytest.approx(1 / 3 + np.log(3.0))
     joined = draws + single
     assert joined.seeds.tolist() == [4, 4, 4, 1] and len(joined.take(joined.seeds > 1)) == 3
 

@@ -13,7 +13,7 @@ from cosim.cli.studies import sweep as sweep_command
 from cosim.fmu.build import ensure_fmu
 from cosim.studies.sweep import Run, SweepError, features, sweep
 from cosim.studies.sweep.axis import parse_vary
-from cosim.studies.sweep.coupled import as_trajectory
+from cosim.studies.sweep.combination import as_trajectory
 from cosim.studies.sweep.figure import check_shown, shown_features, still_sentence
 from cosim.studies.sweep.grid import product_grid
 from cosim.studies.sweep.page import records, sentence, tiles

@@ -21,7 +21,7 @@ from ..case import Case
 from ..drift import endless_belt, followed, never_comes_round, steady_drift
 from ..lengths import DriftMap
 from ..result import Row, Study
-from ..uncertainty import SingleChange
+from ..uncertainty import SingleChange, Uncertainty
 
 Array = NDArray[np.float64]
 
@@ -96,18 +96,14 @@ def draw_drift(study: Study) -> Figure:
 def _curves(axes: Sequence[Axes], case: Case, lengths: Array, colour: str, study: Study) -> None:
     """Entry and interface of one speed over the lengths; one pass of the source study's rig."""
     entry, interface = axes
-    travel = case.protocol.runs * case.protocol.moving * case.speed
+    travel = case.travel
     if lengths[0] < travel < lengths[-1]:
         # so that the curve falls where the last place comes round, not somewhere beyond
         lengths = np.sort([*lengths, 0.98 * travel, travel, 1.03 * travel])
         if never_comes_round(endless_belt(case)):
             _mark_end(entry, travel, colour)
     belts = [case.with_length(float(length)) for length in lengths]
-    ends = [followed(one) for one in belts]
-    entries = [
-        0.0 if never_comes_round(one) else end.entry
-        for one, (_, end) in zip(belts, ends, strict=True)
-    ]
+    entries, warming, _ = np.transpose([followed(one)[0] for one in belts])
     # far below the axis where there is no rise, so that a curve leaves it instead of ending
     least = 1e-3 * _FLOOR
     entry.plot(lengths, np.maximum(entries, least), color=colour)
@@ -116,7 +112,6 @@ def _curves(axes: Sequence[Axes], case: Case, lengths: Array, colour: str, study
     if not study.answers:
         passed = [one.as_the_study().temperature_degC(one.length) for one in belts]
         entry.plot(lengths, np.array(passed) - case.ambient_degC, ":", color=colour)
-    warming = [end.mean_interface - start.mean_interface for start, end in ends]
     interface.plot(lengths, warming, color=colour)
 
 
@@ -181,11 +176,8 @@ def _plain_ticks(axis: Axis, places: Sequence[float], low: float, high: float) -
     "that it has a hand in, alone or together with others, so that the parts add up to more "
     "than 1; strokes: 95 % intervals. The largest index is on top.",
 )
-def draw_doubt(row: Row) -> Figure:
+def draw_doubt(row: Row, doubt: Uncertainty) -> Figure:
     """Bars of single changes beside the indices, one line an unknown; of a row with its doubt."""
-    doubt = row.uncertainty
-    if doubt is None:
-        raise ValueError(f"{row.case.length:g} m at {row.case.speed:g} m/s: no doubt was computed")
     height = 1.6 + 0.38 * len(doubt.single_changes)
     figure, axes = panels(1, 2, height=height, width=10.0, sharey=True)
     left, right = axes[0]

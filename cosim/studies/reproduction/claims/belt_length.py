@@ -11,9 +11,8 @@ import numpy as np
 from cosim.studies.belt_length import Case, Protocol
 from thermal.belt.single_pass import FROM_FACTORS, PRINTED, SinglePass
 
-from ..claim import Claim
-from ..drawing import Panel, by_model
-from ..sheet import STUDY, Sheet
+from ..claim import STUDY, Claim, judges
+from ..drawing import Panel, add_picture, by_model
 
 #: Lengths of belt, m, and the temperature after one pass that the study prints of each, degC.
 TABLE = {float(length): STUDY[f"belt_{length}"].number for length in (1, 2, 3, 4)}
@@ -60,50 +59,50 @@ def all_mended(length: float) -> float:
     return repeated(mended, length) - check.ambient_degC
 
 
-def judge_length() -> Claim:
-    """C13: whether the rise on a belt of 1 m goes unseen."""
-    sheet, ambient = Sheet("C13"), PRINTED.ambient_degC
+@judges("C13")
+def judge_length(claim: Claim) -> dict[str, float]:
+    """Whether the rise on a belt of 1 m goes unseen."""
+    ambient = PRINTED.ambient_degC
     told = [round(printed - ambient, 4) for printed in TABLE.values()]
     rises = [
         (PRINTED.temperature_degC(one) - ambient, all_mended(one), finite_elements(one)[0])
         for one in TABLE
     ]
     for length, derived, ours in zip(TABLE, told, rises, strict=True):
-        sheet.row("rise", ours, derived=derived, length=length)
-    sheet.row("camera")
+        claim.row("rise", ours, derived=derived, length=length)
+    claim.row("camera")
     # the scheme as printed is the table
-    sheet.check("table", (None, *rises[0][1:]), limit=AS_TOLD * told[0], table=told[0])
-    _turn_runs(sheet)
-    sheet.check("camera", rises[0], limit=SENSITIVITY)
-    for name, limit in sheet.turns("limit").items():
-        sheet.turn(name, rises[0][2], sound=rises[0][2] < limit)
-    _turn_runs(sheet)
+    claim.check("table", (None, *rises[0][1:]), limit=AS_TOLD * told[0], table=told[0])
+    # 1 m of belt in other air, after a speed ramp, at the slowest speed
+    others = {name: finite_elements(1.0, **run)[0] for name, run in claim.changes("run").items()}
+    for name, rise in others.items():
+        claim.turn(name, rise)
+    claim.check("camera", rises[0], limit=SENSITIVITY)
+    for name, limit in claim.changes("limit").items():
+        claim.turn(name, rises[0][2], sound=rises[0][2] < limit)
+    for name, rise in others.items():
+        claim.turn(name, rise)
     curves = by_model(list(TABLE), np.transpose(rises))
-    sheet.picture("C13_belt", [[Panel(curves, levels={"camera's sensitivity": SENSITIVITY})]])
-    return sheet.claim(
-        passes=math.floor(RUN * SPEED),
-        repeated=repeated(FROM_FACTORS, 1.0) - ambient,
-        faster=PRINTED.cooling_rate / belt_case(1.0).single_pass().cooling_rate,
-        ramped=finite_elements(1.0, ramp=RAMP)[0],
-    )
+    add_picture(claim, "C13_belt", [[Panel(curves, levels={"camera's sensitivity": SENSITIVITY})]])
+    return {
+        "passes": math.floor(RUN * SPEED),
+        "repeated": repeated(FROM_FACTORS, 1.0) - ambient,
+        "faster": PRINTED.cooling_rate / belt_case(1.0).single_pass().cooling_rate,
+        "ramped": finite_elements(1.0, ramp=RAMP)[0],
+    }
 
 
-def _turn_runs(sheet: Sheet) -> None:
-    """1 m of belt in other air, after a speed ramp, at the slowest speed."""
-    for name, run in sheet.turns("run").items():
-        sheet.turn(name, finite_elements(1.0, **run)[0])
-
-
-def judge_table() -> Claim:
-    """C15: the printed table, from the printed force, from its factors, and accumulated."""
-    sheet, checks = Sheet("C15"), (PRINTED, FROM_FACTORS)
+@judges("C15")
+def judge_table(claim: Claim) -> dict[str, str]:
+    """The printed table, from the printed force, from its factors, and accumulated."""
+    checks = PRINTED, FROM_FACTORS
     found = np.array([[check.temperature_degC(length) for check in checks] for length in TABLE])
     for length, ours in zip(TABLE, found, strict=True):
-        sheet.row("temperature", ours, study=f"belt_{length:.0f}", length=length)
+        claim.row("temperature", ours, study=f"belt_{length:.0f}", length=length)
     off = np.abs(found.T - list(TABLE.values())).max(axis=1)
-    sheet.row("force", [PRINTED.friction_force, FROM_FACTORS.friction_force])
-    sheet.row("rise", [PRINTED.rise, FROM_FACTORS.rise])
-    sheet.check("table", off, faults=("F11",))
-    sheet.turn("misprint", off[0])
+    claim.row("force", [PRINTED.friction_force, FROM_FACTORS.friction_force])
+    claim.row("rise", [PRINTED.rise, FROM_FACTORS.rise])
+    claim.check("table", off, faults=("F11",))
+    claim.turn("misprint", off[0])
     accumulated = [f"{length:.0f} m {repeated(FROM_FACTORS, length):.4f}" for length in TABLE]
-    return sheet.claim(accumulated=", ".join(accumulated))
+    return {"accumulated": ", ".join(accumulated)}

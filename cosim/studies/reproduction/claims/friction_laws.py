@@ -1,19 +1,27 @@
-"""C16 to C18: dry or lubricated, falling with the sliding speed, strengthening at rest."""
+"""C11 and C16 to C18: mu_k/mu_s; dry or lubricated; falling with the speed; strengthening."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
+from itertools import product
+from typing import Any
 
 import numpy as np
+from stickslip.reference.scheme_errors import PRINTED
 
 from cosim.studies.belt_length import Protocol
 
 from .. import cases
-from ..cases import DATASET_1, GUIDED, SPEEDS, STIFFNESSES, WEAKENING, Case
-from ..claim import Claim
+from ..cases import DATASET_1, DATASET_2, GUIDED, SPEEDS, STIFFNESSES, WEAKENING, Case
+from ..claim import FAR, OPEN, STUDY, Claim, judges
+from ..drawing import LABELS, Panel, add_picture, models_over_time
 from ..motion import Motion
-from ..sheet import Sheet
+from ..readings import Reading, standing, steady_figures
 from .belt_length import belt_case
+
+Array = np.ndarray
 
 #: Ice that is warmed to melting where it touches, and a film that is sheared: dry at rest alone.
 #: Assumed, as in the packaged scenario `melting_friction`.
@@ -35,37 +43,39 @@ def _face_degC(case: Case) -> float:
     return belt.ambient_degC + belt.follow(belt.sliding())[1].ice_face
 
 
-def judge_dry_friction() -> Claim:
-    """C16: no melting of the face by finite elements; sticking of a block whose asperities melt."""
-    sheet, melting = Sheet("C16"), cases.exact_figures(DATASET_1, **MELTING)
+@judges("C16")
+def judge_dry_friction(claim: Claim) -> dict[str, float]:
+    """No melting of the face by finite elements; sticking of a block whose asperities melt."""
+    melting = cases.exact_figures(DATASET_1, **MELTING)
     share, part = melting.slip_share, melting.mean_friction / (DRY * DATASET_1.weight)
-    sheet.rows("dry", cases.tabulated("slip_share", [DATASET_1], cases.SEEDS))
-    sheet.row("melting", [None, None, share])
-    sheet.row("friction", [None, None, part])
+    claim.row_each("dry", cases.tabulated("slip_share", [DATASET_1], cases.SEEDS))
+    claim.row("melting", [None, None, share])
+    claim.row("friction", [None, None, part])
     faces = [_face_degC(case) for case in DATASET_1.over("speed", (SPEEDS[0], SPEEDS[-1]))]
     for speed, face in zip((SPEEDS[0], SPEEDS[-1]), faces, strict=True):
-        sheet.row("face", [None, None, face], v=speed)
-    sheet.check("face", [None, None, max(faces)])
-    sheet.check("contact", answers=[None, None, not (share < 1.0 and part < MELTED)], margin=share)
+        claim.row("face", [None, None, face], v=speed)
+    claim.check("face", [None, None, max(faces)])
+    claim.check("contact", answers=[None, None, not (share < 1.0 and part < MELTED)], margin=share)
     for case in DATASET_1.over("speed", SPEEDS[1:3]):
         faster = cases.exact_figures(case, **MELTING).slip_share
-        sheet.turn("speed", faster, sound=faster == 1.0, v=case.speed)
-    return sheet.claim(sticks=100.0 * (1.0 - share), part=100.0 * part)
+        claim.turn("speed", faster, sound=faster == 1.0, v=case.speed)
+    return {"sticks": 100.0 * (1.0 - share), "part": 100.0 * part}
 
 
-def judge_falling_friction() -> Claim:
-    """C17: mean slip times of the two approaches to friction, in three models."""
-    sheet, both = Sheet("C17"), DATASET_1.over("weakening", (0.0, WEAKENING))
+@judges("C17")
+def judge_falling_friction(claim: Claim) -> dict[str, float]:
+    """Mean slip times of the two approaches to friction, in three models."""
+    both = DATASET_1.over("weakening", (0.0, WEAKENING))
     before, after = cases.tabulated("slip_time", both, cases.SEEDS).T
-    sheet.row("steady", before)
-    sheet.row("falling", after)
-    sheet.check("longer", after / before)
-    for name, numbers in sheet.turns("case").items():
+    claim.row("steady", before)
+    claim.row("falling", after)
+    claim.check("longer", after / before)
+    for name, numbers in claim.changes("case").items():
         falling = DATASET_1.changed(**numbers)
         both = falling.over("weakening", (0.0, falling.weakening))
         pair = cases.exact_table("slip_time", both, rig=GUIDED)
-        sheet.turn(name, pair[1] / pair[0], times=pair)
-    return sheet.claim()
+        claim.turn(name, pair[1] / pair[0], times=pair)
+    return {}
 
 
 #: Hold by speed above which strengthening is told to be considerable, m.
@@ -96,17 +106,99 @@ def _holds(case: Case) -> list[float]:
     return [hold(motion) for motion in steady]
 
 
-def judge_strengthening() -> Claim:
-    """C18: hold times of the series against the threshold, and what they would make of mu_s."""
-    sheet, needed = Sheet("C18"), THRESHOLD / SPEEDS[0]
+@judges("C18")
+def judge_strengthening(claim: Claim) -> dict[str, float]:
+    """Hold times of the series against the threshold, and what they would make of mu_s."""
+    needed = THRESHOLD / SPEEDS[0]
     times = np.array([_holds(case) for case in SERIES])
     factors = times.max(axis=0) / times.min(axis=0)
     spreads = GROWTH * np.log10(factors)
-    sheet.row("needed", derived=1e4 * needed)
-    sheet.rows("hold", times.T, of=SERIES)
-    sheet.row("spread", spreads)
-    sheet.check("holds", times[0], limit=needed)
-    sheet.turn("measured", sound=times[0, 2] > 0.3, hold=times[0, 2])
-    sheet.check("contains", spreads, limit=CONTAINED * DATASET_1.mu_s)
-    sheet.turn("weaker", (GROWTH - UNCERTAIN) * np.log10(factors[2]))
-    return sheet.claim(factor=factors[2], spread=spreads[2])
+    claim.row("needed", derived=1e4 * needed)
+    claim.row_each("hold", times.T, of=SERIES)
+    claim.row("spread", spreads)
+    claim.check("holds", times[0], limit=needed)
+    claim.turn("measured", sound=times[0, 2] > 0.3, hold=times[0, 2])
+    claim.check("contains", spreads, limit=CONTAINED * DATASET_1.mu_s)
+    claim.turn("weaker", (GROWTH - UNCERTAIN) * np.log10(factors[2]))
+    return {"factor": factors[2], "spread": spreads[2]}
+
+
+RATIOS = (0.5, 0.77, 1.0)
+COEFFICIENTS = [ratio * DATASET_2.mu_s for ratio in RATIOS]
+RATIO_CASES = DATASET_2.over("mu_k", COEFFICIENTS)
+COUNTED = STUDY["oscillations_at_1"].number
+MEASURED = STUDY["oscillations_measured"].number
+# "one or two more" and "29" are counts: half an oscillation either way rounds to them
+MORE = (0.5, 2.5)
+NEAR = 1.0
+OTHER_PRETENSIONS = (0.0, 0.004)  # m
+# the study compares one run of each ratio: a reading allows what so many of its single runs give
+SINGLE_RUNS = range(12)
+ALLOWED = 0.05
+
+
+def gaps(counts: Array) -> Array:
+    """(..., 2): by how much 0.77 counts more than 0.5 and 1.0, of counts (..., 3)."""
+    return np.asarray(counts[..., 1:2] - counts[..., ::2])
+
+
+def _counts_more(counts: Array) -> Array:
+    return np.asarray(np.all((gaps(counts) >= MORE[0]) & (gaps(counts) <= MORE[1]), axis=-1))
+
+
+def _counts_29(counts: Array) -> Array:
+    return np.abs(counts[..., 2] - COUNTED) <= NEAR
+
+
+@judges("C11")
+def judge_ratio(claim: Claim) -> dict[str, Any]:
+    """Oscillations in 20 s by model, for mu_k/mu_s of 0.5, 0.77 and 1.0."""
+    counts, ranges = (
+        cases.tabulated(figure, RATIO_CASES, cases.SEEDS, rig={})
+        for figure in ("oscillations", "half_range_x")
+    )
+    for ratio, ours in zip(RATIOS, counts.T, strict=True):
+        claim.row(f"count_{ratio:g}", ours)
+    claim.row_each("half_range", ranges, ratio=RATIOS)
+    claim.check("more", answers=_counts_more(counts), margin=gaps(counts[2]).min())
+    _turn_ratio(claim, _counts_more)
+    claim.check("one", np.abs(counts[:, 2] - COUNTED))
+    _turn_ratio(claim, _counts_29)
+    lines = [models_over_time(cases.three_motions(case), "x", 100.0, 0.4) for case in RATIO_CASES]
+    titles = [f"µ_k/µ_s = {ratio:g}" for ratio in RATIOS]
+    rows = [[Panel(*pair, end=12.0)] for pair in zip(lines, titles, strict=True)]
+    add_picture(claim, "C11_ratio", rows)
+    near, at = np.unravel_index(np.abs(counts - MEASURED).argmin(), counts.shape)
+    nearest = f"{LABELS[near]} at {RATIOS[at]:g} with {counts[near, at]:.1f}"
+    return {"more": gaps(_mended("F1")), "nearest": nearest}
+
+
+def _mended(fault: str) -> Array:
+    faults = PRINTED.without(fault)
+    return np.array([cases.scheme_figures(case, faults).oscillations for case in RATIO_CASES])
+
+
+@cache
+def _singles(reading: Reading) -> Array:
+    """(3, runs): counts of single runs of each ratio, which draw their own scatter."""
+    counts = [
+        steady_figures(reading.motion(2, seed, mu_k=mu_k)).oscillations
+        for mu_k, seed in product(COEFFICIENTS, SINGLE_RUNS)
+    ]
+    return np.reshape(counts, (len(RATIOS), -1))
+
+
+def _turn_ratio(claim: Claim, holds: Callable[[Array], Array]) -> None:
+    """Other readings, other pretensions of the exact model, the scheme with a fault mended."""
+    for one in standing():
+        singles, weight = _singles(one), OPEN if one.place else FAR
+        # every run of one ratio beside every run of the others
+        share = holds(np.array(list(product(*singles)))).mean()
+        said = {"name": one.name, "counts": singles.mean(axis=1), "share": 100.0 * share}
+        claim.turn("reading", sound=share >= ALLOWED, weight=weight, **said)
+    for loose in OTHER_PRETENSIONS:
+        counts = cases.exact_table("oscillations", RATIO_CASES, pretension=loose)
+        claim.turn("pretension", sound=holds(counts), mm=1e3 * loose, counts=counts)
+    for fault in ("F2", "F1"):
+        counts = _mended(fault)
+        claim.turn("mended", sound=holds(counts), fault=fault, counts=counts)

@@ -18,10 +18,9 @@ from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 from cosim.report.style import LIGHT_GREY, panels
 
 from .. import cases
-from ..claim import Claim, responsible
-from ..drawing import COLOURS, MODELS, Panel, over_time
+from ..claim import MODELS, STUDY, WRITTEN, Claim, judges, responsible
+from ..drawing import COLOURS, Panel, add_picture, over_time
 from ..motion import Motion, MotionFigures
-from ..sheet import STUDY, WRITTEN, Sheet
 
 Array = np.ndarray
 
@@ -96,42 +95,44 @@ def needed_friction(mean_x: float) -> float:
     return 4.0 * cases.DATASET_1.stiffness * mean_x / cases.DATASET_1.weight
 
 
-def judge() -> Claim:
+@judges("C6")
+def judge(claim: Claim) -> dict[str, Any]:
     """All observations against every variant; the claim holds where a quarter of mu fits better."""
-    sheet, of = Sheet("C6"), {key: values for key, (_, values) in variants().items()}
+    of = {key: values for key, (_, values) in variants().items()}
     full = np.array([of[f"{model}_full"] for model in MODELS])
     cut = np.array([of[f"{model}_cut"] for model in MODELS])
     for one, ours in zip(OBSERVATIONS, full.T, strict=True):
-        sheet.row(one["figure"], ours, study=one["study"], derived=one.get("value"))
+        claim.row(one["figure"], ours, study=one["study"], derived=one.get("value"))
     with_full, with_cut = ([misfit(values) for values in models] for models in (full, cut))
-    sheet.row("misfit_full", with_full)
-    sheet.row("misfit_cut", with_cut)
+    claim.row("misfit_full", with_full)
+    claim.row("misfit_cut", with_cut)
     takes = needed_friction(OBSERVED[MEAN_X])
-    sheet.row("takes", [None, None, needed_friction(full[2, MEAN_X])], derived=takes)
+    claim.row("takes", [None, None, needed_friction(full[2, MEAN_X])], derived=takes)
     faults = responsible(_quarter_wins)
-    sheet.check("fits", np.divide(with_cut, with_full), faults=faults)
+    claim.check("fits", np.divide(with_cut, with_full), faults=faults)
     for name, weight in (("left_out", 0.0), ("doubled", 0.5)):
         for i, one in enumerate(OBSERVATIONS):
             weights = np.where(np.arange(len(OBSERVATIONS)) == i, weight, 1.0)
             fits = [misfit(values[2], weights) for values in (full, cut)]
-            sheet.turn(name, fits[1] / fits[0], fits=fits, says=one["name"])
+            claim.turn(name, fits[1] / fits[0], fits=fits, says=one["name"])
     fits = [misfit(of[key]) for key in ("exact_fitted", "exact_fitted_cut")]
-    sheet.turn("fitted", fits[1] / fits[0], fits=fits)
+    claim.turn("fitted", fits[1] / fits[0], fits=fits)
     low, high = (needed_friction(OBSERVED[MEAN_X] + side * CLOSE) for side in (-1.0, 1.0))
     near = np.abs(cut[:, MEAN_X] - OBSERVED[MEAN_X]) <= CLOSE
-    sheet.check("balance", answers=near, margin=takes / cases.DATASET_2.mu_s)
-    sheet.turn("other_mean", sound=low <= cases.DATASET_2.mu_s, low=low, high=high)
+    claim.check("balance", answers=near, margin=takes / cases.DATASET_2.mu_s)
+    claim.turn("other_mean", sound=low <= cases.DATASET_2.mu_s, low=low, high=high)
     mean = of["exact_fitted_cut"][MEAN_X]
     sound = abs(mean - OBSERVED[MEAN_X]) <= CLOSE
-    sheet.turn("other_pretension", 1e3 * mean, sound=sound, instead=1e3 * cut[2, MEAN_X])
-    sheet.picture("C6_observations", draw=_draw_observations)
+    claim.turn("other_pretension", 1e3 * mean, sound=sound, instead=1e3 * cut[2, MEAN_X])
+    add_picture(claim, "C6_observations", draw=_draw_observations)
     printed, *mended = (
         _in_motion(f"{model}_full", run)
         for model, run in zip(MODELS, cases.three_motions(cases.DATASET_1), strict=True)
     )
     cut_run = cases.scheme_motion(cases.DATASET_2, PRINTED)
-    sheet.picture("C6_displacements", [[printed, _in_motion("printed_cut", cut_run)], mended])
-    return sheet.claim(faults=", ".join(faults) or "none", **_remarked(of))
+    panels = [[printed, _in_motion("printed_cut", cut_run)], mended]
+    add_picture(claim, "C6_displacements", panels)
+    return {"faults": ", ".join(faults) or "none"} | _remarked(of)
 
 
 def _quarter_wins(faults: Faults) -> bool:

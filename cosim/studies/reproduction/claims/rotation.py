@@ -12,11 +12,10 @@ from stickslip.reference.spring_angles import TREATMENTS
 from cosim.report.style import SERIES
 
 from ..cases import DATASET_1, DATASETS, Case, exact_motion, scheme, scheme_motion
-from ..claim import FAR, OPEN, Claim, responsible, responsible_pairs
-from ..drawing import LABELS, Curve, Panel, models_over_time, over_time
+from ..claim import FAR, OPEN, STUDY, Claim, judges, responsible, responsible_pairs
+from ..drawing import LABELS, Curve, Panel, add_picture, models_over_time, over_time
 from ..motion import Motion, figures
 from ..readings import AS_PRINTED, MARKS, READINGS, onset, outcome, reading_figures
-from ..sheet import STUDY, Sheet
 
 CYCLES, SEED = 40, 0
 ROTATES = 30.0  # deg: half of "three times" the measured 20
@@ -46,21 +45,11 @@ def _sides(run: Motion) -> int:
 
 
 @cache
-def _parts(faults: Faults) -> tuple[bool, bool]:
+def parts(faults: Faults) -> tuple[bool, bool]:
     """Whether only the updated angles rotate, and whether with them alone y comes back."""
     runs = treated(faults)
     others = max(run.rotation for name, run in runs.items() if name != "updated")
     return runs["updated"].rotation > ROTATES and others < 0.1 * ROTATES, _comes_back(runs)
-
-
-def rotates(faults: Faults) -> bool:
-    """Whether only the updated angles rotate."""
-    return _parts(faults)[0]
-
-
-def comes_back(faults: Faults) -> bool:
-    """Whether y comes back with the updated angles alone."""
-    return _parts(faults)[1]
 
 
 def _apart(runs: dict[str, Motion]) -> float:
@@ -74,48 +63,51 @@ def _apart(runs: dict[str, Motion]) -> float:
     return float(np.ptp([one[:count] for one in peaks], axis=0).max()) if count else 0.0
 
 
-def judge_treatments() -> Claim:
-    """C5: all four treatments, as printed and mended, beside the exact geometry."""
-    sheet, printed, mended = Sheet("C5"), treated(PRINTED), treated(MENDED)
+@judges("C5")
+def judge_treatments(claim: Claim) -> dict[str, float]:
+    """All four treatments, as printed and mended, beside the exact geometry."""
+    printed, mended = treated(PRINTED), treated(MENDED)
     exact = exact_motion(DATASET_1, EXACT_DURATION)
     loose = exact_motion(DATASET_1, EXACT_DURATION, pretension=0.0)
     for name in TREATMENTS:
         updated = name == "updated"
         models = [printed[name], mended[name], *([exact] if updated else [])]
         turned = "rotation_updated" if updated else "rotation"
-        sheet.row(turned, [one.rotation for one in models], name=name)
-        sheet.row("sideways", [np.abs(one.y).max() for one in models], name=name)
-    sheet.row("sets_in", [onset(printed["updated"]), onset(mended["updated"])])
+        claim.row(turned, [one.rotation for one in models], name=name)
+        claim.row("sideways", [np.abs(one.y).max() for one in models], name=name)
+    claim.row("sets_in", [onset(printed["updated"]), onset(mended["updated"])])
     apart = [_apart(printed), _apart(mended)]
-    sheet.row("apart", apart)
-    sheet.check("agree", [1e3 * one for one in apart])
+    claim.row("apart", apart)
+    claim.check("agree", [1e3 * one for one in apart])
     free, back = max(exact.rotation, loose.rotation), treated(MENDED.only("F1", "F13"))["updated"]
-    sheet.check(
+    rotates, comes_back = zip(parts(PRINTED), parts(MENDED), strict=True)
+    claim.check(
         "rotates",
-        answers=[rotates(PRINTED), rotates(MENDED), free > ROTATES],
+        answers=[*rotates, free > ROTATES],
         margin=free,
         limit=ROTATES,
-        faults=responsible(rotates),
+        faults=responsible(lambda faults: parts(faults)[0]),
     )
-    for name, (pretension, start) in sheet.turns("start").items():
+    for name, (pretension, start) in claim.changes("start").items():
         begin = {"phi": np.radians(start)}
         run = exact_motion(DATASET_1, EXACT_DURATION, pretension=pretension, initial=begin)
-        sheet.turn(name, run.rotation)
-    sheet.turn("put_back", back.rotation)
-    alone = responsible(comes_back)
-    sheet.check(
+        claim.turn(name, run.rotation)
+    claim.turn("put_back", back.rotation)
+    alone = responsible(lambda faults: parts(faults)[1])
+    claim.check(
         "comes_back",
-        answers=[comes_back(PRINTED), comes_back(MENDED)],
+        answers=comes_back,
         margin=max(_sides(mended[name]) for name in ("constant", "opposed")),
         limit=SIDES,
         faults=alone,
-        together=() if alone else responsible_pairs(comes_back),
+        together=() if alone else responsible_pairs(lambda faults: parts(faults)[1]),
     )
     scattered = treated(MENDED, scatter=0.2)
     sound = _comes_back(scattered)
-    sheet.turn("scatter", _sides(scattered["updated"]), sound=sound)
-    sheet.picture("C5_spring_angles", _drawn(printed, mended))
-    return sheet.claim(back=back.rotation, loose=loose.rotation, y=100 * np.abs(loose.y).max())
+    claim.turn("scatter", _sides(scattered["updated"]), sound=sound)
+    add_picture(claim, "C5_spring_angles", _drawn(printed, mended))
+    y = 100 * np.abs(loose.y).max()
+    return {"back": back.rotation, "loose": loose.rotation, "y": y}
 
 
 def _drawn(*schemes: dict[str, Motion]) -> list[list[Panel]]:
@@ -154,9 +146,9 @@ def turns_far_and_near(first: Any, second: Any) -> Any:
     return (first > FAR_TURN / FACTOR) & (second < FACTOR * MEASURED)
 
 
-def judge_datasets() -> Claim:
-    """C7: largest rotation and angular speed over several seeds."""
-    sheet = Sheet("C7")
+@judges("C7")
+def judge_datasets(claim: Claim) -> dict[str, Any]:
+    """Largest rotation and angular speed over several seeds."""
     runs = [
         [farthest(case, PRINTED), farthest(case, MENDED), exact_motion(case)]
         for case in DATASETS.values()
@@ -165,32 +157,32 @@ def judge_datasets() -> Claim:
     for dataset, rotations, three in zip(DATASETS, turned, runs, strict=True):
         swings = [figures(one).swing_rate for one in three]
         for name, ours in (("rotation", rotations), ("swing", swings)):
-            sheet.row(name, ours, study=f"{name}_dataset_{dataset}", dataset=dataset)
+            claim.row(name, ours, study=f"{name}_dataset_{dataset}", dataset=dataset)
     # once by more than chance could make of 150 degrees, and again
     least = FAR_TURN / FACTOR**2
     faults = responsible(lambda faults: farthest(DATASET_1, faults).rotation > least)
-    sheet.check("far", first, limit=FAR_TURN / FACTOR, faults=faults)
-    sheet.check("near", second, limit=FACTOR * MEASURED)
+    claim.check("far", first, limit=FAR_TURN / FACTOR, faults=faults)
+    claim.check("near", second, limit=FACTOR * MEASURED)
     most = max(sum(outcome(reading).met) for reading in READINGS)
-    sheet.check("both", answers=turns_far_and_near(*turned), margin=most, limit=len(MARKS))
+    claim.check("both", answers=turns_far_and_near(*turned), margin=most, limit=len(MARKS))
     loose = [exact_motion(case, pretension=0.0).rotation for case in DATASETS.values()]
-    sheet.turn("loose", sound=turns_far_and_near(*loose), turned=loose)
+    claim.turn("loose", sound=turns_far_and_near(*loose), turned=loose)
     with_both = []
     for reading in READINGS:
         pair = [reading_figures(reading, dataset).max_rotation for dataset in DATASETS]
         met, weight = sum(outcome(reading).met), OPEN if reading.place else FAR
-        sheet.turn("reading", met, weight=weight, name=reading.name, turned=pair)
+        claim.turn("reading", met, weight=weight, name=reading.name, turned=pair)
         with_both += [reading.name] if turns_far_and_near(*pair) else []
     panels = [_turned(*pair) for pair in zip(DATASETS, runs, strict=True)]
-    sheet.picture("C7_rotation", [panels])
-    return sheet.claim(
-        first=first[0],
-        second=second[0],
-        compared="less" if second[0] < first[0] else "no less",
-        window=reading_figures(AS_PRINTED, 1).max_rotation,
-        with_both="; ".join(with_both) or "no reading",
-        readings=len(READINGS),
-    )
+    add_picture(claim, "C7_rotation", [panels])
+    return {
+        "first": first[0],
+        "second": second[0],
+        "compared": "less" if second[0] < first[0] else "no less",
+        "window": reading_figures(AS_PRINTED, 1).max_rotation,
+        "with_both": "; ".join(with_both) or "no reading",
+        "readings": len(READINGS),
+    }
 
 
 def _turned(dataset: int, runs: list[Motion]) -> Panel:

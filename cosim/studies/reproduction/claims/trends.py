@@ -14,10 +14,9 @@ from cosim.report.style import INK
 
 from .. import cases
 from ..cases import CASE, GUIDED, MASSES, SPEEDS, STIFFNESSES, Case
-from ..claim import Claim
-from ..drawing import Curve, Panel, by_model, over_mass
+from ..claim import Claim, judges
+from ..drawing import Curve, Panel, add_picture, by_model, over_mass
 from ..motion import MotionFigures
-from ..sheet import Sheet
 
 Array = np.ndarray
 
@@ -55,47 +54,49 @@ def over_speeds(figure: str, case: Case, speeds: Sequence[float] | Array = SPEED
     return cases.exact_table(figure, case.over("speed", speeds), rig=GUIDED)
 
 
-def judge_mean() -> Claim:
-    """C8: means over the grid and along the finer line in mass."""
-    sheet, line = Sheet("C8"), cases.tabulated("mean_x", LINE.over("mass", LINE_MASSES))
+@judges("C8")
+def judge_mean(claim: Claim) -> dict[str, float]:
+    """Means over the grid and along the finer line in mass."""
+    line = cases.tabulated("mean_x", LINE.over("mass", LINE_MASSES))
     means = cases.gridded(cases.tabulated("mean_x", cases.plan()))
     r2 = [straightness(LINE_MASSES, of_model) for of_model in line]
     by_stiffness, by_speed = means.mean(axis=(2, 3)), means.mean(axis=(1, 2))
-    sheet.row("line", r2)
-    sheet.rows("stiffness", by_stiffness, k=STIFFNESSES)
-    sheet.rows("speed", by_speed, v=SPEEDS)
-    sheet.check("linear", r2)
+    claim.row("line", r2)
+    claim.row_each("stiffness", by_stiffness, k=STIFFNESSES)
+    claim.row_each("speed", by_speed, v=SPEEDS)
+    claim.check("linear", r2)
     # what mean x = mu_k m g/(4k) passes on
-    sheet.turn("load", straightness(LINE_MASSES, LINE_MASSES ** (1.0 + LOAD_POWER)))
-    sheet.check("stiffness", least_fall(by_stiffness))
-    sheet.check("speed", least_fall(by_speed))
+    claim.turn("load", straightness(LINE_MASSES, LINE_MASSES ** (1.0 + LOAD_POWER)))
+    claim.check("stiffness", least_fall(by_stiffness))
+    claim.check("speed", least_fall(by_speed))
     x = 1e3 * over_speeds("mean_x", LINE.changed(weakening=0.0))
-    sheet.turn("constant", sound=least_fall(x) > LEVEL, first=x[0], last=x[-1])
-    sheet.picture("C8_mean_x", over_mass(100.0 * means, STIFFNESSES))
-    sheet.picture("C8_mass", [[Panel(by_model(LINE_MASSES, 100.0 * line))]])
-    return sheet.claim(r2=r2[0])
+    claim.turn("constant", sound=least_fall(x) > LEVEL, first=x[0], last=x[-1])
+    add_picture(claim, "C8_mean_x", over_mass(100.0 * means, STIFFNESSES))
+    add_picture(claim, "C8_mass", [[Panel(by_model(LINE_MASSES, 100.0 * line))]])
+    return {"r2": r2[0]}
 
 
-def judge_slip_time() -> Claim:
-    """C9: slip times over the study's range of speeds, at m 0.67 kg and k 20.17 N/m."""
-    sheet, times = Sheet("C9"), cases.tabulated("slip_time", CASE.over("speed", FINE_SPEEDS))
+@judges("C9")
+def judge_slip_time(claim: Claim) -> dict[str, Any]:
+    """Slip times over the study's range of speeds, at m 0.67 kg and k 20.17 N/m."""
+    times = cases.tabulated("slip_time", CASE.over("speed", FINE_SPEEDS))
     ranks = [_rank(of_model) for of_model in times]
-    sheet.row("rank", ranks)
+    claim.row("rank", ranks)
     told = np.isin(FINE_SPEEDS, (0.01, 0.15, 0.37, 0.82))
-    sheet.rows("time", times[:, told], v=FINE_SPEEDS[told])
-    sheet.check("grows", ranks, answers=[_grows(of_model) for of_model in times])
+    claim.row_each("time", times[:, told], v=FINE_SPEEDS[told])
+    claim.check("grows", ranks, answers=[_grows(of_model) for of_model in times])
     constant = CASE.changed(weakening=0.0)
     for name, case in (("constant", constant), ("no_step", constant.changed(mu_s=CASE.mu_k))):
         varied = over_speeds("slip_time", case, FINE_SPEEDS)
         known = varied[np.isfinite(varied)]
-        sheet.turn(name, sound=_grows(varied), first=known[0], last=known[-1], n=len(known))
+        claim.turn(name, sound=_grows(varied), first=known[0], last=known[-1], n=len(known))
     closed, sticks = [_closed_form(v) for v in FINE_SPEEDS], np.isfinite(times[2])
     dotted = {"color": INK, "lw": 0.9, "ls": ":", "label": "closed form, constant µ"}
     curves = [*by_model(FINE_SPEEDS, times), Curve(FINE_SPEEDS, closed, dotted)]
-    sheet.picture("C9_slip_time", [[Panel(curves)]])
+    add_picture(claim, "C9_slip_time", [[Panel(curves)]])
     never = ", ".join(f"{v:.2f}" for v in FINE_SPEEDS[~sticks])
     fastest = FINE_SPEEDS[sticks].max()
-    return sheet.claim(n=sticks.sum(), fastest=fastest, never=never, closed=closed)
+    return {"n": sticks.sum(), "fastest": fastest, "never": never, "closed": closed}
 
 
 def _rank(times: Array) -> float:
@@ -116,48 +117,50 @@ def _closed_form(speed: float) -> float:
     return CoulombOscillator(CASE.mass, 4.0 * CASE.stiffness, speed, *limits).slip_time
 
 
-def judge_kinetic_coefficient() -> Claim:
-    """C10: range of the mean mu_k, and how mass, speed and stiffness act on it."""
-    sheet, series = Sheet("C10"), cases.plan(ALL_STIFFNESSES)
+@judges("C10")
+def judge_kinetic_coefficient(claim: Claim) -> dict[str, float]:
+    """Range of the mean mu_k, and how mass, speed and stiffness act on it."""
+    series = cases.plan(ALL_STIFFNESSES)
     weights = np.array([case.weight for case in series])
     mu = cases.gridded(cases.tabulated("mean_friction", series) / weights, ALL_STIFFNESSES)
     by_mass, spreads = mu.mean(axis=(1, 3)), np.ptp(mu.mean(axis=2), axis=2)
     slopes = np.polyfit(MASSES, by_mass.T, 1)[0]
     changes = np.abs(slopes) * (MASSES[-1] - MASSES[0]) / by_mass.mean(axis=1)
     strays = np.max(np.ptp(mu, axis=2) / mu.mean(axis=2), axis=(1, 2))
-    sheet.row("least", mu.min(axis=(1, 2, 3)))
-    sheet.row("largest", mu.max(axis=(1, 2, 3)))
-    sheet.row("strays", strays)
-    sheet.row("change", changes)
-    sheet.rows("spread", spreads, k=ALL_STIFFNESSES)
-    sheet.check("range")
-    sheet.check("mass", strays)
+    claim.row("least", mu.min(axis=(1, 2, 3)))
+    claim.row("largest", mu.max(axis=(1, 2, 3)))
+    claim.row("strays", strays)
+    claim.row("change", changes)
+    claim.row_each("spread", spreads, k=ALL_STIFFNESSES)
+    claim.check("range")
+    claim.check("mass", strays)
     loaded = np.array(MASSES) ** LOAD_POWER
-    sheet.turn("load", np.ptp(loaded) / loaded.mean())
-    sheet.check("speed", np.diff(mu.mean(axis=(1, 2))).max(axis=1))
+    claim.turn("load", np.ptp(loaded) / loaded.mean())
+    claim.check("speed", np.diff(mu.mean(axis=(1, 2))).max(axis=1))
     even = CASE.changed(weakening=0.0)
     constant = over_speeds("mean_friction", even) / even.weight
-    sheet.turn("constant", sound=least_fall(constant) > LEVEL, mu=constant)
+    claim.turn("constant", sound=least_fall(constant) > LEVEL, mu=constant)
     ratios = spreads[:, -1] / spreads[:, 0]
-    sheet.check("spread", ratios)
+    claim.check("spread", ratios)
     for part in (0.2, 0.6):
-        _turn_spread(sheet, "slope", part, MASSES[:1], rig=GUIDED)
+        _turn_spread(claim, "slope", part, MASSES[:1], rig=GUIDED)
     for pretension, part in FREE:
-        _turn_spread(sheet, "free", part, FREE_MASSES, pretension=pretension)
-    sheet.picture("C10_mu_k", over_mass(mu, ALL_STIFFNESSES))
+        _turn_spread(claim, "free", part, FREE_MASSES, pretension=pretension)
+    add_picture(claim, "C10_mu_k", over_mass(mu, ALL_STIFFNESSES))
     with_r = PRINTED.without("F2")
     mended = _spreads(lambda case: cases.scheme_figures(case, with_r, (0,)), CASE, MASSES)
-    return sheet.claim(change=100.0 * changes[2], ratio=ratios[0], mended=mended[1] / mended[0])
+    ratio = mended[1] / mended[0]
+    return {"change": 100.0 * changes[2], "ratio": ratios[0], "mended": ratio}
 
 
 def _turn_spread(
-    sheet: Sheet, name: str, part: float, masses: Sequence[float], **model: Any
+    claim: Claim, name: str, part: float, masses: Sequence[float], **model: Any
 ) -> None:
     """The exact model with a friction law that falls by a part."""
     case = CASE.changed(weakening=part)
     found = _spreads(lambda one: cases.exact_figures(one, **model), case, masses)
     mm = 1e3 * model.get("pretension", 0.0)
-    sheet.turn(name, found[1] / found[0], spreads=found, part=100.0 * part, mm=mm)
+    claim.turn(name, found[1] / found[0], spreads=found, part=100.0 * part, mm=mm)
 
 
 def _spreads(

@@ -12,9 +12,8 @@ from stickslip.reference.scheme_errors import MENDED, PRINTED
 from stickslip.reference.spring_angles import ATTACHMENT_RADIUS, fixed_angles, stiffness_matrix
 
 from ..cases import DATASET_1, PRETENSION, Case, exact_parameters, scheme
-from ..claim import Claim
+from ..claim import STUDY, Claim, judges
 from ..motion import oscillation_rate
-from ..sheet import STUDY, Sheet
 
 Run = tuple[np.ndarray, np.ndarray]  # time s, x m
 
@@ -26,9 +25,9 @@ OFFSET, LARGE_OFFSET = 0.02, 0.05  # m
 HARDENING = 40.0  # 1/m2; §6.2 of the study: linear for the first couple of centimetres only
 
 
-def judge_matrices() -> Claim:
-    """C1: every printed entry against K = k sum g gT; entries that are not listed are printed 0."""
-    sheet = Sheet("C1")
+@judges("C1")
+def judge_matrices(claim: Claim) -> dict[str, float]:
+    """Every printed entry against K = k sum g gT; entries that are not listed are printed 0."""
     for treatment in ("zero", "constant", "opposed"):
         ours = stiffness_matrix(fixed_angles(treatment))
         printed = np.zeros((3, 3))
@@ -38,14 +37,14 @@ def judge_matrices() -> Claim:
                 printed[i, j] = printed[j, i] = study.number
                 kind = f"entry_{(i == 2) + (j == 2)}"
                 entry = [ours[i, j]] * 2
-                sheet.row(kind, entry, study=name, axes=name[-2:], treatment=treatment)
+                claim.row(kind, entry, study=name, axes=name[-2:], treatment=treatment)
         apart = np.abs(ours - printed).max()
-        sheet.check("entries", [apart, apart], treatment=treatment)
+        claim.check("entries", [apart, apart], treatment=treatment)
         radius, matrix = _changed_digit(treatment, printed)
-        sheet.turn(
+        claim.turn(
             "radius", np.abs(matrix - printed).max(), radius=1e3 * radius, entry=matrix[2, 2]
         )
-    return sheet.claim()
+    return {}
 
 
 def _changed_digit(treatment: str, printed: np.ndarray) -> tuple[float, np.ndarray]:
@@ -58,17 +57,18 @@ def _changed_digit(treatment: str, printed: np.ndarray) -> tuple[float, np.ndarr
     return radius, matrix
 
 
-def judge_no_stiffness() -> Claim:
-    """C2: k = 0 under constant friction; x = mu_k g t2 / 2 in slip, the belt's speed the limit."""
-    sheet, case = Sheet("C2"), DATASET_1.changed(stiffness=0.0)
+@judges("C2")
+def judge_no_stiffness(claim: Claim) -> dict[str, float]:
+    """k = 0 under constant friction; x = mu_k g t2 / 2 in slip, the belt's speed the limit."""
+    case = DATASET_1.changed(stiffness=0.0)
     runs = [*_slides(case), _exact(case, DURATION)]
     ends = [_travel(run, DURATION) for run in runs]
-    sheet.row("travel", ends, derived=0.5 * case.mu_k * GRAVITY * DURATION**2)
-    sheet.check("drifts", [_growth(run) for run in runs])
+    claim.row("travel", ends, derived=0.5 * case.mu_k * GRAVITY * DURATION**2)
+    claim.check("drifts", [_growth(run) for run in runs])
     sprung = _exact(case.changed(stiffness=WEAK_SPRING), DURATION)
-    sheet.turn("sprung", _growth(sprung))
+    claim.turn("sprung", _growth(sprung))
     meets = case.speed / (case.mu_k * GRAVITY)
-    return sheet.claim(meets=meets, speed=case.speed, ridden=ends[-1])
+    return {"meets": meets, "speed": case.speed, "ridden": ends[-1]}
 
 
 def _travel(run: Run, time: float) -> float:
@@ -96,34 +96,36 @@ def _exact(case: Case, duration: float, vx: float = 0.0, **model: Any) -> Run:
     return run.time, run["x"]
 
 
-def judge_stiff() -> Claim:
-    """C3: k = 9999 N/m; the displacement is below what the camera sees."""
-    sheet, case = Sheet("C3"), DATASET_1.changed(stiffness=STIFF)
+@judges("C3")
+def judge_stiff(claim: Claim) -> dict[str, float]:
+    """k = 9999 N/m; the displacement is below what the camera sees."""
+    case = DATASET_1.changed(stiffness=STIFF)
     slides = _slides(case, scatter=0.02, duration=STIFF_DURATION)
     runs = [*slides, _exact(case, STIFF_DURATION)]
     largest = [np.abs(x).max() for _, x in runs]
-    sheet.row("largest", largest)
-    sheet.check("pixel", [1e3 * one for one in largest])
-    sheet.turn("riding", 1e3 * np.abs(_exact(case, STIFF_DURATION, vx=case.speed)[1]).max())
-    return sheet.claim()
+    claim.row("largest", largest)
+    claim.check("pixel", [1e3 * one for one in largest])
+    claim.turn("riding", 1e3 * np.abs(_exact(case, STIFF_DURATION, vx=case.speed)[1]).max())
+    return {}
 
 
-def judge_no_friction() -> Claim:
-    """C4: no friction; free vibration at sqrt(4k/m)."""
-    sheet, case = Sheet("C4"), DATASET_1.changed(mu_s=0.0, mu_k=0.0)
+@judges("C4")
+def judge_no_friction(claim: Claim) -> dict[str, float]:
+    """No friction; free vibration at sqrt(4k/m)."""
+    case = DATASET_1.changed(mu_s=0.0, mu_k=0.0)
     expected = math.sqrt(4.0 * case.stiffness / case.mass) / (2.0 * math.pi)
     at_rest = {"vx": 0.0, "phi": 0.0}
     exact = _exact(case, DURATION, initial={"x": OFFSET} | at_rest)
     runs = [*_slides(case, OFFSET), exact]
     rates = [oscillation_rate(*run) for run in runs]
     last = [x[time > DURATION - 1.0].max() for time, x in runs]
-    sheet.row("frequency", rates, derived=expected)
-    sheet.row("amplitude", last, derived=OFFSET)
-    sheet.check("frequency", [abs(rate / expected - 1.0) for rate in rates])
+    claim.row("frequency", rates, derived=expected)
+    claim.row("amplitude", last, derived=OFFSET)
+    claim.check("frequency", [abs(rate / expected - 1.0) for rate in rates])
     wide = {"x": LARGE_OFFSET} | at_rest
     cubic = {"cubic": HARDENING * case.stiffness, "neutral_extension": PRETENSION}
     hardened = oscillation_rate(*_exact(case, DURATION, initial=wide, spring_hardening=cubic))
-    sheet.turn("hardened", abs(hardened / expected - 1.0), part=HARDENING * LARGE_OFFSET**2)
-    sheet.check("undamped", [abs(value / OFFSET - 1.0) for value in last])
+    claim.turn("hardened", abs(hardened / expected - 1.0), part=HARDENING * LARGE_OFFSET**2)
+    claim.check("undamped", [abs(value / OFFSET - 1.0) for value in last])
     loose = simulate(exact_parameters(case, pretension=0.0, initial=wide), 3 * DURATION, 1e-2)
-    return sheet.claim(rotation=np.degrees(np.abs(loose["phi"]).max()))
+    return {"rotation": np.degrees(np.abs(loose["phi"]).max())}

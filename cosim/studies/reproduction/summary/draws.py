@@ -1,14 +1,22 @@
-"""Draws of a model: numbers that are tried, and the figures that come of them, seed by seed."""
+"""Draws of a model: numbers that are tried, the figures that come of them, how far off these are.
+
+The *misfit* is -2 log likelihood less that of a perfect model: it takes the scatter of the model's
+own figures from seed to seed (the study's scheme is chaotic) as part of what the model predicts, at
+the price of a wider prediction, and adds how far the known numbers were stretched. The *gap* is the
+root mean square distance of the model's mean figures from the observed ones, in the observations'
+standard deviations: what is drawn and reported.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.stats import chi2
 
 from cosim.gap.data import Campaign
 from cosim.gap.data.errors import CampaignError
@@ -21,6 +29,10 @@ Array = np.ndarray
 # which way the reporter's y axis points is not known, nor which way a symmetric rig swerves
 MIRRORED = ("mean_y",)
 SEEDS = 6  # most runs of a draw
+#: misfit by which a draw may be worse than the best and still lie in the 95 % interval (one number)
+WITHIN = 3.84
+# seeds from which a draw's own scatter is taken; below, that of its kin
+ENOUGH_SEEDS = 4
 
 
 class Observation(NamedTuple):
@@ -63,68 +75,6 @@ def predict(campaign: Campaign, seen: tuple[Observation, ...], values: Values, s
 
 
 @dataclass(frozen=True)
-class Draws:
-    """Numbers tried of a candidate, a row a draw, and what came of them.
-
-    shares (d, p): the spans' numbers as shares of their ranges, NaN for one that a draw has not;
-    values: of each draw, settings included; surprise (d,): squared distance of known numbers from
-    what is known; shown (d, seeds, n): the observations' figures, NaN where it was not run.
-    """
-
-    shares: Array
-    values: tuple[Mapping[str, float], ...]
-    surprise: Array
-    shown: Array
-
-    @classmethod
-    def of(cls, candidate: Candidate, shares: Array, n: int) -> Draws:
-        """Draws (d, p) of a candidate that have not been run yet."""
-        spans, values = candidate.spans, []
-        for row in shares:
-            numbers = {span.key: float(span.at(one)) for span, one in zip(spans, row, strict=True)}
-            # a contact at rest holds at least what it holds in sliding
-            numbers["friction.mu_k"] = min(numbers["friction.mu_k"], numbers["friction.mu_s"])
-            values.append(dict(candidate.settings) | numbers)
-        surprise = [sum(span.surprise(one[span.key]) for span in spans) for one in values]
-        shown = np.full((len(values), SEEDS, n), np.nan)
-        return cls(np.asarray(shares, float), tuple(values), np.array(surprise), shown)
-
-    def __len__(self) -> int:
-        return len(self.values)
-
-    def __add__(self, other: Draws) -> Draws:
-        """Both, of one candidate."""
-        return Draws(
-            np.concatenate([self.shares, other.shares]),
-            self.values + other.values,
-            np.concatenate([self.surprise, other.surprise]),
-            np.concatenate([self.shown, other.shown]),
-        )
-
-    def take(self, rows: Array | slice) -> Draws:
-        """Some of them: numbers of rows, which of all, or (d,) whether."""
-        places = np.arange(len(self))[rows]
-        values = tuple(self.values[i] for i in places)
-        return Draws(self.shares[places], values, self.surprise[places], self.shown[places])
-
-    def without_effect(self, candidate: Candidate) -> Draws:
-        """The same as draws of a candidate with one effect more, which is off."""
-        more = np.full((len(self), len(candidate.spans) - self.shares.shape[1]), np.nan)
-        values = tuple(candidate.off | dict(one) for one in self.values)
-        return replace(self, shares=np.hstack([self.shares, more]), values=values)
-
-    @property
-    def seeds(self) -> Array:
-        """(d,) how often each was run."""
-        return np.asarray(np.isfinite(self.shown[:, :, 0]).sum(axis=1))
-
-    @property
-    def mean(self) -> Array:
-        """(d, n) mean of each figure over the seeds."""
-        return np.asarray(np.nanmean(self.shown, axis=1))
-
-
-@dataclass(frozen=True)
 class Target:
     """What is to be met: sizes and standard deviations (n,) of the figures."""
 
@@ -144,55 +94,194 @@ class Target:
         """(..., n) of figures from the observed ones, in standard deviations."""
         return np.asarray((mean - self.sizes) / self.sds)
 
+    def misfit(self, means: Array, variances: Array) -> Array:
+        """(d,) -2 log likelihood of figures (d, n) with the variances of a realisation."""
+        wider = 1.0 + variances / self.sds**2  # variance of the prediction, in sds squared
+        return np.asarray((self.distances(means) ** 2 / wider + np.log(wider)).sum(axis=1))
+
     def gap(self, mean: Array) -> Array:
         """(...) root mean square distance, in standard deviations."""
         return np.asarray(np.sqrt(np.mean(self.distances(mean) ** 2, axis=-1)))
 
 
 @dataclass(frozen=True)
-class Bench:
-    """Runs the campaign's model for draws, a few at a time.
+class FittedSummary:
+    """A model beside the observed figures.
 
-    seed: of the whole search; jobs: threads; step: called with the number of draws just done.
+    values: block.parameter -> number. shown, scatter (n,): mean of each figure over the seeds and
+    its standard deviation from seed to seed. residuals (n,): distance in the observations'
+    standard deviations. gap: their root mean square. lack_of_fit: probability of figures this far
+    off or farther, were the model (its scatter included) true.
     """
 
-    campaign: Campaign
-    seen: tuple[Observation, ...]
-    seed: int = 0
-    jobs: int = 2
-    step: Callable[[int], object] = lambda _count: None
+    values: Mapping[str, float]
+    shown: Array
+    scatter: Array
+    residuals: Array
+    gap: float
+    held_out_gap: float
+    lack_of_fit: float
+
+
+@dataclass(frozen=True)
+class Draws:
+    """Numbers tried of a candidate, a row a draw, what came of them, and how far off they are.
+
+    shares (d, p): the spans' numbers as shares of their ranges, NaN for one that a draw has not;
+    values (d,): mappings, settings included; surprise (d,): squared distance of known numbers from
+    what is known; shown (d, seeds, n): the observations' figures, NaN where it was not run. kin
+    (n,): scatter of a figure from seed to seed, for draws of too few seeds to tell their own. From
+    `close` on: of all that was tried of the candidate, some of it with several seeds.
+    """
+
+    candidate: Candidate
+    target: Target
+    shares: Array
+    values: Array
+    surprise: Array
+    shown: Array
+    kin: Array | float = 0.0
+
+    @classmethod
+    def of(cls, candidate: Candidate, shares: Array, target: Target) -> Draws:
+        """Draws (d, p) of a candidate that have not been run yet."""
+        spans, values = candidate.spans, []
+        for row in shares:
+            numbers = {span.key: float(span.at(one)) for span, one in zip(spans, row, strict=True)}
+            # a contact at rest holds at least what it holds in sliding
+            numbers["friction.mu_k"] = min(numbers["friction.mu_k"], numbers["friction.mu_s"])
+            values.append(dict(candidate.settings) | numbers)
+        surprise = [sum(span.surprise(one[span.key]) for span in spans) for one in values]
+        shown = np.full((len(values), SEEDS, len(target.sizes)), np.nan)
+        told = np.asarray(shares, float), np.array(values, dtype=object), np.array(surprise)
+        return cls(candidate, target, *told, shown)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def _rows(self, of: Callable[[str], Any]) -> Draws:
+        """With other rows: of each table, by its name."""
+        return replace(
+            self, **{name: of(name) for name in ("shares", "values", "surprise", "shown")}
+        )
+
+    def __add__(self, other: Draws) -> Draws:
+        """Both, of one candidate."""
+        return self._rows(lambda name: np.concatenate([getattr(self, name), getattr(other, name)]))
+
+    def take(self, rows: Array | slice) -> Draws:
+        """Some of them: numbers of rows, which of all, or (d,) whether."""
+        return self._rows(lambda name: getattr(self, name)[rows])
+
+    def with_effect_off(self, candidate: Candidate) -> Draws:
+        """The same as draws of a candidate with one effect more, which is off."""
+        more = np.full((len(self), len(candidate.spans) - self.shares.shape[1]), np.nan)
+        values = np.array([candidate.off | one for one in self.values], dtype=object)
+        shares = np.hstack([self.shares, more])
+        return replace(self, candidate=candidate, shares=shares, values=values)
 
     @property
-    def smooth(self) -> bool:
-        """Do figures follow the numbers smoothly? Those of the study's scheme do not."""
-        return self.campaign.scheme == "exact"
+    def seeds(self) -> Array:
+        """(d,) how often each was run."""
+        return np.asarray(np.isfinite(self.shown[:, :, 0]).sum(axis=1))
+
+    @property
+    def mean(self) -> Array:
+        """(d, n) mean of each figure over the seeds."""
+        return np.asarray(np.nanmean(self.shown, axis=1))
+
+    @property
+    def scatter(self) -> Array:
+        """(d, n) standard deviation of each draw's figures from seed to seed."""
+        n = self.seeds[:, None]
+        squares = np.nansum((self.shown - self.mean[:, None]) ** 2, axis=1)
+        return np.where(n >= ENOUGH_SEEDS, np.sqrt(squares / np.maximum(n - 1, 1)), self.kin)
+
+    @property
+    def spread(self) -> Array:
+        """(d, n) variance of the next realisation about a draw's mean.
+
+        Mean and scatter are both from a few seeds: Student's t, whose variance counts here.
+        """
+        n = self.seeds[:, None]
+        wider = (1.0 + 1.0 / n) * (n - 1) / np.where(n > 3, n - 3, 1)
+        return np.where(n < ENOUGH_SEEDS, 2.0 * self.kin**2, self.scatter**2 * wider)
+
+    @property
+    def misfit(self) -> Array:
+        """(d,) -2 log likelihood, less that of a draw that meets every figure without scatter."""
+        return np.asarray(self.target.misfit(self.mean, self.spread) + self.surprise)
+
+    @property
+    def ordered(self) -> Draws:
+        """From the least misfit on."""
+        return self.take(np.argsort(self.misfit, kind="stable"))
+
+    @property
+    def with_own_scatter(self) -> Draws:
+        """With the typical scatter of those that tell it, its median, for those that do not."""
+        told = self.take(self.seeds >= ENOUGH_SEEDS)
+        return replace(self, kin=np.asarray(np.median(told.scatter, axis=0)))
 
     @cached_property
-    def target(self) -> Target:
-        """What is to be met."""
-        return Target.of(self.seen)
+    def close(self) -> Draws:
+        """Draws that were run with all seeds, from the least misfit on."""
+        return self.take(self.seeds > 1).ordered
 
-    def draw(self, candidate: Candidate, shares: Array) -> Draws:
-        """Draws (d, p) of a candidate, a seed each."""
-        return self.run(Draws.of(candidate, np.atleast_2d(shares), len(self.seen)))
+    @property
+    def best(self) -> Draws:
+        """The first of those, by itself."""
+        return self.close.take(slice(1))
 
-    def run(self, draws: Draws, seeds: int = 1) -> Draws:
-        """The draws with ``seeds`` more runs each."""
-        if not len(draws):
-            return draws
-        places = draws.seeds[:, None] + np.arange(seeds)
-        requests = [
-            (values, int(seed))
-            for values, row in zip(draws.values, self.seed + places, strict=True)
-            for seed in row
-        ]
-        with ThreadPoolExecutor(max_workers=self.jobs) as pool:
-            rows = list(pool.map(self._row, requests))
-        shown = draws.shown.copy()
-        shown[np.arange(len(draws))[:, None], places] = np.reshape(rows, (*places.shape, -1))
-        return replace(draws, shown=shown)
+    @property
+    def price(self) -> float:
+        """ln n for each number that was added."""
+        return self.candidate.added * math.log(len(self.target.sizes))
 
-    def _row(self, request: tuple[Values, int]) -> Array:
-        row = predict(self.campaign, self.seen, *request)
-        self.step(1)
-        return row
+    @property
+    def bic(self) -> float:
+        """Misfit of the best plus the price of the numbers that were added."""
+        return float(self.best.misfit[0]) + self.price
+
+    @cached_property
+    def held_out_gap(self) -> float:
+        """Root mean square distance of the figures, each predicted by the fit to the others."""
+        found = []
+        for i in range(len(self.target.sizes)):
+            other = np.argmin(replace(self.close, target=self.target.without(i)).misfit)
+            found.append(self.target.distances(self.close.mean[other])[i])
+        return float(np.sqrt(np.mean(np.square(found))))
+
+    @cached_property
+    def lack_of_fit(self) -> float:
+        """Probability of figures this far off, were the best draw's model true.
+
+        Of coefficients a known one brings its own observation.
+        """
+        target = self.target
+        free = sum(span.of_friction and span.prior is None for span in self.candidate.spans)
+        freedom = len(target.sizes) - self.candidate.added - free
+        variance = target.sds**2 + self.best.spread
+        off = np.sum((self.best.mean - target.sizes) ** 2 / variance) + self.best.surprise[0]
+        return float(chi2.sf(off, max(freedom, 1)))
+
+    def intervals(self) -> dict[str, tuple[float, float]]:
+        """block.parameter -> range over the draws that are nearly as good as the best."""
+        values = self.values[self.misfit <= self.best.misfit[0] + WITHIN]
+        keys = [span.key for span in self.candidate.spans]
+        return {
+            key: (min(one[key] for one in values), max(one[key] for one in values)) for key in keys
+        }
+
+    def fitted(self, draw: Draws | None = None) -> FittedSummary:
+        """A draw beside the observed figures, the best where none is given."""
+        draw = self.best if draw is None else draw
+        return FittedSummary(
+            values=dict(draw.values[0]),
+            shown=draw.mean[0],
+            scatter=draw.scatter[0],
+            residuals=self.target.distances(draw.mean[0]),
+            gap=float(self.target.gap(draw.mean[0])),
+            held_out_gap=self.held_out_gap,
+            lack_of_fit=self.lack_of_fit,
+        )

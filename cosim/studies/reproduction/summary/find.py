@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from cosim.gap.data import Campaign
+from cosim.gap.result import Ranked, Score
 
 from . import search
-from .candidates import Candidate, extensions, not_felt, plain_candidate
-from .draws import SEEDS, Bench, Draws, observations
-from .result import SummaryGap, open_figures, ranked, where
-from .trial import BOOTSTRAPS, Trial, misfit, ordered, p_of_the_best, scatter_of_kin
+from .candidates import extensions, plain_candidate
+from .draws import SEEDS, Array, Draws, Target, observations
+from .result import SummaryGap
+from .search import Bench
 
 PLAIN_DRAWS, PLAIN_CLOSELY = 32, 6
 ROBUST_DRAWS = 32
@@ -27,19 +29,20 @@ REPAIRED = 0.01  # lack of fit below which an extended model has not repaired th
 # difference of BIC (Kass & Raftery 1995: strong evidence) within which effects form a class
 APART = 6.0
 MOST_EFFECTS = 2
+BOOTSTRAPS = 999
 FIRST_ONE = slice(0, 1)
 
 
 @dataclass(frozen=True)
 class Found:
-    """An effect on top of a trial: all that were tried, the least BIC first, p of chance."""
+    """An effect on top of ``before``: all that were tried, the least BIC first, and p of chance."""
 
-    before: Trial
-    tried: tuple[Trial, ...]
+    before: Draws
+    tried: tuple[Draws, ...]
     p: float
 
     @property
-    def best(self) -> Trial:
+    def best(self) -> Draws:
         """The tried model of least BIC."""
         return self.tried[0]
 
@@ -95,51 +98,104 @@ def find_summary_gap(
     return replace(answer, fits_share=share, remarks=(*answer.remarks, line))
 
 
-def _plain(bench: Bench) -> Trial:
+def _plain(bench: Bench) -> Draws:
     """The model as it is; its first draw has friction as it is known."""
     candidate = plain_candidate(bench.campaign)
     draws = search.screening(bench, candidate, PLAIN_DRAWS)
     known, draws = bench.run(draws.take(FIRST_ONE), SEEDS - 1), draws.take(slice(1, None))
     if bench.smooth:
-        for start in ordered(draws, bench.target).shares[:2]:
+        for start in draws.ordered.shares[:2]:
             draws += search.polished(bench, candidate, start)
     draws = search.with_all_seeds(bench, draws, PLAIN_CLOSELY)
-    return Trial(candidate, known + draws, bench.target, scatter_of_kin(draws))
+    return replace(known + draws, kin=draws.with_own_scatter.kin)
 
 
-def _add(bench: Bench, before: Trial) -> Found:
+def _add(bench: Bench, before: Draws) -> Found:
     """Every effect on top of ``before``; those in the running searched to the end."""
     share = 1.0 if before.candidate.effects else NEAR_PLAIN[bench.smooth]
-    screened = []
-    for candidate in extensions(bench.campaign, before.candidate):
-        draws = search.screening(bench, candidate, search.FIRST, before.best, share)
-        screened.append((misfit(draws, bench.target).min(), candidate, draws))
-    screened.sort(key=lambda one: one[0])
-    tried = []
-    for place, (_, candidate, draws) in enumerate(screened):
-        draws = search.refined(bench, candidate, draws, place < IN_THE_RUNNING)
-        tried.append(_nested(candidate, draws, before))
+    screened = [
+        search.screening(bench, candidate, search.FIRST, before.best, share)
+        for candidate in extensions(bench.campaign, before.candidate)
+    ]
+    screened.sort(key=lambda draws: draws.misfit.min())
+    tried = [
+        _nested(search.refined(bench, draws, place < IN_THE_RUNNING), before)
+        for place, draws in enumerate(screened)
+    ]
     tried.sort(key=lambda trial: trial.bic)
     tried[0] = _with_ranges(bench, tried[0], before)
     tried.sort(key=lambda trial: trial.bic)
-    return Found(before, tuple(tried), p_of_the_best(before, tried, bench.seed))
+    return Found(before, tuple(tried), _p_of_the_best(before, tried, bench.seed))
 
 
-def _nested(candidate: Candidate, draws: Draws, before: Trial) -> Trial:
-    """The trial of ``candidate``; an effect may also be off, so it is never worse than without."""
-    every = draws + before.close.without_effect(candidate)
-    return Trial(candidate, every, before.target, scatter_of_kin(draws))
+def _nested(draws: Draws, before: Draws) -> Draws:
+    """The draws and more; an effect may also be off, so it is never worse than without."""
+    return draws.with_own_scatter + before.close.with_effect_off(draws.candidate)
 
 
-def _with_ranges(bench: Bench, trial: Trial, before: Trial) -> Trial:
+def _with_ranges(bench: Bench, trial: Draws, before: Draws) -> Draws:
     """The trial with more draws about its good ones: its intervals, and perhaps a better best."""
-    own = trial.draws.take(np.isfinite(trial.draws.shares).all(axis=1))
-    draws = search.widened(bench, trial.candidate, own, RANGE_DRAWS)
-    draws = search.with_all_seeds(bench, draws, SEEDS, kin=trial.kin)
-    return _nested(trial.candidate, draws, before)
+    own = trial.take(np.isfinite(trial.shares).all(axis=1))
+    draws = replace(search.widened(bench, own, RANGE_DRAWS), kin=trial.kin)
+    return _nested(search.with_all_seeds(bench, draws, SEEDS), before)
 
 
-def _share_that_fits(bench: Bench, trial: Trial) -> float:
+def _ranked(tried: Sequence[Draws], plain: Draws) -> tuple[Ranked, ...]:
+    """The best form of every effect, the least BIC first, of trials in that order."""
+    best: dict[str, Draws] = {}
+    for trial in tried:
+        best.setdefault(trial.candidate.effects[-1], trial)
+    weights = [math.exp(0.5 * (tried[0].bic - trial.bic)) for trial in best.values()]
+    fits = [trial.fitted() for trial in best.values()]
+    return tuple(
+        Ranked(
+            effect=effect,
+            form=trial.candidate.form,
+            evidence=0.5 * (plain.bic - trial.bic),
+            probability=weight / sum(weights),
+            gap=Score(fit.gap, fit.held_out_gap),
+            parameters=dict(fit.values),
+            intervals=trial.intervals(),
+        )
+        for (effect, trial), fit, weight in zip(best.items(), fits, weights, strict=True)
+    )
+
+
+def _p_of_the_best(plain: Draws, others: Sequence[Draws], seed: int) -> float:
+    """Probability, under the plain model, of an improvement like that of the best of ``others``.
+
+    A parametric bootstrap: figures are drawn from the plain model (its own scatter and the
+    observations' standard deviations), and everything that was drawn is fitted to them again, so
+    that choosing the best of many is part of what chance may do.
+    """
+    rng, target = np.random.default_rng(seed), plain.target
+    rows = plain.best.shown[0, : plain.best.seeds[0]]
+    before, after = _table([plain]), _table(others)
+
+    def gained(sizes: Array) -> float:
+        drawn = Target(sizes, target.sds)
+        plainly, extended = (
+            float((drawn.misfit(means, variances) + prices).min())
+            for means, variances, prices in (before, after)
+        )
+        return plainly - extended
+
+    found = gained(target.sizes)
+    as_good = 0
+    for _ in range(BOOTSTRAPS):
+        row = rows[rng.integers(len(rows))]
+        as_good += gained(row + target.sds * rng.standard_normal(len(row))) >= found
+    return (1 + as_good) / (1 + BOOTSTRAPS)
+
+
+def _table(trials: Sequence[Draws]) -> tuple[Array, Array, Array]:
+    """Of all draws of all trials: means (d, n), variances of a realisation (d, n), prices (d,)."""
+    means = np.concatenate([trial.mean for trial in trials])
+    variances = np.concatenate([trial.spread for trial in trials])
+    return means, variances, np.concatenate([t.surprise + t.price for t in trials])
+
+
+def _share_that_fits(bench: Bench, trial: Draws) -> float:
     """Of draws of friction as it is known, with the effect as found: the share that fits as well.
 
     As well: within twice the best gap. A small share says that the fit hangs on exact numbers.
@@ -151,23 +207,19 @@ def _share_that_fits(bench: Bench, trial: Trial) -> float:
     return float(np.mean(gaps <= 2.0 * bench.target.gap(trial.best.mean[0])))
 
 
-def _with_free_friction(bench: Bench, plain: Trial) -> Trial | None:
+def _with_free_friction(bench: Bench, plain: Draws) -> Draws | None:
     """The plain model with friction set free: would other coefficients do instead of an effect?"""
     candidate = plain.candidate.free
     if candidate == plain.candidate:
         return None
     draws = search.screening(bench, candidate, PLAIN_DRAWS)
-    good = ordered(draws, bench.target).take(slice(3))
-    draws += search.near(bench, candidate, good, PLAIN_DRAWS // 2)
-    draws = search.refined(bench, candidate, draws, running=False)
-    return Trial(candidate, draws, bench.target, scatter_of_kin(draws))
+    draws += search.near(bench, draws.ordered.take(slice(3)), PLAIN_DRAWS // 2)
+    return search.refined(bench, draws, running=False).with_own_scatter
 
 
-def _answer(bench: Bench, plain: Trial, free: Trial | None, found: Sequence[Found]) -> SummaryGap:
+def _answer(bench: Bench, plain: Draws, free: Draws | None, found: Sequence[Found]) -> SummaryGap:
     held = [one for one in found if one.holds]
-    extended = held[-1].best.fitted() if held else None
     before = plain.fitted()
-    after = extended or before
     verdict, effects, classes = _judge(plain, held)
     chance = {"p": 1.0, "draws": 0, "delta_bic": 0.0}
     if found:
@@ -180,18 +232,13 @@ def _answer(bench: Bench, plain: Trial, free: Trial | None, found: Sequence[Foun
         effects=effects,
         found=held[-1].best.candidate.effects if held else (),
         classes=classes,
-        where=where(bench.seen, before),
-        ranking=ranked(found[0].tried, plain) if found else (),
-        gap_before=(before.gap, before.held_out_gap),
-        gap_after=(after.gap, after.held_out_gap),
-        printed=plain.fitted(plain.draws.take(FIRST_ONE)),
+        ranking=_ranked(found[0].tried, plain) if found else (),
+        printed=plain.fitted(plain.take(FIRST_ONE)),
         plain=before,
-        extended=extended,
+        extended=held[-1].best.fitted() if held else None,
         chance=chance,
         determined={key: (before.values[key], *interval) for key, interval in intervals},
-        free_friction=free.fitted() if free else None,
-        not_felt=not_felt(bench.campaign),
-        open_figures=open_figures(bench.seen, after),
+        free_friction=free.fitted() if free is not None else None,
         remarks=_remarks(bench.campaign, found),
     )
 
@@ -208,7 +255,7 @@ def _remarks(campaign: Campaign, found: Sequence[Found]) -> tuple[str, ...]:
 
 
 def _judge(
-    plain: Trial, held: Sequence[Found]
+    plain: Draws, held: Sequence[Found]
 ) -> tuple[str, tuple[str, ...], tuple[tuple[str, ...], ...]]:
     """Verdict, effects, classes."""
     if plain.lack_of_fit >= FITS:

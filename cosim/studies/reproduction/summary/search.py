@@ -6,13 +6,20 @@ differentiated. All draws are kept, as a table, from which everything else is re
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+from functools import cached_property
+
 import numpy as np
 from scipy.optimize import least_squares
 from scipy.stats import qmc
 
+from cosim.gap.data import Campaign
+
 from .candidates import Candidate
-from .draws import SEEDS, Array, Bench, Draws
-from .trial import ENOUGH_SEEDS, WITHIN, misfit, ordered, scatter_of_kin
+from .draws import ENOUGH_SEEDS, SEEDS, WITHIN, Array, Draws, Observation, Target, predict
+from .models import Values
 
 FIRST, MORE = 12, 40  # draws of a model: to begin with, and where it is in the running
 CLOSELY = 6  # of them run with all seeds
@@ -20,6 +27,55 @@ DIFFERENCE, EDGE = 1e-3, 1e-3  # of shares: for a derivative, and from the end o
 MOST_STEPS = 25  # of the least squares
 OFF = 0.75  # share at which an effect of either sign is surely on
 STEP = 0.08  # standard deviation of a step about a good draw, as share of the range
+
+
+@dataclass(frozen=True)
+class Bench:
+    """Runs the campaign's model for draws, a few at a time.
+
+    seed: of the whole search; jobs: threads; step: called with the number of draws just done.
+    """
+
+    campaign: Campaign
+    seen: tuple[Observation, ...]
+    seed: int = 0
+    jobs: int = 2
+    step: Callable[[int], object] = lambda _count: None
+
+    @property
+    def smooth(self) -> bool:
+        """Do figures follow the numbers smoothly? Those of the study's scheme do not."""
+        return self.campaign.scheme == "exact"
+
+    @cached_property
+    def target(self) -> Target:
+        """What is to be met."""
+        return Target.of(self.seen)
+
+    def draw(self, candidate: Candidate, shares: Array) -> Draws:
+        """Draws (d, p) of a candidate, a seed each."""
+        return self.run(Draws.of(candidate, np.atleast_2d(shares), self.target))
+
+    def run(self, draws: Draws, seeds: int = 1) -> Draws:
+        """The draws with ``seeds`` more runs each."""
+        if not len(draws):
+            return draws
+        places = draws.seeds[:, None] + np.arange(seeds)
+        requests = [
+            (values, int(seed))
+            for values, row in zip(draws.values, self.seed + places, strict=True)
+            for seed in row
+        ]
+        with ThreadPoolExecutor(max_workers=self.jobs) as pool:
+            rows = list(pool.map(self._row, requests))
+        shown = draws.shown.copy()
+        shown[np.arange(len(draws))[:, None], places] = np.reshape(rows, (*places.shape, -1))
+        return replace(draws, shown=shown)
+
+    def _row(self, request: tuple[Values, int]) -> Array:
+        row = predict(self.campaign, self.seen, *request)
+        self.step(1)
+        return row
 
 
 def even_shares(candidate: Candidate, count: int, seed: int) -> Array:
@@ -45,11 +101,12 @@ def screening(
     return bench.draw(candidate, table)
 
 
-def near(bench: Bench, candidate: Candidate, good: Draws, count: int) -> Draws:
+def near(bench: Bench, good: Draws, count: int) -> Draws:
     """Draws about ``good`` ones, a seed each."""
     rng = np.random.default_rng(bench.seed + 1)
     centres = good.shares[np.arange(count) % len(good)]
-    return bench.draw(candidate, _inside(centres + STEP * rng.standard_normal(centres.shape)))
+    shares = _inside(centres + STEP * rng.standard_normal(centres.shape))
+    return bench.draw(good.candidate, shares)
 
 
 def _inside(shares: Array) -> Array:
@@ -73,43 +130,38 @@ def polished(bench: Bench, candidate: Candidate, start: Array) -> Draws:
     return bench.draw(candidate, found.x)
 
 
-def with_all_seeds(
-    bench: Bench, draws: Draws, count: int, seeds: int = SEEDS, kin: Array | float = 0.0
-) -> Draws:
+def with_all_seeds(bench: Bench, draws: Draws, count: int, seeds: int = SEEDS) -> Draws:
     """The table with the best ``count`` draws run with ``seeds``."""
-    order = ordered(draws, bench.target, kin)
+    order = draws.ordered
     again = (np.arange(len(order)) < count) & (order.seeds == 1)
     return bench.run(order.take(again), seeds - 1) + order.take(~again)
 
 
-def refined(bench: Bench, candidate: Candidate, draws: Draws, running: bool) -> Draws:
+def refined(bench: Bench, draws: Draws, running: bool) -> Draws:
     """The table after as much of a search as the model is worth."""
     if bench.smooth:
-        draws += polished(bench, candidate, ordered(draws, bench.target).shares[0])
+        draws += polished(bench, draws.candidate, draws.ordered.shares[0])
     elif running:
-        return _searched(bench, candidate, draws)
+        return _searched(bench, draws)
     return with_all_seeds(bench, draws, 2, ENOUGH_SEEDS)
 
 
-def _searched(bench: Bench, candidate: Candidate, draws: Draws) -> Draws:
+def _searched(bench: Bench, draws: Draws) -> Draws:
     """Draws of a model in the running and more: evenly, about the best, and closely."""
-    draws += bench.draw(candidate, even_shares(candidate, MORE // 2, bench.seed + 2))
-    good = ordered(draws, bench.target).take(slice(4))
-    draws += near(bench, candidate, good, MORE - MORE // 2)
-    draws = with_all_seeds(bench, draws, CLOSELY)
+    draws += bench.draw(draws.candidate, even_shares(draws.candidate, MORE // 2, bench.seed + 2))
+    draws += near(bench, draws.ordered.take(slice(4)), MORE - MORE // 2)
     # a second time with the model's own scatter, about the draws that hold for all seeds
-    own = scatter_of_kin(draws)
-    close = ordered(draws.take(draws.seeds > 1), bench.target, own).take(slice(2))
-    draws += near(bench, candidate, close, CLOSELY)
-    return with_all_seeds(bench, draws, CLOSELY, kin=own)
+    draws = with_all_seeds(bench, draws, CLOSELY).with_own_scatter
+    close = draws.take(draws.seeds > 1).ordered
+    draws += near(bench, close.take(slice(2)), CLOSELY)
+    return with_all_seeds(bench, draws, CLOSELY)
 
 
-def widened(bench: Bench, candidate: Candidate, draws: Draws, count: int) -> Draws:
+def widened(bench: Bench, draws: Draws, count: int) -> Draws:
     """``draws`` and more for ranges, a seed each, about all that are nearly as good as the best."""
-    own = scatter_of_kin(draws)
+    draws = draws.with_own_scatter
     for _ in range(2):
-        order = ordered(draws, bench.target, own)
-        off = misfit(order, bench.target, own)
-        good = order.take(off <= off[0] + WITHIN)
-        draws += near(bench, candidate, good, count // 2)
+        order = draws.ordered
+        good = order.take(order.misfit <= order.misfit[0] + WITHIN)
+        draws += near(bench, good, count // 2)
     return draws

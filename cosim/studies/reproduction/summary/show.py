@@ -64,8 +64,8 @@ def quantities(gap: SummaryGap) -> list[Quantity]:
     intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
     for row in gap.ranking:
         intervals |= row.intervals if row.effect in gap.found else {}
-    values = (gap.extended or gap.plain).values
-    return [quantity(key, value, intervals.get(key)) for key, value in values.items()]
+    values = gap.last.values.items()
+    return [quantity(key, value, intervals.get(key)) for key, value in values]
 
 
 def closing_lines(gap: SummaryGap) -> list[str]:
@@ -90,7 +90,7 @@ def model_text(gap: SummaryGap) -> str:
     if gap.campaign.scheme == "study":
         header.append("Fitted in the source study's scheme: the exact model moves otherwise on it.")
     tables = known_tables(gap.campaign, run)
-    put(tables, (gap.extended or gap.plain).values)
+    put(tables, gap.last.values)
     tables["initial"] = {"vx": run.surface_speed}
     tables["run"] = {"duration": SETTLING + WINDOW}
     return file_text(scenario_from(gap.campaign, tables), header)
@@ -115,11 +115,14 @@ def as_json(gap: SummaryGap, model: str) -> str:
     data: dict[str, Any] = {name: getattr(gap, name) for name in AS_IT_IS}
     data |= {
         "campaign": gap.campaign.name,
-        "gap": {end: _named(pair, "fit", "held_out") for end, pair in ends.items()},
+        "gap": {end: {"fit": fit, "held_out": held} for end, (fit, held) in ends.items()},
         "ranking": [ranked(row) for row in gap.ranking],
-        "determined": {k: _named(v, "value", "low", "high") for k, v in gap.determined.items()},
+        "determined": {
+            key: {"value": value, "low": low, "high": high}
+            for key, (value, low, high) in gap.determined.items()
+        },
         "observations": [
-            _named((one.name, one.figure, one.size, one.sd), "run", "figure", "value", "sd")
+            {"run": one.name, "figure": one.figure, "value": one.size, "sd": one.sd}
             for one in gap.observations
         ],
         "model": model,
@@ -129,10 +132,6 @@ def as_json(gap: SummaryGap, model: str) -> str:
         "remarks": _remarks(gap),
     }
     return json_text(tree(data))
-
-
-def _named(values: Sequence[object], *names: str) -> dict[str, object]:
-    return dict(zip(names, values, strict=True))
 
 
 def _remarks(gap: SummaryGap) -> list[str]:

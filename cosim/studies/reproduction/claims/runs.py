@@ -1,19 +1,50 @@
-"""C14: three runs in which the block jumps from slip to stick."""
+"""C12 and C14: what a run of the scheme costs, and runs that jump from slip to stick."""
 
 from __future__ import annotations
 
-from functools import cache
+import timeit
+from collections.abc import Callable
+from functools import cache, partial
+from statistics import median
+from typing import Any
 
 import numpy as np
-from stickslip.reference.linearised import SchemeRun
+from stickslip.reference.interpreted_scheme import interpreted_run
+from stickslip.reference.linearised import Scheme, SchemeRun
 from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
 from cosim.report.style import INK
 
-from ..cases import CASE, CYCLES, Case, exact_motion, longest, plan, scheme
-from ..claim import Claim, responsible
-from ..drawing import COLOURS, LABELS, Curve, Panel
-from ..sheet import Sheet
+from ..cases import CASE, CYCLES, DATASET_1, Case, exact_motion, longest, plan, scheme
+from ..claim import Claim, judges, responsible
+from ..drawing import COLOURS, LABELS, Curve, Panel, add_picture
+
+# one stick and one slip, then the next ones begin: what a script needs grows with the slips
+DURATION = 0.7
+WHOLE = 20.0
+COMPARED_CYCLES = 40  # the runs that the study compares
+KINDS = ("updated", "zero")
+
+
+def _seconds(call: Callable[[], object]) -> float:
+    return median(timeit.repeat(call, number=1, repeat=3))
+
+
+@judges("C12")
+def judge_run_times(claim: Claim) -> dict[str, Any]:
+    """What updating the spring angles costs: as a script, and compiled."""
+    plain = [Scheme(scatter=0.0, treatment=kind) for kind in KINDS]
+    updated, zero = (_seconds(partial(interpreted_run, DURATION, one)) for one in plain)
+    schemes = [scheme(DATASET_1, PRINTED, treatment=kind) for kind in KINDS]
+    compiled = [_seconds(partial(one.run, duration=WHOLE)) for one in schemes]
+    ratios = [updated / zero, compiled[0] / compiled[1]]
+    claim.row("updated", [COMPARED_CYCLES * updated / 60.0])
+    claim.row("zero", [COMPARED_CYCLES * zero])
+    claim.row("script", ratios[:1])
+    claim.row("compiled", [None, ratios[1]])
+    claim.check("ratio")
+    return {"ratios": ratios}
+
 
 NAMED = CASE.changed(stiffness=68.22, mass=2.03).over("speed", (0.50, 0.63, 0.82))
 # a block of 10 ms changes x' by at most 10 ms of the largest acceleration, omega v; a jump is more
@@ -56,24 +87,25 @@ def _exact_jumps(case: Case) -> int:
     return int(np.sum(np.abs(steps) > _threshold(case)))
 
 
-def judge() -> Claim:
+@judges("C14")
+def judge_jumps(claim: Claim) -> dict[str, Any]:
     """Jumps in the three named runs and in all runs of the study's plan."""
-    sheet, cases = Sheet("C14"), plan()
+    cases = plan()
     jumping, mended = _jumping(cases, PRINTED), len(_jumping(cases, MENDED))
     exact = sum(map(_exact_jumps, NAMED))
     for case in NAMED:
-        sheet.row("jumps", [jumps(case, PRINTED), jumps(case, MENDED), exact], v=case.speed)
-    sheet.row("runs", [len(jumping), mended, None], plan=len(cases))
+        claim.row("jumps", [jumps(case, PRINTED), jumps(case, MENDED), exact], v=case.speed)
+    claim.row("runs", [len(jumping), mended, None], plan=len(cases))
     some = len(jumping) > 0
-    sheet.check("anomaly", answers=[some, some and not mended, some and not exact], margin=exact)
+    claim.check("anomaly", answers=[some, some and not mended, some and not exact], margin=exact)
     for case in NAMED:
-        _check_named(sheet, case)
-    sheet.check("rare", [len(jumping)], plan=len(cases))
+        _check_named(claim, case)
+    claim.check("rare", [len(jumping)], plan=len(cases))
     with_r = _jumping(cases, PRINTED.without("F2"))
-    sheet.turn("with_r", len(with_r), named=sum(case in NAMED for case in with_r))
+    claim.turn("with_r", len(with_r), named=sum(case in NAMED for case in with_r))
     for part in (OTHER_WEAKENINGS[0], OTHER_WEAKENINGS[-1]):
         changed = [case.changed(weakening=part) for case in cases]
-        sheet.turn("plan_slope", len(_jumping(changed, PRINTED)), part=100.0 * part)
+        claim.turn("plan_slope", len(_jumping(changed, PRINTED)), part=100.0 * part)
     witnesses = jumping[:WITNESSES]
     faults = responsible(lambda faults: any(jumps(case, faults) for case in witnesses))
     printed, located, uncut = (
@@ -81,23 +113,18 @@ def judge() -> Claim:
         for one in (PRINTED, PRINTED.without("F6"), PRINTED.without("F14"))
     )
     models = zip((PRINTED, MENDED), LABELS, COLOURS, strict=False)
-    sheet.picture("C14_jump", [[_panel((jumping or NAMED)[-1], *model)] for model in models])
-    return sheet.claim(
-        n=len(witnesses),
-        faults=", ".join(faults) or "none",
-        plan=len(cases),
-        printed=printed,
-        located=located,
-        uncut=uncut,
-    )
+    panels = [[_panel((jumping or NAMED)[-1], *model)] for model in models]
+    add_picture(claim, "C14_jump", panels)
+    said = {"n": len(witnesses), "faults": ", ".join(faults) or "none", "plan": len(cases)}
+    return said | {"printed": printed, "located": located, "uncut": uncut}
 
 
-def _check_named(sheet: Sheet, case: Case) -> None:
+def _check_named(claim: Claim, case: Case) -> None:
     """A named run, and under laws of friction that the study's drawing cannot be told from."""
-    sheet.check("named", [jumps(case, PRINTED)], v=case.speed)
+    claim.check("named", [jumps(case, PRINTED)], v=case.speed)
     for other in case.over("weakening", OTHER_WEAKENINGS):
-        sheet.turn("slope", jumps(other, PRINTED), part=100.0 * other.weakening)
-    sheet.turn("located", jumps(case, PRINTED.without("F6")))
+        claim.turn("slope", jumps(other, PRINTED), part=100.0 * other.weakening)
+    claim.turn("located", jumps(case, PRINTED.without("F6")))
 
 
 def _panel(case: Case, faults: Faults, label: str, colour: str) -> Panel:
