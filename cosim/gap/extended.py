@@ -7,7 +7,7 @@ their laws, so that what is shown is the model that a unit would run.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -17,7 +17,7 @@ from stickslip.plugins.load import file_of
 from cosim.gap.data import Campaign
 from cosim.gap.laws import Context, FreeCurve, LawFit, free_curve, laws_of, scales_of
 from cosim.gap.weak_form.camera_faults import SMOOTHING
-from cosim.gap.weak_form.constants import CONTACT_DELAY, FAULT_SIZES, HARMONICS
+from cosim.gap.weak_form.constants import ALIKE, CONTACT_DELAY, FAULT_SIZES, HARMONICS
 from cosim.gap.weak_form.ladder import BY_SPEED, FALLS, Finding
 from cosim.gap.weak_form.rig_unknowns import (
     CONTACT,
@@ -80,9 +80,23 @@ class Part:
         """Id in the catalogue: of the law, where one of the user's own does better."""
         return self.fits[0].effect if self.fits else self.finding.name
 
+    def rivals(self, own: Collection[str]) -> list[str]:
+        """Other effects with a law of this curve: those nearly as probable, by e^3, and the user's.
 
-def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) -> Part:
-    """A finding's law and the numbers that are fitted of it; none where no effect stands for it."""
+        own : ids of the user's own effects; a kink of theirs is no smooth curve
+        """
+        most = self.fits[0].price + 2.0 * ALIKE if self.fits else 0.0
+        near = [fit.effect for fit in self.fits if fit.price < most or fit.effect in own]
+        return [effect for effect in dict.fromkeys(near) if effect != self.effect]
+
+
+def part_of(
+    campaign: Campaign, system: System, rung: Rung, finding: Finding, effect: str = ""
+) -> Part:
+    """A finding's law and the numbers that are fitted of it; none where no effect stands for it.
+
+    effect : id of the one whose law is taken; else that of the best, if it follows the curve
+    """
     if finding.numbers:
         return _across(finding)
     level = system.level
@@ -105,12 +119,15 @@ def part_of(campaign: Campaign, system: System, rung: Rung, finding: Finding) ->
     curve = free_curve(rung, finding, units.get(finding.name, of_level))
     if curve is None:
         return Part(finding, None, (), (), {})
-    context = Context(campaign, scales, {**unknown.settings, "mu_s": level.static}, _own(campaign))
+    context = Context(
+        campaign, scales, {**unknown.settings, "mu_s": level.static}, own_effects(campaign)
+    )
     fits = laws_of(finding.name, curve, context)
     if not fits:
         return Part(finding, curve, (), (), {})
+    fits.sort(key=lambda fit: bool(effect) and fit.effect != effect)
     best = fits[0]
-    if not best.follows and (points := _points(campaign, finding, curve, scales)):
+    if not (effect or best.follows) and (points := _points(campaign, finding, curve, scales)):
         return Part(finding, curve, tuple(fits), (), points)
     numbers, settings = _numbers(best)
     if finding.name in BY_SPEED:
@@ -181,7 +198,8 @@ def _shares(effect: str, settings: Mapping[str, float]) -> dict[str, float]:
     return {f"{effect}.static_{'absolute' if share == 1.0 else 'relative'}": 1.0}
 
 
-def _own(campaign: Campaign) -> frozenset[str]:
+def own_effects(campaign: Campaign) -> frozenset[str]:
+    """Ids of the effects of the user's own files."""
     return frozenset(effect.id for effect in campaign.catalogue.effects if file_of(effect))
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from cosim.gap.checks import blocking, doubts_of
 from cosim.gap.data import Campaign
-from cosim.gap.extended import Part, as_points, part_of
+from cosim.gap.extended import Part, as_points, own_effects, part_of
 from cosim.gap.judge import (
     EXPLAINED,
     NOTHING_MISSING,
@@ -194,8 +194,19 @@ class _Fitting:
     known: list[tuple[Models, bool]] = field(default_factory=list)
 
     def best_of(self, parts: list[Part], named: Named) -> tuple[list[Part], Models]:
-        """With laws that follow the curves, or with the curves where the runs ask for them."""
+        """With laws that follow the curves, or with the curves where the runs ask for them.
+
+        Where laws of two effects follow a curve, as one of the user's own and the catalogue's may,
+        it is the one with which runs come out better that no fit has seen.
+        """
         models = self._fitted(named, parts)
+        for part in parts:
+            for effect in part.rivals(own_effects(self.campaign)):
+                other = part_of(self.campaign, named.system, named.rung, part.finding, effect)
+                swapped = [other if one.finding is part.finding else one for one in parts]
+                others = self._fitted(named, swapped)
+                if judged(others.ladder[-1].gap) < judged(models.ladder[-1].gap):
+                    parts, models = swapped, others
         if not explains(models.ladder):  # a law may be near its curve, and not near enough
             points = [as_points(self.campaign, named.system, part) for part in parts]
             if points != parts:

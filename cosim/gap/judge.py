@@ -45,7 +45,7 @@ EXPLAINED = 1.3
 #: ln of a Bayes factor beyond which a finding is no slip of the contact's description: rows of
 #: foreign contacts (bristles, Iwan) have pretended up to 206.
 SURE = 500.0
-#: ln of a Bayes factor up to which a contact may have turned rows, and how many rivals are simulated
+#: ln of a Bayes factor up to which a contact may have turned rows; and how many rivals are tried.
 TURNED, RIVALS = 200.0, 3
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5

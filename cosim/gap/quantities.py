@@ -62,7 +62,8 @@ class Quantity:
     def holds(self, value: float) -> bool:
         """Whether a value in the unit shown is in the interval, to its digits."""
         low, high = (float(end.replace("−", "-")) for end in self.interval.split(" to "))
-        return low - 0.5 * (high - low) <= value <= high + 0.5 * (high - low)
+        digit = 0.02 * (high - low)
+        return low - digit <= value <= high + digit
 
     @property
     def text(self) -> str:

@@ -173,4 +173,4 @@ def _comment(key: str, value: Any, known: Quantity | None, catalogue: Catalogue)
         return said
     if known.interval and known.holds(value):
         return f"{said}; fitted, 90 %: {known.interval}"
-    return f"{said}; {known.value if not known.interval else 'of this run'}"
+    return f"{said}; {f'of this run, of all 90 %: {known.interval}' if known.interval else known.value}"

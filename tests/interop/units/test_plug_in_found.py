@@ -3,7 +3,6 @@
 import json
 from pathlib import Path
 
-import pytest
 from blind.campaign import draw_campaign
 from blind.writing import write_campaign
 from command_line import stickslip
@@ -13,7 +12,6 @@ EFFECT = Path(__file__).resolve().parents[2] / "examples" / "effects" / "flash_h
 SHORT = 601
 
 
-@pytest.mark.slow
 def test_it_is_named_and_the_model_that_has_it_is_a_scenario(tmp_path):
     room, answers, out = tmp_path / "room", tmp_path / "answers.json", tmp_path / "out"
     hidden = draw_campaign(8, "unknown", ["flash_heating"], (15.0, 40.0))
