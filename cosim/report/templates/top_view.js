@@ -193,8 +193,10 @@ live.each("top_view", (stage, data) => {
     (data.curvature ? drawSlab : drawBelt)(pose, at(travel, row, part));
     drawBlock(pose);
     drawWords();
-    said.textContent = `t = ${time.toFixed(2)} s, ${mode[row] ? "slip" : "stick"}; x = ${live.told(1e3 * pose.x, 3)} mm, ` +
-      `y = ${live.told(1e3 * pose.y, 3)} mm, φ = ${live.told(pose.phi * 180 / Math.PI, 3)}°`;
+    // of a millimetre and of a degree: less is rounding
+    const told = (value) => live.told(Math.abs(value) < 1e-6 ? 0 : value, 3);
+    said.textContent = `t = ${time.toFixed(2)} s, ${mode[row] ? "slip" : "stick"}; x = ${told(1e3 * pose.x)} mm, ` +
+      `y = ${told(1e3 * pose.y)} mm, φ = ${told(pose.phi * 180 / Math.PI)}°`;
   }
 
   stage.append(live.element("p", { class: "small" }, `${data.words}.`));
