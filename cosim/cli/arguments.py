@@ -92,6 +92,11 @@ COMMANDS = {
 OF_UNITS = ("run", "couple")
 #: As a FILE of --json: standard output.
 STDOUT = "-"
+#: Where folders of results go that are not named.
+RESULTS = "results"
+#: What --force allows, too.
+ANEW = ", and begin anew where an unfinished run could be resumed"
+EXAMPLE_TOO = ", or what is there of the example with other content"
 
 
 class Parser(argparse.ArgumentParser):
@@ -151,13 +156,8 @@ def add_run_arguments(command: argparse.ArgumentParser) -> None:
         "warm_friction; custom effects that it names execute Python",
     )
     add_set(command)
-    add_json(command)
-    add_output(
-        command,
-        "folder of the results; made when missing (default: results/NAME OF THE SCENARIO)",
-    )
     add_shown(command, " (later: stickslip plot DIR)")
-    add_force(command, ", and begin anew where an unfinished run could be resumed")
+    add_results(command, "results; made when missing", "NAME OF THE SCENARIO", anew=ANEW)
 
 
 def add_scenario(command: argparse.ArgumentParser, default: str) -> None:
@@ -183,6 +183,19 @@ def add_shown(command: argparse.ArgumentParser, later: str = "") -> None:
 def shown(arguments: argparse.Namespace) -> Shown:
     """As the command line says it."""
     return {"figures": arguments.figures, "page": not arguments.no_page}
+
+
+def add_results(command: argparse.ArgumentParser, holds: str, name: str, anew: str = "") -> None:
+    """`--json`, `-o` and `--force` of a command that leaves a folder of results.
+
+    holds: what is in it. name: its own in `results`, which the command finds where it says NAME.
+    anew: what else --force allows.
+    """
+    add_json(command)
+    default = f"{RESULTS}/{name}"
+    fixed = None if re.search("[A-Z]", name) else default
+    add_output(command, f"folder of {holds} (default: {default})", fixed)
+    add_force(command, anew)
 
 
 def add_output(command: argparse.ArgumentParser, said: str, default: str | None = None) -> None:

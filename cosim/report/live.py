@@ -12,7 +12,7 @@ from __future__ import annotations
 import base64
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -75,40 +75,49 @@ class Panel:
     thermometer: tuple[float, float] | None = None
 
 
-def over_time(
-    time: Array,
-    panels: Sequence[Panel],
-    *,
-    keep: NDArray[np.bool_] | None = None,
-    phases: Array | None = None,
-    phase: str = "",
-    marks: Sequence[tuple[float, str]] = (),
-    part: tuple[float, float, str] | None = None,
-    note: str = "",
-    columns: int = 1,
-    opens_at_part: bool = False,
-) -> Live:
-    """Panels over the time (n,) s, rising: with hover and zoom, all on one axis.
+@dataclass(frozen=True)
+class TimeFigure:
+    """Panels over the time (n,) s, rising: drawn by a page's scripts, see `live`, or by matplotlib,
+    see `style.draw_over_time`.
 
-    keep: rows (n,) that stay whatever is left out, as events. phases: begin and end (k, 2) s of
-    what is shaded, called ``phase``. marks: times with a word. part: begin, end (s) and name of a
-    part that is worth a look; opens_at_part: it is what is seen at first. note: a line below.
-    columns: panels beside each other where there is room.
+    keep: rows (n,) that stay whatever is left out of a page, as events. phases: begin and end
+    (k, 2) s of what is shaded, called ``phase``. marks: times with a word. part: begin, end (s) and
+    name of a part that is worth a look; opens_at_part: it is what is seen at first; own_scale: its
+    drawing has another scale than that of the whole. note: a line below. columns: panels beside
+    each other where there is room. title, height: of the drawing, and of its panels (inches).
     """
-    rows = thinned(time, [curve.values for panel in panels for curve in panel.curves], keep)
-    return {
-        "kind": "over_time",
-        "time": packed(time[rows], "f8"),
-        "panels": [_panel(panel, rows) for panel in panels],
-        "phases": packed(np.empty(0) if phases is None else phases, "f8"),
-        "phase": phase,
-        "marks": [list(mark) for mark in marks],
-        "part": part and list(part),
-        "opens_at_part": opens_at_part,
-        "note": note,
-        "columns": columns,
-        "rows": [int(rows.size), int(time.size)],
-    }
+
+    time: Array
+    panels: Sequence[Panel]
+    keep: NDArray[np.bool_] | None = None
+    phases: Array = field(default_factory=lambda: np.empty((0, 2)))
+    phase: str = ""
+    marks: Sequence[tuple[float, str]] = ()
+    part: tuple[float, float, str] | None = None
+    opens_at_part: bool = False
+    own_scale: bool = False
+    note: str = ""
+    columns: int = 1
+    title: str = ""
+    height: float = 1.9
+
+    def live(self) -> Live:
+        """With hover and zoom, all panels on one axis."""
+        curves = [curve.values for panel in self.panels for curve in panel.curves]
+        rows = thinned(self.time, curves, self.keep)
+        return {
+            "kind": "over_time",
+            "time": packed(self.time[rows], "f8"),
+            "panels": [_panel(panel, rows) for panel in self.panels],
+            "phases": packed(self.phases, "f8"),
+            "phase": self.phase,
+            "marks": [list(mark) for mark in self.marks],
+            "part": self.part and list(self.part),
+            "opens_at_part": self.opens_at_part,
+            "note": self.note,
+            "columns": self.columns,
+            "rows": [int(rows.size), int(self.time.size)],
+        }
 
 
 def several(figures: Mapping[str, Live]) -> Live:
@@ -224,7 +233,8 @@ def _figure(group: Sequence[Axes], labels: dict[str, str], rows: dict[float, str
         label = axes.get_ylabel() or rows[round(axes.get_position().y0, 6)]
         own = [_series(line, labels, label) for line in axes.lines if _is_curve(axes, line)]
         panels.append((Panel(_with_brackets(label), [], levels=_levels(axes)), own))
-    return over_time(*panels_on_one_axis(panels, group[0].get_xlim()), marks=_marks(group[0]))
+    seen = panels_on_one_axis(panels, group[0].get_xlim())
+    return TimeFigure(*seen, marks=_marks(group[0])).live()
 
 
 def _is_curve(axes: Axes, line: Line2D) -> bool:

@@ -5,8 +5,9 @@ content. Beside its own values it has ``figure(picture)`` and the filters ``numb
 
 A picture with ``live`` is drawn by the scripts in `templates/`, to hover over, to zoom or to play;
 others are PNGs. The scripts are in the page, plain and readable, and so is uPlot (MIT licence, in
-`templates/uplot`), which draws the curves: a page asks for nothing outside. Wide tables scroll by
-themselves, so that a page never does sideways.
+`templates/uplot`), which draws the curves: a page asks for nothing outside. A table
+scrolls by itself, so that a page never does sideways; one of class `listed` is a list where the
+window is narrow, its words behind their heads.
 """
 
 from __future__ import annotations
@@ -75,7 +76,7 @@ def render(template: str, package: str, **values: Any) -> str:
         return figure(picture, alt)
 
     found = _environment(package).get_template(template)
-    return _scrolling(found.render(**values, figure=drawn, scripts=lambda: _scripts(kinds)))
+    return found.render(**values, figure=drawn, scripts=lambda: _scripts(kinds))
 
 
 def _scripts(kinds: set[str]) -> Markup:
@@ -94,40 +95,6 @@ def asset(file: str) -> str:
     if file == UPLOT:
         return f"/*\n{asset(ITS_LICENCE)}*/\n{text.replace(ITS_HOME, '')}"
     return text
-
-
-#: A table by itself, not the only thing in a box that scrolls already.
-_TABLE = re.compile(r'(?<!<div class="wide">)(?<!<div class="wide">\n)(<table\b.*?</table>)', re.S)
-
-
-#: A table that is a list where the window is narrow, and what is told of its cells.
-_LISTED = re.compile(r'<table class="listed">.*?</table>', re.S)
-_HEAD, _ROW = (
-    re.compile(r"<th\b[^>]*>(.*?)</th>", re.S),
-    re.compile(r"<tr>(?:(?!<th).)*?</tr>", re.S),
-)
-
-
-def _scrolling(html: str) -> str:
-    """The page with every table in a box of its own that scrolls where the window is narrow."""
-    return _TABLE.sub(r'<div class="wide">\1</div>', _LISTED.sub(_with_heads, html))
-
-
-def _with_heads(table: re.Match[str]) -> str:
-    """A table whose cells know what stands above them, but for the first."""
-    heads = [Markup(head).striptags() for head in _HEAD.findall(table[0])]
-
-    def row(found: re.Match[str]) -> str:
-        begin, *cells = re.split(r"(?=<td)", found[0])
-        if len(cells) != len(heads):  # some go over several columns
-            return found[0]
-        told = (
-            cell.replace("<td", f'<td data-head="{Markup.escape(head)}"', 1)
-            for head, cell in zip(heads[1:], cells[1:], strict=True)
-        )
-        return "".join([begin, cells[0], *told])
-
-    return _ROW.sub(row, table[0])
 
 
 @cache

@@ -14,7 +14,7 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.collections import QuadMesh
+from matplotlib.collections import PolyCollection, QuadMesh
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -22,7 +22,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter, StrMet
 from numpy.typing import NDArray
 from PIL import Image
 
-from .live import Live, Panel
+from .live import Live, Panel, TimeFigure
 from .page import DPI, Picture, unit_text
 
 if TYPE_CHECKING:
@@ -246,37 +246,132 @@ def line(axes: Axes, x: Array, y: Array, **options: Any) -> None:
     axes.plot(x, y, marker="o" if np.size(x) < 3 else "", **options)
 
 
-#: Letters of a panel's title; a longer one has the unit's name on a line of its own.
-LONGEST_TITLE = 42
-#: Letters of a line below a figure.
-LONGEST_LINE = 130
+#: Letters of a panel's label that stand upright beside it; more stand above it, and of still more
+#: the unit's name in a line of its own.
+BESIDE, LONGEST_TITLE = 24, 42
+#: Letters of a line below a figure; entries of a legend beside each other, and of longer ones.
+LONGEST_LINE, MOST_IN_A_ROW, LONG_IN_A_ROW = 130, 6, 2
 
 
 @styled
-def panels_over_time(
-    time: Array, shown: Sequence[Panel], note: str = "", columns: int = 1
-) -> Figure:
-    """Panels over one time (n,), s, each below its label, and a line of text below all."""
-    rows = -(-len(shown) // columns)
-    figure, axes = panels(rows, columns, height=1.9, width=10.5, sharex=True)
+def draw_over_time(shown: TimeFigure) -> Figure:
+    """Its panels; where a part is worth a look, that part enlarged beside each."""
+    count, columns = len(shown.panels), 2 if shown.part else shown.columns
+    rows = count if shown.part else -(-count // columns)
+    figure = Figure(figsize=(11.0, 0.9 + shown.height * rows), layout="constrained")
+    axes = figure.subplots(
+        max(rows, 1),
+        columns,
+        squeeze=False,
+        sharex="col",
+        sharey="row" if shown.part and not shown.own_scale else False,
+        width_ratios=[1.6, 1.0] if shown.part else None,
+    )
+    for panel, row in zip(shown.panels, axes if shown.part else axes.reshape(-1, 1), strict=False):
+        for ax in row:
+            plain_ticks(ax)
+            if panel.shaded:
+                _shade(ax, shown.phases)
+            draw_panel(ax, shown.time, panel)
+        _set_limits(row, shown, panel)
+        _label(row[0], panel.label, shown.columns > 1)
+        if panel.thermometer:
+            _thermometer(row[-1], *panel.thermometer)
+    filled = axes.size if shown.part else count
     for place, ax in enumerate(axes.flat):
-        if place >= len(shown):
-            ax.set_visible(False)
-            continue
-        panel = shown[place]
-        plain_ticks(ax)
-        draw_panel(ax, time, panel)
-        is_long = len(panel.label) > LONGEST_TITLE
-        title = panel.label.replace(".", ".\n", 1) if is_long else panel.label
-        ax.set_title(title, fontsize=9)
-        if place + columns >= len(shown):
+        ax.set_visible(place < filled)
+        if place + columns >= filled:
             ax.set_xlabel("time [s]")
             ax.tick_params(labelbottom=True)
-    if handles := curve_handles(shown):
-        figure.legend(handles=handles, loc="outside lower center", ncols=2)
-    if note:
-        figure.supxlabel(textwrap.fill(note, LONGEST_LINE), x=0.008, ha="left", fontsize=9)
+    _say_around(figure, axes, shown)
     return figure
+
+
+def _say_around(figure: Figure, axes: NDArray[Any], shown: TimeFigure) -> None:
+    """Title, words of marks and of the part, legend, note."""
+    figure.align_ylabels(axes[:, 0])
+    if shown.title:
+        figure.suptitle(shown.title, x=0.008, ha="left", color=INK)
+    if shown.part:
+        axes[0, 1].set_title(shown.part[2])
+    for time, words in shown.marks:
+        axes[0, 0].annotate(
+            words,
+            (time, 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(0, 2),
+            textcoords="offset points",
+            ha="center",
+            va="bottom",
+            fontsize=9,
+        )
+    handles = _curve_handles(shown.panels)
+    if shown.phase:
+        handles.append(Patch(facecolor=SLIP, edgecolor="none", label=shown.phase))
+    if handles:
+        is_long = max(len(str(handle.get_label())) for handle in handles) > LONGEST_TITLE
+        beside = min(len(handles), LONG_IN_A_ROW if is_long else MOST_IN_A_ROW)
+        place: Any = "outside upper right" if len(handles) < 3 else "outside lower center"
+        figure.legend(handles=handles, loc=place, ncols=beside)
+    if shown.note:
+        figure.supxlabel(textwrap.fill(shown.note, LONGEST_LINE), x=0.008, ha="left", fontsize=9)
+
+
+def _set_limits(row: Sequence[Axes], shown: TimeFigure, panel: Panel) -> None:
+    """All time, with its marks, and the part, whose scale is its own where that is asked for."""
+    ends = (shown.time[0], shown.time[-1]) if shown.time.size else (0.0, 0.0)
+    margin = 0.0 if ends[1] > ends[0] else 0.5
+    row[0].set_xlim(ends[0] - margin, ends[1] + margin)
+    for time, _ in shown.marks:
+        row[0].axvline(time, color=INK, linewidth=0.9, linestyle=":")
+    if shown.part:
+        row[1].set_xlim(*shown.part[:2])
+        if shown.own_scale:
+            _fit_to_part(row[1], shown.time, panel)
+
+
+def _label(axes: Axes, label: str, above: bool) -> None:
+    if above or len(label) > BESIDE:
+        is_long = len(label) > LONGEST_TITLE
+        axes.set_title(label.replace(".", ".\n", 1) if is_long else label, fontsize=9)
+    else:
+        axes.set_ylabel(label)
+
+
+def _shade(axes: Axes, phases: Array) -> None:
+    """Phases (k, 2) s as one collection behind the lines, over the full height."""
+    begin, end = phases.T
+    corners = np.stack([begin, end, end, begin], axis=1)
+    heights = np.broadcast_to([0.0, 0.0, 1.0, 1.0], corners.shape)
+    bars = PolyCollection(
+        list(np.stack([corners, heights], axis=2)),
+        facecolor=SLIP,
+        edgecolor="none",
+        transform=axes.get_xaxis_transform(),
+        zorder=0.1,
+        # phases narrower than a pixel then tint it by their share instead of all or nothing
+        snap=False,
+    )
+    axes.add_collection(bars, autolim=False)
+
+
+def _thermometer(axes: Axes, ambient: float, factor: float) -> None:
+    """A second scale in degC beside an axis that shows the rise, factor times K."""
+    right = axes.secondary_yaxis(
+        "right",
+        functions=(
+            lambda rise: ambient + np.asarray(rise) / factor,
+            lambda degC: (np.asarray(degC) - ambient) * factor,
+        ),
+    )
+    in_full(right.yaxis)
+    right.set_ylabel("temperature [°C]")
+    right.spines["right"].set_visible(True)
+
+
+def picture_over_time(name: str, caption: str, alt: str, shown: TimeFigure) -> Picture:
+    """A figure over time for a page, and as a drawing."""
+    return Picture(name, caption, lambda: png(draw_over_time(shown)), alt, shown.live())
 
 
 def draw_panel(axes: Axes, time: Array, panel: Panel) -> None:
@@ -323,7 +418,7 @@ def _draw_levels(axes: Axes, levels: Sequence[tuple[float, str]]) -> None:
         )
 
 
-def fit_to_part(axes: Axes, time: Array, panel: Panel) -> None:
+def _fit_to_part(axes: Axes, time: Array, panel: Panel) -> None:
     """The scale of an enlarged part from what is seen in it."""
     low, high = axes.get_xlim()
     seen = (time >= low) & (time <= high)
@@ -335,7 +430,7 @@ def fit_to_part(axes: Axes, time: Array, panel: Panel) -> None:
         axes.set_ylim(0.0 if panel.from_zero else bottom - margin, top + margin)
 
 
-def curve_handles(shown: Sequence[Panel]) -> list[Artist]:
+def _curve_handles(shown: Sequence[Panel]) -> list[Artist]:
     """For a legend: curves by name, each once, of the panels that have several."""
     curves = {
         curve.label: curve
@@ -346,7 +441,12 @@ def curve_handles(shown: Sequence[Panel]) -> list[Artist]:
         Patch(facecolor=curve.colour, label=curve.label)
         if curve.fill
         else Line2D(
-            [], [], color=curve.colour, label=curve.label, dashes=(3, 2) if curve.dash else (1, 0)
+            [],
+            [],
+            color=curve.colour,
+            label=curve.label,
+            linewidth=curve.width,
+            dashes=(3, 2) if curve.dash else (1, 0),
         )
         for curve in reversed(curves.values())
     ]

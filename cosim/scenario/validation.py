@@ -103,7 +103,8 @@ def describe_faults(report: ValidationError, model: type[BaseModel]) -> str:
         loc = fault["loc"]
         place = loc[:2] if _is_of_a_table(loc, keys) else loc[:1]
         faults.setdefault(".".join(map(str, place)), []).append(fault)
-    key, first = next(iter(faults.items()))
+    # a key that is missing may be there, and spelled wrong
+    key, first = min(faults.items(), key=lambda each: each[1][0]["type"] == "missing")
     line = _describe(key, first, keys)
     others = len(faults) - 1
     return line + (f" (and {others} more fault{'s' * (others > 1)})" if others else "")
@@ -118,14 +119,13 @@ def _is_of_a_table(loc: tuple[Any, ...], keys: Mapping[str, FieldInfo]) -> bool:
 
 def _describe(key: str, faults: list[Fault], keys: dict[str, FieldInfo]) -> str:
     fault = faults[0]
-    table = _table_of_list(fault["loc"], keys)
-    if table is not None:
-        *_, number, entry = fault["loc"]
-        if fault["type"] == "missing":
-            needed = allowed(entry, known_keys(table)[entry])
-            return f"{key}[{number + 1}].{entry}: missing, needed is {needed}"
-        inner = _describe(entry, [{**fault, "loc": (entry,)}], known_keys(table))
-        return f"{key}[{number + 1}].{inner}"
+    if (within := _inner_table(fault["loc"], keys)) is not None:
+        place, table, rest = within
+        inner = _describe(str(rest[0]), [{**fault, "loc": rest}], known_keys(table))
+        return f"{place}.{inner}"
+    if fault["type"] == "missing" and fault["loc"][-1] == key:
+        about = f" ({keys[key].description})" if keys[key].description else ""
+        return f"{key}: missing, needed is {allowed(key, keys[key])}{about}"
     if fault["type"] == "value_error":
         return _of_several_keys(key, str(fault["ctx"]["error"]), keys)
     if fault["type"] == "extra_forbidden":
@@ -134,12 +134,18 @@ def _describe(key: str, faults: list[Fault], keys: dict[str, FieldInfo]) -> str:
     return f"{key}: {wrong} ({_shown(fault['input'])}), allowed is {allowed(key, keys[key])}"
 
 
-def _table_of_list(loc: tuple[Any, ...], keys: dict[str, FieldInfo]) -> type[BaseModel] | None:
-    """The kind of table when `block.key.number.entry` is an entry of a list's table."""
-    field = keys.get(".".join(map(str, loc[:2])))
-    if len(loc) != 4 or field is None or get_origin(field.annotation) is not tuple:
-        return None
-    return _table(get_args(field.annotation)[0])
+def _inner_table(
+    loc: tuple[Any, ...], keys: dict[str, FieldInfo]
+) -> tuple[str, type[BaseModel], tuple[Any, ...]] | None:
+    """Place and kind of the table of a list, or by a free name, that a fault is in; the rest."""
+    for depth in (1, 2):
+        key = ".".join(map(str, loc[:depth]))
+        kind = keys[key].annotation if key in keys and len(loc) > depth + 1 else None
+        if get_origin(kind) is tuple and (table := _table(get_args(kind)[0])) is not None:
+            return f"{key}[{loc[depth] + 1}]", table, loc[depth + 1 :]
+        if get_origin(kind) is dict and (table := _table(get_args(kind)[1])) is not None:
+            return f"{key}.{loc[depth]}", table, loc[depth + 1 :]
+    return None
 
 
 def _of_several_keys(table: str, message: str, keys: dict[str, FieldInfo]) -> str:
@@ -189,6 +195,8 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
         return f"{number} {' and '.join(bounds)}".rstrip() + unit
     if kind is bool:
         return "true or false"
+    if kind is Any:
+        return "a value"
     if kind is str and not any(getattr(bound, "pattern", None) for bound in metadata):
         return "a text"
     if kind is str:
@@ -197,6 +205,8 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
         return " or ".join(f'"{choice}"' for choice in get_args(kind))
     if get_origin(kind) is tuple:
         return _allowed_list(get_args(kind), unit)
+    if get_origin(kind) is dict and _table(get_args(kind)[1]) is not None:
+        return "a table of tables"
     if get_origin(kind) is dict:
         return f"a table of names, each with {_allowed_type(get_args(kind)[1], (), unit)}"
     parts = get_args(kind)

@@ -59,7 +59,7 @@ class Run(Table):
     def _has_a_length(self) -> Self:
         if self.stop <= self.start:
             raise ValueError(
-                f"stop: {self.stop:g} s, allowed is a time after run.start = {self.start:g} s"
+                f"stop = {self.stop:g} s, allowed is a time after run.start = {self.start:g} s"
             )
         return self
 

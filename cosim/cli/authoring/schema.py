@@ -52,11 +52,15 @@ def execute(arguments: Namespace) -> int:
 
 
 def _schema(kind: str) -> dict[str, Any]:
-    from cosim.scenario.json_schema import scenario_schema
+    from cosim.scenario.json_schema import scenario_schema, schema_of
 
     if kind == "scenario":
         return scenario_schema()
-    return _system_schema() if kind == "system" else _campaign_schema(kind)
+    if kind == "system":
+        from cosim.systems.toml_file import System
+
+        return schema_of(System, "a system of stickslip")
+    return _campaign_schema(kind)
 
 
 def _campaign_schema(kind: str) -> dict[str, Any]:
@@ -71,31 +75,4 @@ def _campaign_schema(kind: str) -> dict[str, Any]:
     whole = create_model("Campaign", __base__=CampaignTable, run=runs)
     schema = schema_of(whole, f"a {kind} of stickslip")
     schema["$defs"][run.__name__]["required"] = ["mass", "stiffness", "surface_speed"]
-    return schema
-
-
-def _system_schema() -> dict[str, Any]:
-    """A system of units; of their values the units themselves know what they may be."""
-    from pydantic import Field, create_model
-    from stickslip.quantity import Table
-
-    from cosim.scenario.json_schema import schema_of
-    from cosim.systems.settings import Coupling, Run
-    from cosim.systems.toml_file import VALUES, ConnectionTable, Unit
-
-    values: dict[str, Any] = {
-        name: (dict[str, Any], Field({}, description="variable of the unit -> value"))
-        for name in VALUES
-    }
-    unit: Any = create_model("UnitOfSystem", __base__=Unit, **values)
-    tables: dict[str, Any] = {
-        "name": (str, Field("", description="of the system", max_length=100)),
-        "units": (dict[str, unit], Field(description="a table [units.NAME] for every unit")),
-        "connections": (tuple[ConnectionTable, ...], ()),
-        "residuals": (tuple[str, ...], Field((), description="unit.port that should stay 0")),
-        "coupling": (Coupling, Coupling()),
-        "run": (Run, Run()),
-    }
-    schema = schema_of(create_model("System", __base__=Table, **tables), "a system of stickslip")
-    schema["properties"]["units"]["minProperties"] = 1
     return schema

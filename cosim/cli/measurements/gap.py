@@ -10,7 +10,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, Failed
-from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
+from cosim.cli.arguments import EXAMPLE_TOO, RESULTS, STDOUT, add_results
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import numbers_asked
@@ -45,13 +45,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         'over the sliding speed, measured by itself: [friction] table = "mu_v.csv" (columns v in '
         "m/s and mu), which the model sets out from in place of mu_k",
     )
-    add_output(
-        parser,
-        f"folder of {PAGE}, figures, {MODEL} and {RESULT} (default: results/NAME OF THE "
-        "CAMPAIGN-gap)",
-    )
-    add_force(parser, ", or what is there of the example with other content")
-    add_json(parser)
+    holds = f"{PAGE}, figures, {MODEL} and {RESULT}"
+    add_results(parser, holds, "NAME OF THE CAMPAIGN-gap", anew=EXAMPLE_TOO)
     parser.add_argument(
         "--write-example",
         metavar="DIR",
@@ -93,7 +88,7 @@ def execute(arguments: Namespace) -> int:
     campaign = read_campaign(source)
     with held_interrupts():
         files = import_module(SHOW_SUMMARY if _has_no_tracks(campaign) else SHOW)
-    place = arguments.output or Path("results") / f"{files.safe_name(campaign.name)}-gap"
+    place = arguments.output or Path(RESULTS) / f"{files.safe_name(campaign.name)}-gap"
     folder = own_folder(place, (RESULT, MODEL, PAGE), arguments.force)
     asked = numbers_asked(arguments, KEYS)
     for remark in (*campaign.remarks, *_blocking(campaign)):

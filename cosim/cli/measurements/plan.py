@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from cosim.cli import DONE, Failed
-from cosim.cli.arguments import STDOUT, add_force, add_json, add_output
+from cosim.cli.arguments import EXAMPLE_TOO, RESULTS, STDOUT, add_results
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import numbers_asked
@@ -35,9 +35,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         'run and tried like those of the catalogue; [friction] table = "mu_v.csv" (columns v in '
         "m/s and mu) is friction over the sliding speed, in place of mu_k",
     )
-    add_output(parser, f"folder of {PAGE}, figures and {RESULT} (default: results/NAME-plan)")
-    add_force(parser, ", or what is there of the example with other content")
-    add_json(parser)
+    add_results(parser, f"{PAGE}, figures and {RESULT}", "NAME-plan", anew=EXAMPLE_TOO)
     parser.add_argument(
         "--write-example",
         metavar="DIR",
@@ -70,7 +68,7 @@ def execute(arguments: Namespace) -> int:
         plan, data = import_module("cosim.gap.plan"), import_module("cosim.gap.plan.data")
         safe_name = import_module("cosim.gap.show.model_file").safe_name
     planned = plan.read_plan(arguments.campaign)
-    place = arguments.output or Path("results") / f"{safe_name(planned.campaign.name)}-plan"
+    place = arguments.output or Path(RESULTS) / f"{safe_name(planned.campaign.name)}-plan"
     folder = own_folder(place, (RESULT, PAGE), arguments.force)
     asked = numbers_asked(arguments, KEYS)
     for remark in planned.campaign.remarks:

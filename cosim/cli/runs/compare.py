@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cosim.cli import DONE
-from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.cli.arguments import RESULTS, add_results
 from cosim.cli.numbers import numbers_asked
 from cosim.files import write_bytes, write_text
 from cosim.manifest import made_by, own_folder, results_in
@@ -41,9 +41,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         action="store_true",
         help="run scenarios coupled to the heat in belt and ice, not the mechanics alone",
     )
-    add_json(parser)
-    add_output(parser, "folder of page, numbers and figures (default: results/A-and-B)")
-    add_force(parser)
+    add_results(parser, "page, numbers and figures", "A-and-B")
 
 
 def execute(arguments: Namespace) -> int:
@@ -53,7 +51,7 @@ def execute(arguments: Namespace) -> int:
 
     numbers = numbers_asked(arguments, ("a", "b", "numbers"))
     both = compare(*_results(arguments))
-    place = arguments.output or Path("results") / _named(both)
+    place = arguments.output or Path(RESULTS) / _named(both)
     folder = own_folder(place, (RESULT, PAGE), arguments.force)
     made = made_by(a=both.a.place, b=both.b.place)
     with results_in(folder, made, force=arguments.force) as results:

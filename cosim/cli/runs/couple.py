@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, FAILED, BadInput
-from cosim.cli.arguments import add_force, add_json, add_output, add_set, add_shown, shown
+from cosim.cli.arguments import ANEW, RESULTS, add_results, add_set, add_shown, shown
 from cosim.cli.numbers import Numbers, numbers_asked
 
 if TYPE_CHECKING:
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
 EXAMPLE = "stickslip couple StickSlipThermal.ssp --set coupling.macro_step=0.01 -o results/pair"
 IMPORTS = ("cosim.cli.runs.run_io", "cosim.systems.show")
-RESULTS = "results"
 #: By which keys the JSON of a system is known.
 KEYS = ("name", "status", "coupling")
 
@@ -47,10 +46,8 @@ def add_arguments(parser: ArgumentParser) -> None:
         " (run.checkpoint_seconds says how often there is one). Units are code: those of SYSTEM are"
         " run, and none that DIR alone names",
     )
-    add_json(parser)
     add_shown(parser)
-    add_output(parser, "folder of the results; made when missing (default: results/NAME)")
-    add_force(parser, ", and begin anew where an unfinished run could be resumed")
+    add_results(parser, "results; made when missing", "NAME", anew=ANEW)
 
 
 def _resume(system: str, results: Path) -> str:

@@ -14,6 +14,7 @@ from stickslip.steady_motion import Interface, assess
 from stickslip.steady_motion.assessment import MOST_STEPS
 
 from cosim.cli import DONE, FAILED
+from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import NOT_ASKED, Numbers
@@ -34,7 +35,6 @@ from cosim.scenario.durations import in_words
 from cosim.scenario.units import doubted
 from cosim.scenario.work import WORTH_SAYING
 
-RESULTS = "results"
 RESULT_FILES = ("result.nc", "result.csv", "summary.json", "report.html", LOG)
 #: By which keys the JSON of a run is known.
 KEYS = ("name", "case", "status", "scenario")

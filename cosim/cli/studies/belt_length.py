@@ -12,7 +12,7 @@ from functools import partial
 from pathlib import Path
 
 from cosim.cli import DONE, FAILED, BadInput
-from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.arguments import add_results, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
@@ -148,13 +148,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         default=os.cpu_count() or 1,
         help="processes (default: all cores)",
     )
-    add_json(parser)
-    add_output(
-        parser,
-        "folder of table, numbers and figures (default: results/belt-length)",
-        default="results/belt-length",
-    )
-    add_force(parser)
+    add_results(parser, "table, numbers and figures", "belt-length")
 
 
 def _add_protocol(parser: ArgumentParser) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from cosim.cli import DONE
-from cosim.cli.arguments import add_force, add_json, add_output, add_scenario, add_set
+from cosim.cli.arguments import add_results, add_scenario, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
@@ -55,13 +55,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         help="length of each coupled run, s (default: 2)",
     )
     add_set(parser)
-    add_json(parser)
-    add_output(
-        parser,
-        "folder of table, numbers, figure and page (default: results/friction-map)",
-        default="results/friction-map",
-    )
-    add_force(parser)
+    add_results(parser, "table, numbers, figure and page", "friction-map")
 
 
 def execute(arguments: Namespace) -> int:

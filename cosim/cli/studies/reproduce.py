@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_force, add_json, add_output
+from cosim.cli.arguments import add_results
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.files import write_bytes, write_text
@@ -28,13 +28,7 @@ RESULT, PAGE = "reproduction.json", "report.html"
 def add_arguments(parser: ArgumentParser) -> None:
     """The arguments of the command."""
     parser.add_argument("claims", metavar="CLAIM", nargs="*", help="C1 to C18 (default: all)")
-    add_json(parser)
-    add_output(
-        parser,
-        "folder of report, figures and numbers (default: results/reproduction)",
-        default="results/reproduction",
-    )
-    add_force(parser)
+    add_results(parser, "report, figures and numbers", "reproduction")
 
 
 def execute(arguments: Namespace) -> int:

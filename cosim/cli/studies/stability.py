@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_force, add_json, add_output, add_scenario, add_set
+from cosim.cli.arguments import add_results, add_scenario, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
@@ -50,13 +50,7 @@ def add_arguments(parser: ArgumentParser) -> None:
         " ratio: mu_s/mu_k at the scenario's mu_k",
     )
     add_set(parser)
-    add_json(parser)
-    add_output(
-        parser,
-        "folder of page, numbers and figures (default: results/stability)",
-        default="results/stability",
-    )
-    add_force(parser)
+    add_results(parser, "page, numbers and figures", "stability")
 
 
 def execute(arguments: Namespace) -> int:

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_force, add_json, add_output, add_set
+from cosim.cli.arguments import RESULTS, add_results, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
@@ -86,13 +86,11 @@ def add_arguments(parser: ArgumentParser) -> None:
     where.add_argument(
         "--dask", metavar="ADDRESS", help="run on the Dask cluster whose scheduler is there"
     )
-    add_json(parser)
-    add_output(
+    add_results(
         parser,
-        "folder of the results (default: results/NAME OF THE SCENARIO-sweep); combinations "
-        "that are finished there are not run again",
+        "results, in which combinations that are finished are not run again",
+        "NAME OF THE SCENARIO-sweep",
     )
-    add_force(parser)
 
 
 def execute(arguments: Namespace) -> int:
@@ -107,7 +105,7 @@ def execute(arguments: Namespace) -> int:
     grids = _grids(arguments, scenario)
     run = _run_of(grids[""], scenario)
     check_shown(arguments.show, run.features)
-    folder = Path(arguments.output or Path("results") / f"{scenario.name}-sweep")
+    folder = Path(arguments.output or Path(RESULTS) / f"{scenario.name}-sweep")
     not_taken(folder, OWN)
     require_own(folder, OWN, arguments.force)
     if _is_coupled(grids[""]) and arguments.dask is None:

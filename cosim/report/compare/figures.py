@@ -7,23 +7,21 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosim.report.contents import break_aways
 from cosim.report.figures.events import through_events
-from cosim.report.live import Curve, Panel, over_time, panels_on_one_axis
+from cosim.report.live import Curve, Panel, TimeFigure, panels_on_one_axis
 from cosim.report.live import Series as CurveInTime
 from cosim.report.page import Picture
 from cosim.report.quantities import ROUNDING
 from cosim.report.style import (
     BLUE,
     ORANGE,
-    draw_panel,
-    fit_to_part,
     panels,
     picture,
+    picture_over_time,
     readable,
 )
 
@@ -56,8 +54,6 @@ CHANNELS = (
 STROKES = ((ORANGE, 3.0), (BLUE, 1.1))
 #: Ports by which break-aways are found.
 COUNTED = ("mode", "slip_count")
-#: Letters of a name that stand beside a panel; a longer one stands above it.
-LONG_NAME = 18
 #: Periods at the end that are drawn enlarged, and the part of the run where there are none.
 CYCLES, PART = 4.0, 0.1
 
@@ -134,14 +130,17 @@ def _window(both: Comparison) -> tuple[float, float]:
 
 
 def overlay(both: Comparison) -> Picture:
-    """Drawn, and alive: where both have other times, each on the straight lines of its rows."""
-    window = _window(both)
+    """Where both have other times, each on the straight lines of its rows."""
     times, shown = _described(_with_events(both))
-    part = (*window, "the last cycles that both have")
-    return replace(
-        _overlay(both, times, shown, window),
-        alt="Both runs over time, one over the other.",
-        live=over_time(times, shown, part=part),
+    part = (*_window(both), "the last cycles that both have")
+    return picture_over_time(
+        "overlay",
+        "Both runs over time, the whole of them and the last cycles that both have. The wide,"
+        " orange line is A, the thin, blue one B: where only blue is seen on orange they are the"
+        " same. What is flat in both is left out; where there is one line only, the other has no"
+        " such quantity.",
+        "Both runs over time, one over the other.",
+        TimeFigure(times, shown, part=part, own_scale=True),
     )
 
 
@@ -176,44 +175,6 @@ def _with_events(both: Comparison) -> Comparison:
         for one in (both.a, both.b)
     )
     return replace(both, a=a, b=b)
-
-
-@picture(
-    "overlay",
-    "Both runs over time, the whole of them and the last cycles that both have. The wide, orange"
-    " line is A, the thin, blue one B: where only blue is seen on orange they are the same. What is"
-    " flat in both is left out; where there is one line only, the other has no such quantity.",
-)
-def _overlay(
-    both: Comparison, times: Array, shown: list[Panel], window: tuple[float, float]
-) -> Figure:
-    """A row for each channel that moves, over all time and enlarged."""
-    rows = max(len(shown), 1)
-    ratios, size = [1.6, 1.0], {"height": 1.9, "width": 11.0}
-    figure, axes = panels(rows, 2, **size, width_ratios=ratios, sharex="col")
-    axes[0, 1].set_xlim(window)
-    for row, panel in zip(axes, shown, strict=False):
-        for ax in row:
-            draw_panel(ax, times, panel)
-        fit_to_part(row[1], times, panel)
-        _label(row[0], panel.label)
-    for ax in axes[-1]:
-        ax.set_xlabel("time [s]")
-    handles = axes[0, 0].lines[:2]
-    figure.legend(
-        handles, [f"A: {both.a.label}", f"B: {both.b.label}"], ncols=2, loc="outside upper center"
-    )
-    return figure
-
-
-def _label(ax: Axes, label: str) -> None:
-    """A long name above the panel: beside it, it would run into its neighbours."""
-    says, _, unit = label.rpartition(" ")
-    if len(says) <= LONG_NAME:
-        ax.set_ylabel(label)
-    else:
-        ax.set_ylabel(unit)
-        ax.set_title(says, loc="left", fontsize="small")
 
 
 @picture(

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from cosim.report.page import Picture, render
-from cosim.report.quantities import DIGITS, NONE, ROUNDING, digits, told, worded
+from cosim.report.quantities import DIGITS, FOUND, NONE, ROUNDING, digits, told, worded
 
 from .compare import SAME, Comparison, Difference
 from .series import Apart
@@ -17,8 +17,10 @@ DEGREES = {"degC": "K"}
 MANY = 10.0
 #: Of two numbers that differ by less than is told of them.
 EQUAL = "equal within rounding"
-#: Digits of the sentence and the figures at the top; curves among them.
-AT_TOP, CURVES_AT_TOP = 3, 2
+#: Curves among the figures at the top.
+CURVES_AT_TOP = 2
+#: Digits that a difference is worth.
+OF_DIFFERENCE = 2
 #: Titles of the summary's groups.
 TITLES = {
     "": "Run",
@@ -84,7 +86,7 @@ def tiles(both: Comparison) -> list[tuple[str, str]]:
 
 
 def _at_top(one: Apart) -> str:
-    return told(abs(one.largest), DEGREES.get(one.unit, one.unit), count=AT_TOP)
+    return told(abs(one.largest), DEGREES.get(one.unit, one.unit), count=FOUND)
 
 
 def _plain(name: str) -> str:
@@ -122,24 +124,31 @@ def curve_cells(one: Apart) -> tuple[str, str, str, str, str]:
     nothing = max(ROUNDING.get(unit, 0.0), SAME * abs(one.largest))
     return (
         one.name,
-        told(one.largest, unit, count=DIGITS),
-        told(one.at, "s", count=DIGITS),
-        told(one.rms, unit, count=DIGITS),
-        NONE if one.span <= nothing else f"{100.0 * abs(one.largest) / one.span:.3g} %",
+        told(one.largest, unit, count=FOUND),
+        told(one.at, "s", count=FOUND),
+        told(one.rms, unit, count=OF_DIFFERENCE),
+        NONE if one.span <= nothing else _percent(abs(one.largest) / one.span),
     )
 
 
 def cells(one: Difference) -> tuple[str, str, str, str]:
-    """A, B, difference and relative difference as they are read."""
+    """A, B, difference and relative difference as they are read.
+
+    A and B have the digits that a run is worth, or so many more that they are told apart.
+    """
     share = one.name.endswith("share") or one.name.startswith("heat_shares.")
-    a, b = (told(value, one.unit, share, DIGITS) for value in (one.a, one.b))
-    difference = told(one.difference, DEGREES.get(one.unit, one.unit), share, DIGITS)
+    for count in range(FOUND, DIGITS + 1):
+        a, b = (told(value, one.unit, share, count) for value in (one.a, one.b))
+        if a != b:
+            break
+    unit = DEGREES.get(one.unit, one.unit)
+    difference = told(one.difference, unit, share, count if share else OF_DIFFERENCE)
     if one.in_both and a == b and _is_zero(difference):
         relative = EQUAL
     elif one.relative is None or _is_zero(a):
         relative = NONE  # nobody can check a part of what reads 0
     else:
-        relative = _percent(one.relative)
+        relative = _change(one.relative)
     return a, b, difference, relative
 
 
@@ -148,7 +157,11 @@ def _is_zero(told: str) -> bool:
     return not any(digit in told.split(" ")[0] for digit in "123456789")
 
 
-def _percent(part: float) -> str:
+def _change(part: float) -> str:
     if part >= MANY:
-        return f"{part + 1.0:.3g} times"
-    return f"{100.0 * part:+.3g} %".replace("-", "−")
+        return f"{digits(part + 1.0, OF_DIFFERENCE)} times"
+    return f"{'+' if part > 0.0 else ''}{_percent(part)}"
+
+
+def _percent(part: float) -> str:
+    return f"{digits(100.0 * part, OF_DIFFERENCE)} %"

@@ -19,7 +19,7 @@ from .belt_map import belt_temperature_live, draw_belt_temperature
 from .friction_table import draw_friction_table
 from .heat import heat, melting, temperatures
 from .motion import draw_phase_portrait, friction_force, motion
-from .over_time import Describe, drawn, live
+from .over_time import over_time
 from .top_view import draw_top_view, top_view_live
 
 
@@ -53,18 +53,6 @@ class Plate:
         return Picture(self.name, self.caption, lambda: png(self.drawn(dataset)), self.alt, alive)
 
 
-def _over_time(
-    name: str,
-    title: str,
-    caption: str,
-    alt: str,
-    describe: Describe,
-    needs: str = "x",
-    grows: bool = False,
-) -> Plate:
-    return Plate(name, title, caption, alt, drawn(describe), live(describe), needs, grows)
-
-
 PLATES = (
     Plate(
         "top_view",
@@ -75,16 +63,16 @@ PLATES = (
         draw_top_view,
         top_view_live,
     ),
-    _over_time(
+    Plate(
         "motion",
         "Motion of the block",
         "Position x along the motion of the surface, y across it and rotation φ (counter-clockwise)"
         " of the block. Slip is shaded; in between the block sticks to the surface and moves with"
         " it.",
         "Position and rotation of the block over time, phases of slip shaded.",
-        motion,
+        *over_time(motion),
     ),
-    _over_time(
+    Plate(
         "friction_force",
         "Friction on the block",
         "Friction of the surface on the block. Dashed: the largest that static friction holds"
@@ -92,7 +80,7 @@ PLATES = (
         " break-aways and re-sticks: a peak between two recorded times is whole, unless it is"
         " narrower than their distance.",
         "Friction on the block over time, beside its limits in stick and in slip.",
-        friction_force,
+        *over_time(friction_force),
     ),
     Plate(
         "phase_portrait",
@@ -103,25 +91,25 @@ PLATES = (
         "Velocity of the block over its position: a closed loop for each stick-slip cycle.",
         draw_phase_portrait,
     ),
-    _over_time(
+    Plate(
         "heat",
         "Friction heat",
         "Friction heat: power (mean over the interval between two rows), its sum since the start,"
         " and what of it is found where.",
         "Power and sum of the friction heat over time, and the shares of belt, ice and air.",
-        heat,
+        *over_time(heat),
     ),
-    _over_time(
+    Plate(
         "temperatures",
         "Temperatures",
         "Rise of the temperatures over that of the air. The face of the ice and the mean of both"
         " faces differ so little that their difference is drawn. Before and behind the contact: an"
         " eighth of the contact's length outside it.",
         "Temperatures of the contact and of the belt before and behind it over time.",
-        temperatures,
+        *over_time(temperatures),
         needs="interface_temperature",
     ),
-    _over_time(
+    Plate(
         "melting",
         "Melting",
         "Stress of friction on the contact; mean thickness of the water under the block, and what"
@@ -130,7 +118,7 @@ PLATES = (
         " would be sheared with if it covered the whole contact; where that is more than friction,"
         " it does not.",
         "Stress in the contact, thickness of the water and mass of melted ice over time.",
-        melting,
+        *over_time(melting),
         needs="melted_mass",
         grows=True,
     ),

@@ -8,7 +8,7 @@ from stickslip.friction.law import feels_water
 from cosim.report.columns import Data
 from cosim.report.contents import mechanics_of
 from cosim.report.heat_numbers import SINKS, Film, all_other_heat, ambient_degC, film_of, held
-from cosim.report.live import Curve, Panel
+from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.style import (
     BLUE,
     GREEN,
@@ -22,8 +22,6 @@ from cosim.report.style import (
     Scaled,
     readable,
 )
-
-from .over_time import TimeFigure
 
 COLOURS = {"belt": BLUE, "ice": SKY, "air": ORANGE, "supports": GREEN, "melting": PURPLE}
 LABELS = {
@@ -71,7 +69,7 @@ def heat(dataset: Data) -> TimeFigure:
     if sinks:
         label = "share of the heat [%]"
         panels.append(Panel(label, _shares(dataset, sinks), from_zero=True, top=100.0))
-    return TimeFigure("Friction heat", panels)
+    return TimeFigure(dataset["time"].values, panels, title="Friction heat", height=2.0)
 
 
 def sinks_of(dataset: Data) -> dict[str, str]:
@@ -120,7 +118,7 @@ def melting(dataset: Data) -> TimeFigure:
         Panel(f"water [{thickness.unit}]", water, from_zero=True),
         Panel(f"mass [{mass.unit}]", masses, from_zero=True),
     ]
-    return TimeFigure("Melting", panels, height=2.3, share_y=False)
+    return TimeFigure(dataset["time"].values, panels, title="Melting", height=2.3, own_scale=True)
 
 
 def _stresses(film: Film, scaled: Scaled, parts: bool) -> list[Curve]:
@@ -178,7 +176,8 @@ def temperatures(dataset: Data) -> TimeFigure:
     if ICE in dataset:
         panels.insert(1, _difference(dataset))
     air = f"{ambient:g}".replace("-", "−")
-    return TimeFigure(f"Temperatures in air at {air} °C", panels, height=2.2, share_y=False)
+    said = f"Temperatures in air at {air} °C"
+    return TimeFigure(dataset["time"].values, panels, title=said, height=2.2, own_scale=True)
 
 
 def _difference(dataset: Data) -> Panel:

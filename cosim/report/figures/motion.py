@@ -14,7 +14,7 @@ from stickslip.kernel.layout import P_CURVATURE, P_MU_K, P_MU_S, P_NORMAL_FORCE
 
 from cosim.report.columns import Data
 from cosim.report.contents import break_aways, mechanics_of, ramp_end
-from cosim.report.live import Curve, Panel
+from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.style import (
     BLUE,
     GREEN,
@@ -29,7 +29,7 @@ from cosim.report.style import (
 )
 
 from .events import through_events
-from .over_time import TimeFigure, title, zoom_of
+from .over_time import title, zoom_of
 
 Array = NDArray[np.float64]
 #: Name, rows, colour and width of a part of a run.
@@ -66,7 +66,9 @@ def motion(dataset: Data) -> TimeFigure:
             )
         )
     note = f"Not drawn, as flat: {'; '.join(said)}." if said else ""
-    return TimeFigure("Motion of the block", panels, note)
+    return TimeFigure(
+        dataset["time"].values, panels, title="Motion of the block", note=note, height=2.0
+    )
 
 
 def _flat(symbol: str, values: Array, scaled: Scaled, least: float) -> str:
@@ -228,7 +230,9 @@ def friction_force(dataset: Data) -> TimeFigure:
         )
     note = f"Not drawn, as 0 throughout: {', '.join(left_out)}." if left_out else ""
     height = 2.6 if len(panels) == 1 else 2.0
-    return TimeFigure("Friction on the block", panels, note, height)
+    return TimeFigure(
+        dataset["time"].values, panels, title="Friction on the block", note=note, height=height
+    )
 
 
 def _levels(values: Array, scaled: Scaled, sizes: dict[str, float]) -> list[tuple[float, str]]:

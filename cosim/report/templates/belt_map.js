@@ -7,7 +7,7 @@ live.each("belt_map", (stage, data) => {
   const [times, places] = data.shape, colours = live.colours(data.colours);
   const begin = time[0], end = time[times - 1] > begin ? time[times - 1] : begin + 1;
   const canvas = live.element("canvas", {
-    tabindex: "0", role: "img",
+    class: "map", tabindex: "0", role: "img",
     "aria-label": `Temperature of the ${data.surface} over time and place. Arrow keys move the pointer.`,
   });
   const said = live.element("output", { class: "small" });
@@ -36,7 +36,7 @@ live.each("belt_map", (stage, data) => {
   const py = (place) => TOP + tall * (1 - place / data.length);
 
   function drawAxes() {
-    context.fillStyle = "#222";
+    context.fillStyle = live.onPaper() ? "#222" : getComputedStyle(canvas).color;
     context.strokeStyle = "#8a8a8a";
     context.lineWidth = 1;
     context.font = FONT;

@@ -1,6 +1,21 @@
-// On every page, and on those of the documentation: boxes that scroll can be reached with the keyboard.
+// On every page, and on those of the documentation: tables scroll in boxes of their own, and boxes that
+// scroll can be reached with the keyboard.
 "use strict";
 (() => {
+  for (const table of document.querySelectorAll("table.listed")) {
+    const heads = [...table.querySelectorAll("th")].map((head) => head.textContent.trim());
+    for (const { cells } of table.tBodies[0].rows) {
+      if (cells.length !== heads.length) continue; // some go over several columns
+      for (let n = 1; n < cells.length; n++) cells[n].dataset.head = heads[n];
+    }
+  }
+  for (const table of document.querySelectorAll("table")) {
+    if (table.closest(".wide, .table-wrapper")) continue;
+    const box = document.createElement("div");
+    box.className = "wide";
+    table.replaceWith(box);
+    box.append(table);
+  }
   const boxes = document.querySelectorAll(".wide, .table-wrapper, pre, figure.still");
   const words = { PRE: "text", FIGURE: "picture" };
   function reachable() {

@@ -8,7 +8,9 @@ live.each("top_view", (stage, data) => {
   const map = data.map && live.dataOf(data.map);
   const canvas = live.element("canvas", { role: "img", "aria-label": "the rig from above at the time of the slider" });
   const said = live.element("output", { class: "small" });
-  stage.append(canvas);
+  const plot = live.element("div", { class: "plot" });
+  plot.append(canvas);
+  stage.append(plot);
   let colours = null, levels = null, mapTimes = null, contact = null;
   if (map) {
     colours = live.colours(map.colours);
@@ -17,7 +19,10 @@ live.each("top_view", (stage, data) => {
     contact = live.numbers(map.contact);
     stage.append(live.scale(map, "rise over the air"));
   }
-  let context = null, width = 0, scale = 1, now = data.start;
+  // below the rig, so that the dark does not turn its colours over
+  const floor = map && live.element("canvas", { class: "map" });
+  if (map) plot.prepend(floor);
+  let context = null, ground = null, width = 0, scale = 1, now = data.start;
   const px = (metres) => (metres - left) * scale;
   const py = (metres) => (high - metres) * scale;
 
@@ -38,17 +43,17 @@ live.each("top_view", (stage, data) => {
   function drawBelt(pose, moved) {
     const half = 0.5 * data.width, row = map ? live.placeOf(mapTimes, now) : 0;
     const top = data.width ? py(half) : 0, bottom = data.width ? py(-half) : py(low);
-    context.fillStyle = "#e3e3e3";
-    context.fillRect(0, top, width, bottom - top);
+    ground.fillStyle = "#e3e3e3";
+    ground.fillRect(0, top, width, bottom - top);
     if (map) {
       for (let column = 0; column < width; column++) {
-        context.fillStyle = `rgb(${colour(row, left + (column + 0.5) / scale - pose.x)})`;
-        context.fillRect(column, top, 1.5, bottom - top);
+        ground.fillStyle = `rgb(${colour(row, left + (column + 0.5) / scale - pose.x)})`;
+        ground.fillRect(column, top, 1.5, bottom - top);
       }
     }
     // marks that lie on the belt
-    context.strokeStyle = map ? "rgba(255,255,255,.75)" : "#8a8a8a";
-    context.lineWidth = 1.5;
+    ground.strokeStyle = map ? "rgba(255,255,255,.75)" : "#8a8a8a";
+    ground.lineWidth = 1.5;
     const first = Math.ceil((left - moved) / MARKS);
     for (let n = first; n * MARKS + moved < right; n++) chevron(px(n * MARKS + moved), top, bottom);
   }
@@ -56,11 +61,11 @@ live.each("top_view", (stage, data) => {
   function chevron(at, top, bottom) {
     const size = Math.min(6, 0.12 * (bottom - top)), forwards = data.speed < 0 ? -1 : 1;
     for (const middle of [top + size + 3, bottom - size - 3]) {
-      context.beginPath();
-      context.moveTo(at - forwards * size, middle - size);
-      context.lineTo(at, middle);
-      context.lineTo(at - forwards * size, middle + size);
-      context.stroke();
+      ground.beginPath();
+      ground.moveTo(at - forwards * size, middle - size);
+      ground.lineTo(at, middle);
+      ground.lineTo(at - forwards * size, middle + size);
+      ground.stroke();
     }
   }
 
@@ -68,8 +73,8 @@ live.each("top_view", (stage, data) => {
   function drawSlab(pose, moved) {
     const centre = 1 / data.curvature, radius = Math.abs(centre), side = Math.sign(centre);
     const row = map ? live.placeOf(mapTimes, now) : 0;
-    context.fillStyle = "#e3e3e3";
-    context.fillRect(0, 0, width, py(low));
+    ground.fillStyle = map && !live.onPaper() ? getComputedStyle(stage).getPropertyValue("--line") : "#e3e3e3";
+    ground.fillRect(0, 0, width, py(low));
     // points of the ring by the way along it from below the centre
     const ring = (way, r) => {
       const angle = way / radius;
@@ -78,23 +83,23 @@ live.each("top_view", (stage, data) => {
     const reach = Math.max(-left, right) * 1.3, inner = radius - 0.5 * data.ring, outer = radius + 0.5 * data.ring;
     if (map) {
       const here = radius * Math.atan2(pose.x, radius - side * pose.y), step = 1.2 / scale;
-      context.lineWidth = 2.4;
+      ground.lineWidth = 2.4;
       for (let way = -reach; way < reach; way += step) {
-        context.strokeStyle = `rgb(${colour(row, way - here)})`;
-        context.beginPath();
-        context.moveTo(...ring(way, inner));
-        context.lineTo(...ring(way, outer));
-        context.stroke();
+        ground.strokeStyle = `rgb(${colour(row, way - here)})`;
+        ground.beginPath();
+        ground.moveTo(...ring(way, inner));
+        ground.lineTo(...ring(way, outer));
+        ground.stroke();
       }
     }
-    context.strokeStyle = map ? "rgba(255,255,255,.4)" : "#b5b5b5";
-    context.lineWidth = 1;
+    ground.strokeStyle = map ? "rgba(255,255,255,.4)" : "#b5b5b5";
+    ground.lineWidth = 1;
     const first = Math.ceil((-reach - moved) / MARKS);
     for (let n = first; n * MARKS + moved < reach; n++) {
-      context.beginPath();
-      context.moveTo(...ring(n * MARKS + moved, inner));
-      context.lineTo(...ring(n * MARKS + moved, outer));
-      context.stroke();
+      ground.beginPath();
+      ground.moveTo(...ring(n * MARKS + moved, inner));
+      ground.lineTo(...ring(n * MARKS + moved, outer));
+      ground.stroke();
     }
   }
 
@@ -189,12 +194,14 @@ live.each("top_view", (stage, data) => {
     const row = live.placeOf(times, time), next = Math.min(row + 1, times.length - 1);
     const span = times[next] - times[row], part = span > 0 ? (time - times[row]) / span : 0;
     const pose = { x: at(x, row, part), y: at(y, row, part), phi: at(phi, row, part) };
-    context.clearRect(0, 0, width, py(low) + 2);
+    for (const each of new Set([context, ground])) each.clearRect(0, 0, width, py(low) + 2);
     (data.curvature ? drawSlab : drawBelt)(pose, at(travel, row, part));
     drawBlock(pose);
     drawWords();
-    said.textContent = `t = ${time.toFixed(2)} s, ${mode[row] ? "slip" : "stick"}; x = ${live.told(1e3 * pose.x, 3)} mm, ` +
-      `y = ${live.told(1e3 * pose.y, 3)} mm, φ = ${live.told(pose.phi * 180 / Math.PI, 3)}°`;
+    // of a millimetre and of a degree: less is rounding
+    const told = (value) => live.told(Math.abs(value) < 1e-6 ? 0 : value, 3);
+    said.textContent = `t = ${time.toFixed(2)} s, ${mode[row] ? "slip" : "stick"}; x = ${told(1e3 * pose.x)} mm, ` +
+      `y = ${told(1e3 * pose.y)} mm, φ = ${told(pose.phi * 180 / Math.PI)}°`;
   }
 
   stage.append(live.element("p", { class: "small" }, `${data.words}.`));
@@ -204,6 +211,7 @@ live.each("top_view", (stage, data) => {
     width = wide;
     scale = width / (right - left);
     context = live.sized(canvas, width, (high - low) * scale);
+    ground = map ? live.sized(floor, width, (high - low) * scale) : context;
     draw(now);
   });
 });

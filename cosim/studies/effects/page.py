@@ -15,7 +15,7 @@ from matplotlib.figure import Figure, FigureBase
 from stickslip import Parameters, Trajectory, simulate
 from stickslip.friction.law_curves import LawCurve, axis_of, law_curve
 
-from cosim.report.live import Curve, Live, Panel, Series, over_time, panels_on_one_axis
+from cosim.report.live import Curve, Live, Panel, Series, TimeFigure, panels_on_one_axis
 from cosim.report.page import Picture, render, unit_text
 from cosim.report.style import BLUE, GREY, panels, picture
 from cosim.studies.effects import Entry, allowed, described
@@ -122,7 +122,7 @@ def _live(entry: Entry) -> Live:
             for said, run, colour in _runs(entry)
         ]
         panels.append((Panel(label, []), series))
-    return over_time(*panels_on_one_axis(panels, entry.effect.case.window))
+    return TimeFigure(*panels_on_one_axis(panels, entry.effect.case.window)).live()
 
 
 def law_figure(entry: Entry) -> Picture | None:

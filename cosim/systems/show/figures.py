@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -14,7 +12,7 @@ from cosim.coupling import Ledger
 from cosim.coupling.conversion import NO_UNIT
 from cosim.names import unknown_name
 from cosim.report.columns import Columns
-from cosim.report.live import Curve, Panel, over_time
+from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.page import Picture, number, unit_text
 from cosim.report.style import (
     BLUE,
@@ -23,8 +21,8 @@ from cosim.report.style import (
     SERIES,
     Scaled,
     displayed,
-    panels_over_time,
-    png,
+    draw_over_time,
+    picture_over_time,
     readable,
     shown,
 )
@@ -63,15 +61,6 @@ OVER_TIME = {
 }
 
 
-class Described(NamedTuple):
-    """Panels over a time (n,), s, a line of text below them, and how many are side by side."""
-
-    time: NDArray[np.float64]
-    panels: Sequence[Panel]
-    note: str = ""
-    columns: int = 1
-
-
 def pictures(run: SystemRun, columns: Columns) -> dict[str, Picture]:
     """Every figure that the run has something for: name -> picture, in the page's order."""
     system, order = run.assembly.system, run.assembly.order
@@ -80,7 +69,10 @@ def pictures(run: SystemRun, columns: Columns) -> dict[str, Picture]:
         units = replace(units, caption=units.caption + colour_key(system))
     else:
         units = matrix(system, order)
-    found = {name: picture(name, one) for name, one in described(run, columns).items()}
+    found = {
+        name: picture_over_time(name, *OVER_TIME[name], one)
+        for name, one in described(run, columns).items()
+    }
     return {"system": units} | found
 
 
@@ -91,17 +83,10 @@ def figure_of(run: SystemRun, columns: Columns, name: str) -> Figure:
         return shown(diagram if is_legible(*system) else matrix, *system)
     if name not in found:
         raise ValueError(unknown_name("figure of this run", name, ("system", *found)))
-    return displayed(panels_over_time(*found[name]))
+    return displayed(draw_over_time(found[name]))
 
 
-def picture(name: str, one: Described) -> Picture:
-    """A figure over time, drawn and alive."""
-    caption, alt = OVER_TIME[name]
-    live = over_time(one.time, one.panels, note=one.note, columns=one.columns)
-    return Picture(name, caption, lambda: png(panels_over_time(*one)), alt, live)
-
-
-def described(run: SystemRun, columns: Columns) -> dict[str, Described]:
+def described(run: SystemRun, columns: Columns) -> dict[str, TimeFigure]:
     """The figures over time that there is something for."""
     found = {}
     if any(each.attrs.get("causality") == "output" for each in columns.data_vars.values()):
@@ -115,7 +100,7 @@ def described(run: SystemRun, columns: Columns) -> dict[str, Described]:
     return found
 
 
-def signals(columns: Columns, more: bool = False) -> Described:
+def signals(columns: Columns, more: bool = False) -> TimeFigure:
     """A panel for each of the first outputs; more: of those after them, up to `MOST_PANELS`.
 
     The text on what stays as it is stands below the last.
@@ -129,7 +114,7 @@ def signals(columns: Columns, more: bool = False) -> Described:
     for name in names:
         label, values, least = _signal(columns, name)
         panels.append(Panel(label, [Curve(name, values, BLUE)], span=least))
-    return Described(columns["time"].values, panels, said, columns=2)
+    return TimeFigure(columns["time"].values, panels, note=said, columns=2)
 
 
 def _signal(columns: Columns, name: str) -> tuple[str, NDArray[np.float64], float]:
@@ -178,7 +163,7 @@ def _constant(columns: Columns, name: str) -> str:
     return f"{name} {number(float(columns[name].values[-1]))} {told}".strip()
 
 
-def _energy(time: NDArray[np.float64], ledger: Ledger) -> Described:
+def _energy(time: NDArray[np.float64], ledger: Ledger) -> TimeFigure:
     """Handed over and taken up, and what is between; its rounding is no energy in transit."""
     handed, transit = [], []
     for place, flow in enumerate(ledger.flows):
@@ -188,10 +173,10 @@ def _energy(time: NDArray[np.float64], ledger: Ledger) -> Described:
         transit.append(Curve(name, flow.in_transit, colour))
     most = max(float(np.max(np.abs(flow.handed), initial=0.0)) for flow in ledger.flows)
     below = Panel("in transit [J]", transit, span=NOTHING * most)
-    return Described(time, [Panel("handed over [J]", handed), below])
+    return TimeFigure(time, [Panel("handed over [J]", handed), below])
 
 
-def _steps(columns: Columns, start: float) -> Described:
+def _steps(columns: Columns, start: float) -> TimeFigure:
     """Step size over time, on a logarithmic scale where the steps differ much."""
     edges = np.concatenate([[start], columns["step_time"].values])
     longest, shortest = (
@@ -206,4 +191,4 @@ def _steps(columns: Columns, start: float) -> Described:
         ]
     differ = bool(longest.max() > 5.0 * shortest.min())
     panel = Panel("macro step [s]", curves, logarithmic=differ, from_zero=not differ)
-    return Described(edges, [panel])
+    return TimeFigure(edges, [panel])

@@ -13,7 +13,7 @@ from cosim.report.figures import PLATES
 from cosim.report.figures.belt_map import belt_map
 from cosim.report.figures.events import through_events
 from cosim.report.heat_numbers import ambient_degC
-from cosim.report.live import MOST_ROWS, Curve, Panel, over_time, packed, thinned
+from cosim.report.live import MOST_ROWS, Curve, Panel, TimeFigure, packed, thinned
 from cosim.report.page import Picture, figure
 
 LIVE = {plate.name: plate.live for plate in PLATES if plate.live}
@@ -98,9 +98,8 @@ def test_the_map_has_no_spikes_and_is_warm_behind_the_block_only():
 
 
 def test_a_picture_cannot_end_its_script():
-    sent = over_time(
-        np.arange(3.0), [Panel("</script><b> [m]", [Curve("a", np.arange(3.0), "#000")])]
-    )
+    panel = Panel("</script><b> [m]", [Curve("a", np.arange(3.0), "#000")])
+    sent = TimeFigure(np.arange(3.0), [panel]).live()
     html = str(figure(Picture("p", "c", bytes, live=sent)))
     script = html.split('<script type="application/json">')[1].split("</script>")[0]
     assert json.loads(script)["panels"][0]["label"] == "</script><b> [m]"

@@ -131,7 +131,7 @@ def test_rows_of_a_step_control_are_its_steps_and_that_is_told(chain):
 @pytest.mark.parametrize(
     "old, new, message",
     [
-        ('file = "first.fmu"', "", r"units.first.file: missing, needed is the path of an FMU"),
+        ('file = "first.fmu"', "", r"units.first.file: missing, needed is a text \(the FMU"),
         ("[units.first]", "[unit.first]", r"unit: no such key, nearest known: units"),
         ('"part.rate"', '"part.rat"', r"no variable of first is named 'part.rat'; nearest: 'par"),
         ("u = 3.0", "u = [3.0]", r"units.first.inputs.u: not possible .* a finite number, true"),
@@ -160,7 +160,7 @@ def test_rows_of_a_step_control_are_its_steps_and_that_is_told(chain):
         ("stop = 1.0", "stop = 1.0\noutput_interval = 0.015", r"does not fall on the macro steps"),
         ("[units.second]", '[units."a.b"]', r"units.a.b: not a name, allowed is a text without"),
         ('"second.fmu"', '"second.fmu"\ntime_limit = 3.0', r"is for a unit with isolate = true"),
-        ('name = "a chain"', "name = 3", r"name: not possible \(3\)"),
+        ('name = "a chain"', "name = 3", r"name: not a text \(3\), allowed is a text"),
         ('"part.rate" = 0.5', '"part.rate" = -0.5', r"first.part.rate = -0.5: must lie in"),
         ("[coupling]", "[coupling", r"not TOML: "),
     ],
@@ -215,7 +215,7 @@ def test_a_unit_that_fails_leaves_what_there_was(chain, tmp_path, capsys):
         ("run.stop", "allowed is KEY=VALUE"),
         ("run.stop=soon", r'run.stop: not a number ("soon")'),
         ("units.first.file=x", "no unit is named 'units'"),
-        ("run.stopp=1", "run.stopp: no such key, nearest known: stop"),
+        ("run.stopp=1", "run.stopp: no such key, nearest known: run.stop"),
     ],
 )
 def test_a_setting_that_cannot_be_is_refused(chain, capsys, setting, message):
