@@ -91,16 +91,6 @@ def names_fault(row: Row) -> bool:
     return bool(names) and all(name.startswith(FAULT) for name in names)
 
 
-def probability(row: Row) -> float | None:
-    """How probable the answer says the one that it names to be; None where it names no one."""
-    if verdict(row) != "named" or len(given(row)) != 1:
-        return None
-    ranked = (row.found or {}).get("ranking") or ()
-    return next(
-        (float(each["probability"]) for each in ranked if each["effect"] in given(row)), None
-    )
-
-
 def gap(row: Row, when: str, part: str = "held_out") -> float | None:
     """Gap `before` or `after`, of the runs fitted (`fit`) or held out; noise units."""
     value = (((row.found or {}).get("gap") or {}).get(when) or {}).get(part)
