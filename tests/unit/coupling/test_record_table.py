@@ -91,6 +91,19 @@ def test_goes_on_at_a_place_that_it_has_passed(tmp_path):
     assert cut.place == whole.place
 
 
+@pytest.mark.parametrize("keep", [True, False])
+def test_goes_on_where_it_was(tmp_path, keep):
+    table = GrowingTable(1, tmp_path / "t.npy")
+    table.append([1.0])
+    table.append([2.0], keep=keep)
+    place = table.place
+    table.close()
+    again = GrowingTable.resumed(1, table.path, place)
+    assert again.place == place
+    again.append([3.0])
+    assert again.rows()[:, 0].tolist() == ([1.0, 2.0, 3.0] if keep else [1.0, 3.0])
+
+
 @pytest.mark.parametrize(
     "spoil",
     [
