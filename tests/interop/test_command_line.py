@@ -92,16 +92,6 @@ def test_a_second_run_takes_the_fmu_as_it_is_and_repeats_the_first(place):
     pd.testing.assert_frame_equal(first, pd.read_csv(place / "again" / "result.csv"))
 
 
-def test_a_damaged_fmu_with_a_sound_table_of_contents_is_refused(place):
-    content = bytearray((place / "build" / "StickSlip3DOF.fmu").read_bytes())
-    library = content.index(b"binaries/")
-    content[library + 200 : library + 400] = bytes(200)
-    (place / "damaged.fmu").write_bytes(content)
-    done = stickslip_here(place, "run", "short.toml", "-o", "damaged", "--fmu", "damaged.fmu")
-    assert done.returncode == 2 and done.stderr.count("\n") == 1
-    assert done.stderr.startswith("error: damaged.fmu: damaged (")
-
-
 def test_simulate_needs_no_fmu_and_says_the_same_motion(place, tmp_path):
     (tmp_path / "short.toml").write_text(SHORT)
     done = stickslip_here(tmp_path, "simulate", "short.toml", "-o", "out")
@@ -125,28 +115,6 @@ def test_a_run_that_fails_keeps_what_it_had(place, command):
     assert f"what was computed is in collapse-{command}" in done.stderr
     dataset = check_readable(place / f"collapse-{command}", "failed")
     assert 0.1 < dataset["time"][-1] < 2.0
-
-
-def test_what_the_master_remarks_is_in_a_file(place):
-    """No step is shorter than the first, and none is as exact as is asked for."""
-    (place / "strict.toml").write_text(
-        SHORT.replace("2.0", "1.0") + '[coupling]\nstep_control = "doubling"\nmacro_step = 0.01\n'
-        "smallest_step = 0.01\nlargest_step = 0.01\nstep_tolerance = 1e-15\n"
-    )
-    done = stickslip_here(place, "run", "strict.toml", "-v", "-o", "strict")
-    assert done.returncode == 0, done.stderr
-    *lines, doubt, note = done.stderr.splitlines()
-    said = [line for line in lines if line.startswith("(master)")]
-    above = summary_in(place / "strict")["coupling"]["above_tolerance"]
-    # said where it begins, and where it is over: not step by step
-    assert above > len(said) > 0
-    said_first = r"\(master\): t = 0.\d+ s: warning \[smallest step\]: a step of 0.01 s, the small"
-    assert re.match(said_first, said[0])
-    assert doubt.startswith(f"warning: {above} of 100 steps were accepted, the first from t = 0.")
-    assert note.startswith(f"note: {len(said)} message") and note.endswith("strict/messages.log")
-    lines = (place / "strict" / "messages.log").read_text(encoding="utf-8").splitlines()
-    assert len(lines) == 1 + len(said)
-    assert "messages.log" in (place / "strict" / "report.html").read_text(encoding="utf-8")
 
 
 def test_a_refused_run_leaves_earlier_results_alone(place):

@@ -8,9 +8,8 @@ from itertools import permutations
 import numpy as np
 import pytest
 from stickslip import Parameters, simulate
-from stickslip.effects import PluginError
 
-from cosim import Scenario, read_scenario, run_scenario
+from cosim import read_scenario, run_scenario
 from cosim.cli.authoring.effect import text_of
 from cosim.processes import processes
 
@@ -158,15 +157,3 @@ def test_a_file_that_is_edited_is_another_effect(tmp_path):
         for kind, fall in ((before, 0.4), (after, 0.4), (before, 0.2))
     ]
     assert np.abs(runs[0] - runs[1]).max() > 1e-4 and np.array_equal(runs[1], runs[2])
-
-
-def test_an_effect_is_there_once(folder):
-    with pytest.raises(PluginError, match="effect id 'brush' is taken; allowed is another than"):
-        Parameters.with_effects(folder / "brush.py", folder / "memory" / "brush.py")
-
-
-def test_a_scenario_in_python_says_how_it_gets_effects(folder):
-    file = str(folder / "brush.py")
-    with pytest.raises(ValueError, match="Scenario.with_effects"):
-        Scenario(effects=(file,))
-    assert Scenario.with_effects(file)(effects=(file,), brush={"fall": 0.2}).brush.fall == 0.2

@@ -1,7 +1,6 @@
 """A participant in a process of its own: the same numbers, and what happens to it is one line."""
 
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -102,28 +101,6 @@ def test_states_stay_there(path, place):
         assert restores_exactly(unit, 0.25, 0.25)
     with started(isolated(path, RESTORES_WRONGLY)) as unit:
         assert not restores_exactly(unit, 0.0, 0.25)
-
-
-def test_one_that_gives_no_states_says_so_at_once(tmp_path, place):
-    (tmp_path / "unit").mkdir()
-    path = made("faulty", tmp_path / "unit", **{'canGetAndSetFMUstate="true"': ""})
-    with started(isolated(path)) as unit:
-        assert not unit.capabilities.restores
-        with pytest.raises(FmuError, match="declares canGetAndSetFMUstate = false"):
-            unit.get_state()
-        unit.step(0.0, 0.25)
-    shutil.rmtree(tmp_path / "unit")
-
-
-def test_a_step_that_ends_early_says_so(tmp_path, place):
-    (tmp_path / "unit").mkdir()
-    path = made("events", tmp_path / "unit")
-    settings = {"parameters": {"period": 0.25, "announces": True}}
-    with IsolatedParticipant(FmuParticipant, path, **settings) as unit:
-        assert unit.capabilities.ends_early
-        started(unit)
-        assert unit.step(0.0, 0.2) is None and unit.step(0.2, 0.2) == 0.25
-    shutil.rmtree(tmp_path / "unit")
 
 
 @pytest.mark.parametrize(
@@ -239,11 +216,6 @@ def test_what_cannot_be_made_there_is_said(path, monkeypatch):
     monkeypatch.setattr(made, "__module__", "__main__")
     with pytest.raises(CouplingError, match="made: is defined in the script that runs"):
         IsolatedParticipant(made)
-
-
-def test_one_that_ends_while_it_is_made_is_noticed(place):
-    with pytest.raises(IsolatedError, match="its process ended with status 5 in the call of start"):
-        IsolatedParticipant(os._exit, 5)
 
 
 # --- our own end ---

@@ -1,8 +1,5 @@
 """A coupled run whose mechanical unit has a process of its own: the same to the last bit."""
 
-import os
-import signal
-
 import numpy as np
 import pytest
 
@@ -10,7 +7,6 @@ from cosim import read_scenario, run_scenario
 from cosim.cli import main
 from cosim.coupling import IsolatedParticipant
 from cosim.coupling import case as coupled
-from cosim.coupling.record import RunFolder
 
 CASE = {"run.duration": 0.6, "run.output_interval": 0.01, "run.checkpoint_steps": 20}
 SCHEMES = {
@@ -59,36 +55,6 @@ def test_results_are_those_of_one_process(plain, fmu, made):
     (unit,) = made
     assert isinstance(unit, IsolatedParticipant) and unit.pid is None  # gone with the run
     same(run, done)
-
-
-def test_results_of_one_that_was_cut_off_are_so_too(plain, fmu, tmp_path):
-    """Cut off isolated, resumed in one process, cut off again, and ended isolated."""
-    run, keys = plain
-    folder = RunFolder.begun(tmp_path, {}, {})
-    goes_on_isolated = [True, False, True]
-    for isolate, until in zip(goes_on_isolated, [0.25, 0.45, 9.0], strict=True):
-
-        def cut_off(time, until=until):
-            if time > until:
-                raise KeyboardInterrupt
-
-        changes = keys | {"coupling.isolate": isolate}
-        done = run_scenario(case(**changes), fmu=fmu, folder=folder, progress=cut_off)
-    same(run, done)
-
-
-def test_a_unit_that_dies_takes_nothing_with_it(fmu, made):
-    """What was computed is there: the process was another's."""
-    ended = []
-
-    def end(time):
-        if time > 0.1 and not ended:
-            os.kill(made[0].pid, signal.SIGKILL)
-            ended.append(time)
-
-    done = run_scenario(case(**{"coupling.isolate": True}), fmu=fmu, progress=end)
-    assert done.result.status == "failed" and "mechanics: failed in the step" in done.result.reason
-    assert done.result.time[-1] == pytest.approx(ended[0])
 
 
 def test_a_unit_that_does_not_answer_in_time_is_said_in_one_line(fmu, tmp_path, capsys):

@@ -257,6 +257,25 @@ def test_the_kernel_travels_alone():
     } == {"math"}
 
 
+def test_those_who_hide_effects_know_nothing_of_the_product():
+    """Campaigns with answers are foreign data: neither generator imports what is asked of them."""
+    files = [*(ROOT / "tests" / "blind").rglob("*.py")]
+    assert len(files) > 30
+    imported = {
+        name.partition(".")[0]
+        for file in files
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        for name in (
+            [alias.name for alias in node.names]
+            if isinstance(node, ast.Import)
+            else [node.module]
+            if isinstance(node, ast.ImportFrom) and not node.level
+            else []
+        )
+    }
+    assert not imported & set(PRODUCT)
+
+
 DRAWS = {"matplotlib", "IPython"}
 TABLES = {"pandas", "xarray"}
 #: Statement -> what it does not load; one after the other in one process, so those that may load

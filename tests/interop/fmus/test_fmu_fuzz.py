@@ -15,7 +15,7 @@ from cosim.coupling.fmu.archive import unpack
 
 NAMES = ("faulty", "events")
 ODD = ("", "-1", "0", "1e999", "nan", "x", "9" * 20, "../a", "true", "ä", "1 2", "-5", "1000000000")
-EXAMPLES = settings(max_examples=100, deadline=None, derandomize=True)
+EXAMPLES = settings(max_examples=100)
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,5 @@
 """FmuParticipant on the real units: what it declares, what it refuses, failures and teardown."""
 
-import os
-import signal
 import tempfile
 import zipfile
 from pathlib import Path
@@ -85,31 +83,6 @@ def test_an_input_that_is_refused_in_the_run_says_so(unit):
         block.step(0.0, 0.1)
         with pytest.raises(FmuCallError, match="^surface_speed = nan: must be a finite number"):
             block.write({"surface_speed": float("nan")})
-
-
-def test_a_refused_step_is_a_failed_run_that_keeps_what_it_had(unit):
-    block = FmuParticipant(unit, "block", inputs=HELD)
-    step = block.step
-    block.step = lambda time, size: step(time + (0.1 if time > 0.5 else 0.0), size)
-    result = alone(block)
-    assert result.status == "failed" and 0.5 < result.time[-1] < 0.53
-    assert "the last one ended at" in result.reason and "status 3 (error)" in result.reason
-
-
-def test_ctrl_c_ends_the_run_between_two_steps(fmu, ctrl_c):
-    block = FmuParticipant(fmu, "block", inputs=HELD)
-    step = block.step
-
-    def interrupted(time, size):
-        if time > 0.5:
-            os.kill(os.getpid(), signal.SIGINT)
-        return step(time, size)
-
-    block.step = interrupted
-    with CoupledSystem([block], []) as system:
-        result = run(system, GaussSeidel(("block",)), stop=1e3, macro_step=0.01)
-        assert result.status == "interrupted" and 0.5 < result.time[-1] < 0.53
-        step(result.time[-1], 0.01)
 
 
 def test_nothing_is_left_behind(fmu, tmp_path, monkeypatch):

@@ -275,12 +275,6 @@ def test_what_a_unit_says_is_kept_with_its_time(old):
         assert heard == list(unit.messages)
 
 
-def test_debug_messages_are_kept_where_asked_for(old):
-    with started(old, parameters={"fault": 7}, debug=True) as unit:
-        unit.step(0.0, 0.1)
-        assert [m.status for m in unit.messages] == ["ok", "warning"]
-
-
 def test_an_error_that_is_only_logged_fails_the_call(old):
     with started(old, parameters={"fault": 8}) as unit:
         with pytest.raises(FmuCallError, match="^too hot$"):

@@ -158,16 +158,6 @@ def test_steps_end_at_the_models_own_events(unit, case):
     assert rows == plain
 
 
-def test_a_step_that_happens_to_end_at_an_event_is_no_early_return(unit):
-    with unit.instance(events=True, early=True) as block:
-        block.begin().done("EnterStepMode")
-        assert block.step(1.0) == (True, True)
-        time = block.time
-    with unit.instance(events=True, early=True) as block:
-        block.begin().done("EnterStepMode")
-        assert block.step(time) == (True, False) and block.time == time
-
-
 @pytest.mark.parametrize(("events", "early"), [(False, False), (False, True), (True, False)])
 def test_a_host_that_allows_no_early_return_gets_none(unit, events, early):
     with unit.instance(events=events, early=early) as block:
@@ -237,14 +227,6 @@ def test_an_array_is_one_variable(unit):
         block.done("GetFloat64", wanted, 3, numbers, 6)
         assert numbers[0] == block.get("rig.mass") and numbers[5] == 0.0
         assert numbers[1:5] == block.get("rig.attachment_angles_deg")
-
-
-def test_a_curve_set_as_an_array_is_that_of_its_elements(fmu, fmu3):
-    tables = {"springs": {"force_curve_extension": [0, 0.05, 0.2], "force_curve_force": [0, 2, 5]}}
-    given = {"stop_time": 2.0, "output_interval": 0.01, "output": ["x", "heat"]}
-    old = fmpy.simulate_fmu(str(fmu), start_values=scalars(tables), **given)
-    new = fmpy.simulate_fmu(str(fmu3), start_values=values(tables), **given)
-    assert old.tobytes() == new.tobytes()
 
 
 # --- rates of outputs ---

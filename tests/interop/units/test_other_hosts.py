@@ -122,11 +122,6 @@ def test_ecospy_with_the_unit_for_fmi_3(fmu3, expected, ecos_environment):
     same(x_by("in_ecospy.py", fmu3, env=ecos_environment), expected)
 
 
-def test_ecospy_with_the_unit_in_a_process_without_python(fmu, expected, ecos_environment):
-    where = f"proxyfmu://localhost?file={fmu}"
-    same(x_by("in_ecospy.py", where, env=ecos_environment), expected)
-
-
 def test_ecos_which_has_no_python(fmu, tmp_path, ecos_environment):
     options = ["--path", fmu, "--stopTime", COUNT * STEP, "--stepSize", STEP]
     bare = {"LD_LIBRARY_PATH": ecos_environment["LD_LIBRARY_PATH"]}

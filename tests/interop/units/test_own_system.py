@@ -1,17 +1,10 @@
 """`stickslip couple` on our own pair: as an SSP, as a TOML of the same, beside another master."""
 
 import json
-import signal
-import subprocess
-import sys
-import time
 import zipfile
 
 import numpy as np
 import pytest
-import xarray as xr
-from fmpy.ssp.simulation import simulate_ssp
-from fmpy.ssp.ssd import read_ssv
 
 from cosim import read_scenario, run_scenario
 from cosim.cli import main
@@ -74,19 +67,6 @@ def test_a_toml_file_of_the_pair_gives_the_same_numbers(ssp, in_turn, tmp_path):
         np.testing.assert_array_equal(again[name], values, err_msg=name)
 
 
-def test_jacobi_is_what_the_other_masters_do(ssp):
-    """fmpy's steps are Jacobi's, and its rows a step early."""
-    ours = result_of(ssp, **{"coupling.scheme": "jacobi"})
-    chosen = read_ssv(ssp, resource=structure.SET_FILE)
-    theirs = simulate_ssp(ssp, stop_time=STOP - STEP / 2, step_size=STEP, parameter_set=chosen)
-    rows = len(theirs["time"])
-    np.testing.assert_allclose(
-        ours["mechanics.x"][1 : rows + 1], theirs["mechanics.x"], rtol=0, atol=1e-12
-    )
-    # the speed that the heat model is told in the first step is not theirs: they start all at zero
-    np.testing.assert_allclose(ours[TEMPERATURE][1 : rows + 1], theirs[TEMPERATURE], atol=1e-5)
-
-
 def test_power_that_crosses_is_in_the_ledger(ssp, tmp_path):
     arguments = ["--set", f"coupling.macro_step={STEP}", "--set", f"run.stop={STOP}"]
     assert main(["couple", str(ssp), *arguments, "-o", str(tmp_path)]) == 0
@@ -144,26 +124,3 @@ def test_a_run_that_was_cut_off_goes_on_to_the_last_bit(ssp, in_turn, tmp_path):
         pytest.raises(CheckpointError),
     ):
         run_system(other, folder=RunFolder.found(tmp_path))
-
-
-@pytest.mark.slow
-def test_the_command_goes_on_with_what_was_killed(ssp, tmp_path, capsys):
-    """Killed as by kill -9, in the middle of the run; the rows are those of one that was not."""
-    place = tmp_path / "killed"
-    settings = {"coupling.macro_step": 0.001, "run.stop": 20, "run.checkpoint_steps": 50}
-    arguments = [part for item in settings.items() for part in ("--set", "{}={}".format(*item))]
-    command = [sys.executable, "-m", "cosim", "couple", str(ssp), *arguments, "-o", str(place)]
-    with subprocess.Popen(command, stderr=subprocess.PIPE) as process:
-        while not (place / "unfinished" / "checkpoint.zip").is_file() and process.poll() is None:
-            time.sleep(0.01)
-        process.kill()
-    assert process.returncode == -signal.SIGKILL
-    assert main(["couple", str(ssp), "--resume", str(place)]) == 0
-    assert "20 s in" in capsys.readouterr().out
-    whole = result_of(ssp, **{"coupling.macro_step": 0.001, "run.stop": 20})
-    with xr.open_dataset(place / "result.nc", engine="h5netcdf") as dataset:
-        np.testing.assert_array_equal(dataset["mechanics.x"], whole["mechanics.x"])
-        assert dataset["step_time"][-1] == 20.0
-    assert not (place / "unfinished").exists()
-    assert main(["couple", str(ssp), "--resume", str(place)]) == 2
-    assert "holds no unfinished run" in capsys.readouterr().err

@@ -67,21 +67,6 @@ def test_the_system_is_as_its_schema_wants_it(system):
         }
 
 
-def test_what_is_connected_has_the_same_unit(system):
-    ports = {
-        element.name: {each.name: each for each in element.connectors}
-        for element in read_ssd(system).system.elements
-    }
-    for (start, source), (end, sink) in structure.CONNECTIONS:
-        assert ports[start][source].kind == "output" and ports[end][sink].kind == "input"
-    declared = {
-        "mechanics": {each.name: each for each in structure.exchange.variables()},
-        "thermal": {each.name: each for each in structure.reduced()},
-    }
-    for (start, source), (end, sink) in structure.CONNECTIONS:
-        assert declared[start][source].unit == declared[end][sink].unit
-
-
 def test_in_fmpy(system, expected):
     chosen = read_ssv(system, resource=structure.SET_FILE)
     stop = (COUNT - 0.5) * STEP

@@ -1,9 +1,10 @@
 """Scenarios, campaigns and systems that nobody would write, the same ones each time.
 
-Of campaigns only the reading: finding takes seconds each. The benchmark `fuzz` does all of it, with
-other cases each time, for as long as one likes.
+Of campaigns only the reading: finding takes seconds each. `STICKSLIP_FUZZ=50 pytest -m "" FILE`
+draws fifty times as many, other ones each time.
 """
 
+import os
 import shutil
 from unittest import mock
 
@@ -14,12 +15,18 @@ from hypothesis import HealthCheck, given, settings
 
 #: What a reading that finds no fault ends with here.
 READ = "error: interrupted before there was a result\n"
-SAME_EACH_TIME = {
-    "derandomize": True,
-    "database": None,
-    "deadline": None,
-    "suppress_health_check": list(HealthCheck),
-}
+MORE = int(os.environ.get("STICKSLIP_FUZZ", 1))
+
+
+def drawn(count):
+    """Settings of a test that draws so many cases, as a rule the same."""
+    return settings(
+        max_examples=count * MORE,
+        derandomize=MORE == 1,
+        database=None,
+        deadline=None,
+        suppress_health_check=list(HealthCheck),
+    )
 
 
 @pytest.fixture(scope="module")
@@ -32,7 +39,7 @@ def check(status, out, err, folder=None):
     assert fault is None, f"{fault}: {err}"
 
 
-@settings(max_examples=20, **SAME_EACH_TIME)
+@drawn(20)
 @given(tables=scenarios())
 def test_any_scenario_gets_a_sensible_answer(place, tables):
     if (text := toml(tables)) is None:
@@ -43,7 +50,7 @@ def test_any_scenario_gets_a_sensible_answer(place, tables):
     check(*answer, place / "out")
 
 
-@settings(max_examples=60, **SAME_EACH_TIME)
+@drawn(60)
 @given(case=campaigns())
 def test_any_campaign_is_read_or_refused(place, case):
     if (path := write_campaign(place, *case)) is None:
@@ -54,7 +61,7 @@ def test_any_campaign_is_read_or_refused(place, case):
     check(status, out, err)
 
 
-@settings(max_examples=30, **SAME_EACH_TIME)
+@drawn(30)
 @given(case=campaigns(planned=True))
 def test_any_plan_is_read_or_refused(place, case):
     if (path := write_campaign(place, *case)) is None:
@@ -66,7 +73,7 @@ def test_any_plan_is_read_or_refused(place, case):
 
 
 @pytest.mark.slow
-@settings(max_examples=20, **SAME_EACH_TIME)
+@drawn(20)
 @given(tables=systems())
 def test_any_system_gets_a_sensible_answer(place, tables):
     folder = fresh(place / "system")
@@ -77,7 +84,7 @@ def test_any_system_gets_a_sensible_answer(place, tables):
 
 
 @pytest.mark.slow
-@settings(max_examples=20, **SAME_EACH_TIME)
+@drawn(20)
 @given(case=packages())
 def test_any_package_gets_a_sensible_answer(place, case):
     folder = fresh(place / "package")

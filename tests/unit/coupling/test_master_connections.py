@@ -62,15 +62,6 @@ def test_an_input_is_fed_once():
         CoupledSystem([mechanics, thermal, other], twice)
 
 
-def test_an_address_needs_participant_and_port():
-    with pytest.raises(CouplingError, match="'heat' is not a port; written as"):
-        Connection("heat", "thermal.heat")
-
-
-def test_a_port_name_may_hold_dots():
-    assert Connection("a.belt.entry", "b.x").source.port == "belt.entry"
-
-
 @pytest.mark.parametrize(
     "order, message",
     [

@@ -1,7 +1,6 @@
 """What participants say is kept, the newest of it, and told to who listens."""
 
 from cosim.coupling import Message, Messages
-from cosim.coupling.messages import LONGEST
 
 
 def test_messages_are_kept_with_their_time_in_one_line():
@@ -27,8 +26,3 @@ def test_the_newest_are_kept_and_the_others_counted():
         messages.add("ok", "", str(number))
     assert [message.text for message in messages] == ["7", "8", "9"]
     assert (len(messages), messages.dropped) == (3, 7)
-
-
-def test_a_message_without_end_is_cut():
-    (message,) = [Messages("motor").add("ok", "", "x" * 10**6)]
-    assert message.text == "x" * LONGEST + " ..."

@@ -202,13 +202,6 @@ def test_another_run_is_refused(tmp_path, changes, said):
         go("linear", kept(folder), **changes)
 
 
-def test_another_set_up_is_refused(tmp_path):
-    folder = begun_and_cut_off(tmp_path, setup={"rig.mass": 0.67})
-    with pytest.raises(CheckpointError, match=r"rig.mass: was 0.67, is 0.7;"):
-        go("linear", kept(folder, setup={"rig.mass": 0.7}))
-    go("linear", kept(folder, setup={"rig.mass": 0.67}))
-
-
 def test_a_state_that_a_participant_refuses_is_one_line(tmp_path, monkeypatch):
     folder = begun_and_cut_off(tmp_path)
 

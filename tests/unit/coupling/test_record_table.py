@@ -207,8 +207,3 @@ def test_a_file_that_is_removed_is_missed(tmp_path, monkeypatch):
     with pytest.raises(OutputError, match="removed while it was written"):
         table.append([2.0])
     assert table.rows()[:, 0].tolist() == [1.0, 2.0], "nothing is lost before it is closed"
-
-
-def test_a_folder_that_is_not_there(tmp_path):
-    with pytest.raises(OutputError, match="No such file or directory"):
-        GrowingTable(1, tmp_path / "none" / "t.npy")

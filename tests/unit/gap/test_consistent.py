@@ -122,7 +122,7 @@ def contradictions(gap):
         yield "gap", digits(score.fit) in page
 
 
-@settings(max_examples=40, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@settings(max_examples=40, suppress_health_check=list(HealthCheck))
 @given(
     found_one=st.booleans(),
     gain=st.floats(6.0, 1e4),

@@ -87,6 +87,9 @@ BAD_RUNS = {
     "both": ({"summary": {"mean_x": [0.02, 0.002]}}, r"run 1: file: and summary: both given"),
     "figure": ({"summary": {"meanx": [0.0, 1.0]}}, r"summary.meanx: no such key, .*mean_x"),
     "no error": ({"summary": {"mean_x": [0.0, 0.0]}}, r"mean_x: \[0, 0\], .*deviation > 0\]"),
+    "too fast": ({"surface_speed": 1e9}, r"run 1: surface_speed: .*at most 1000 m/s"),
+    "no number": ({"mass": float("nan")}, r"run 1: mass: not a finite number"),
+    "hammer": ({"stiffness": 1e9}, r"run01.csv: column t: .*between samples.* at most half"),
     "no share": ({"summary": {"slip_share": [1.5, 0.1]}}, r"1.5 is not a share, allowed is 0 to"),
 }
 BAD_TABLES = {
@@ -100,6 +103,8 @@ BAD_TABLES = {
     "friction": ({"friction": {"mu_s": [0.3, 0.0]}}, r"friction.mu_s: \[0.3, 0\], allowed is"),
     "limits": ({"limits": {"mass": [2.0, 1.0]}}, r"limits.mass: \[2.0, 1.0\], allowed is \[low"),
     "three": ({"limits": {"mass": [1.0, 2.0, 3.0]}}, r"limits.mass: \[1.0, 2.0, 3.0\], al"),
+    "zero": ({"errors": {"zero": 1e300}}, r"errors.zero: .*allowed is"),
+    "known": ({"friction": {"mu_s": [0.3, 1e-300]}}, r"friction.mu_s: .*allowed is"),
     "scatter": ({"errors": {"friction": 0.5}}, r"errors.friction: out of range \(0.5\)"),
 }
 

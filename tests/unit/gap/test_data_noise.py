@@ -33,7 +33,7 @@ def test_noise_is_found_again(speed, seed):
     assert found == pytest.approx(NOISE, rel=tolerance(2001))
 
 
-@settings(max_examples=25, deadline=None, derandomize=True)
+@settings(max_examples=25)
 @given(
     seed=st.integers(0, 2**32 - 1),
     jitter=st.floats(0.0, 0.004),
@@ -89,7 +89,7 @@ def test_outliers_are_found_and_the_noise_is_the_same(speed):
     assert difference_noise(run.time, kept) == pytest.approx(NOISE, rel=tolerance(1500))
 
 
-@settings(max_examples=20, deadline=None, derandomize=True)
+@settings(max_examples=20)
 @given(seed=st.integers(0, 2**32 - 1), size=st.sampled_from([1e-6, 1e-5, NOISE]))
 def test_corners_are_no_outliers(slow, seed, size):
     """With little noise the corners are the sharpest thing in the data."""

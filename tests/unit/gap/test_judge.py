@@ -210,7 +210,7 @@ GAPS = st.floats(0.9, 10.0)
 NAMES = st.lists(st.sampled_from([*sorted(PHYSICS), "other.time"]), max_size=3, unique=True)
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(
     names=NAMES, gaps=st.lists(st.tuples(GAPS, st.none() | GAPS), min_size=4, max_size=4),
     share=st.floats(0.0, 1.0), gains=st.lists(st.floats(6.0, 1e3), min_size=3, max_size=3),

@@ -76,14 +76,12 @@ OVER_BOTH = "v,T_degC,mu\n" + "".join(
     [
         (OVER_BOTH, {}, ["column T_degC", "allowed are v and mu"]),
         (CSV, {"friction": {"table": "other.csv"}}, ["friction.table: ", "No such file"]),
-        ("v,mu\n0,0.2\n0,0.1\n", {}, ["friction.table: ", "a speed that grows"]),
         ("v,mu\n0,0\n0.4,0\n", {}, ["mu is 0 at 0.103 m/s", "allowed is above 0"]),
         (
             CSV, {"friction": {"table": "mu_v.csv", "mu_k": [0.2, 0.01]}},
             ["friction.mu_k: 0.2 beside table", "give one of the two"],
         ),
         (CSV, {"model": {"scheme": "study"}}, ['beside model.scheme = "study"']),
-        (CSV, {"friction": {"table": 3}}, ["friction.table: not a text (3)"]),
         (CSV, {"errors": {"friction_table": 0.0}}, ["errors.friction_table"]),
     ],
 )  # fmt: skip

@@ -124,26 +124,16 @@ NUMBER = "allowed is a number greater than 0 kg"
     "text, line",
     [
         ("[rig]\nmass = 0", f"rig.mass: out of range (0), {NUMBER}"),
-        ("[rig]\nmass = -1.5", f"rig.mass: out of range (-1.5), {NUMBER}"),
         ("[rig]\nmass = nan", f"rig.mass: not a finite number (nan), {NUMBER}"),
-        ("[rig]\nmass = -inf", f"rig.mass: not a finite number (-inf), {NUMBER}"),
         ("[rig]\nmass = '1'", f'rig.mass: not a number ("1"), {NUMBER}'),
         ("[rig]\nmass = true", f"rig.mass: not a number (true), {NUMBER}"),
-        ("[rig]\nmass = 1979-05-27", f"rig.mass: not a number (1979-05-27), {NUMBER}"),
-        ("[belt]\nlength = '1'", "belt.length: not a number"),
         ("[belt]\nelements = 6.0", "belt.elements: not a whole number (6.0), allowed is a whole"),
         ("[rig]\nmass = 1e308", f"rig.mass: 1e+308: {COMPUTABLE}"),
         ("[rig]\nmass = 5e-324", f"rig.mass: 4.94066e-324: {COMPUTABLE}"),
-        ("[speed_ripple]\nphase_deg = -1e308", f"speed_ripple.phase_deg: -1e+308: {COMPUTABLE}"),
         (
             "[friction]\ntable_temperature_degC = [-1e308, 0]",
             "friction.table_temperature_degC: out of range (-1e+308), allowed is a list of a number"
             " at least -273.15 and at most 1000 degC",
-        ),
-        (
-            "[rig]\nattachment_angles_deg = [1, 2, 3, 1e308]",
-            "rig.attachment_angles_deg: out of range (1e+308), allowed is a list of 4, each a"
-            " number at least -360 and at most 360 deg",
         ),
         ("[rig]\nmas = 1", "rig.mas: no such key, nearest known: rig.mass"),
         ("mass = 1", "mass: no such key, nearest known: rig.mass"),
@@ -161,7 +151,6 @@ NUMBER = "allowed is a number greater than 0 kg"
         ("[run]\nduration = 1e300", "run.output_interval: 0.01 s cuts run.duration = 1e+300 s"),
         ("[coupling]\nmacro_step = 0", "coupling.macro_step: out of range (0), allowed is a num"),
         ("name = '../up'", 'name: not fit for the name of a folder ("../up"), allowed is'),
-        ("[rig]\nmass =", "not TOML: invalid value (at line 2, end of document)"),
         ("[rig\nmass = 1", "not TOML: expected ']' at the end of a table declaration (at line 1,"),
         ("a = " + "[" * 5000, "not TOML"),
         ("a = " + "1" * 5000, "not TOML"),

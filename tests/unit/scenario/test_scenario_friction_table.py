@@ -58,20 +58,9 @@ NUMBERS = "[friction]\ntable_speed = [0.0, 0.1]\ntable_mu = [0.2, 0.1]\n"
     ("text", "csv", "says"),
     [
         ('[friction]\ntable = "mu.csv"\n', CSV, ["friction.table: ", "No such file"]),
-        (FILE, "v,nu\n0,1\n1,2\n", ["friction.table: ", "no column mu (there are v, nu)"]),
         (FILE, "v,mu\n0,0.2\n0.1,x\n", ["friction.table: ", 'line 3, mu = "x"', "finite number"]),
-        (FILE, "v,mu\n0,0.2\n0.1\n", ["friction.table: ", "line 3, mu"]),
         (FILE, "v,mu\n0,0.2\n", ["friction.table: ", "1 points", "2 to 16"]),
-        (FILE, "v,mu\n" + "".join(f"{i},0.2\n" for i in range(17)), ["17 points", "2 to 16"]),
-        (
-            FILE,
-            "v,mu\n0,0.2\n0,0.1\n",
-            ["friction.table: ", "line 3: v = 0 after 0", "a speed that grows"],
-        ),
-        (FILE, "v,mu\n-1,0.2\n0,0.1\n", ["friction.table: ", "line 2, v = -1: allowed is 0 to"]),
-        (FILE, "v,mu\n0,0.2\n1,-0.1\n", ["friction.table: ", "line 3, mu = -0.1: allowed is 0 to"]),
         (FILE + "table_speed = [0.0, 1.0]\n", CSV, ["friction.table: ", "give one of them"]),
-        ("[friction]\ntable = 3\n", CSV, ["friction.table: not a text (3)"]),
         ("[friction]\ntabel_mu = [1.0]\n", CSV, ["no such key, nearest known: friction.table_mu"]),
         ("[friction]\ntable_mu = [0.2, 0.1]\n", CSV, ["friction.table_speed: has 0", "has 2"]),
         (
@@ -79,19 +68,9 @@ NUMBERS = "[friction]\ntable_speed = [0.0, 0.1]\ntable_mu = [0.2, 0.1]\n"
             CSV,
             ["friction.table_speed: beside velocity_weakening.power = 0.1", "give one of the two"],
         ),
-        (
-            NUMBERS + "[viscoelastic_peak]\nheight = 0.1\n",
-            CSV,
-            ["friction.table_speed: beside viscoelastic_peak.height = 0.1"],
-        ),
     ],
 )
 def test_a_fault_is_one_line(tmp_path, text, csv, says):
     line = fault(tmp_path, text, csv)
     for words in says:
         assert words in line
-
-
-def test_a_first_point_above_mu_s_is_told_but_taken():
-    with pytest.warns(UserWarning, match="friction.table_mu = 0.5 .* holds up to table_mu"):
-        Scenario(friction={"table_speed": (0.0, 0.1), "table_mu": (0.5, 0.1)})

@@ -28,11 +28,6 @@ def test_an_absolute_mesh_stays_what_it_is_and_is_written_back(tmp_path):
     assert read_scenario(copy).ice.mesh == str(tmp_path / "sample.msh")
 
 
-def test_without_a_mesh_there_is_none(tmp_path):
-    assert read_scenario(scenario(tmp_path, "")).ice.mesh == ""
-    assert Scenario().ice.mesh == ""
-
-
 @pytest.mark.parametrize(
     ("tables", "says"),
     [

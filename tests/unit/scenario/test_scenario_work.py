@@ -17,7 +17,6 @@ from stickslip.status import (
 from cosim.cli.runs.running import scenario_to_run
 from cosim.coupling.case import run_scenario
 from cosim.scenario import Scenario, ScenarioError, check_work, read_scenario
-from cosim.scenario.durations import in_words
 from cosim.studies.sweep import Run, SweepError, product_grid
 from thermal.ice.ablation import LONGEST_RECESSION
 from thermal.model import BeltIceModel
@@ -172,11 +171,6 @@ def _touching(model):
     """Rows of nodes that the kink of the contact adds."""
     heights = model.ice.z.size
     return (model.ice.r.size - 2 * 6 - 1) * heights
-
-
-def test_times_are_said_as_one_would():
-    said = [in_words(x) for x in (5.0, 90.0, 1200.0, 1.8e4, 2.6e5, 6.4e8)]
-    assert said == ["5 s", "90 s", "20 min", "5 h", "3 days", "20 years"]
 
 
 def test_no_packaged_case_has_to_be_patient():

@@ -5,43 +5,8 @@ from importlib import resources
 import numpy as np
 import pytest
 from stickslip import EFFECTS, Parameters
-from stickslip.generation.derived import effect_slot_names
-from stickslip.generation.slots import draw_slots, effect_slots, value_slot
 from stickslip.generation.stubs import stubs
 from stickslip.kernel import layout, tables
-from stickslip.ports import OUTPUTS
-
-ARRAYS = {
-    "z": tables.memory(layout.INSTANT, layout.STATES, layout.U_SIZE),
-    "u": tables.INPUTS,
-    "p": [*tables.PARAMETERS, *effect_slots(EFFECTS)],
-    "v": [(value_slot(name), size) for name, size in tables.values(EFFECTS)],
-    "d": [*tables.DRAWS, *draw_slots(EFFECTS)],
-    "w": tables.scratch(layout.INSTANT, layout.STATES),
-    "tableau": tables.TABLEAU,
-    "quadrature": tables.QUADRATURE,
-    "instant": tables.instant(EFFECTS),
-}
-
-
-@pytest.mark.parametrize("array", ARRAYS)
-def test_slots_stand_end_to_end(array):
-    """In the order of their declaration each begins where the one before ends."""
-    at = 0
-    for name, size in ARRAYS[array]:
-        assert (getattr(layout, name), size > 0) == (at, True), name
-        at += size
-    sizes = {"instant": "INSTANT", "tableau": "T_SIZE", "quadrature": "Q_SIZE"}
-    assert at == getattr(layout, sizes.get(array, f"{array.upper()}_SIZE"))
-
-
-def test_the_integrated_states_come_first():
-    """What every motion depends on, then what friction can remember, then what is only counted."""
-    assert [layout.X, layout.OMEGA] == [1, layout.MOVING]
-    assert [layout.HEAT, layout.DAMPED] == [layout.REMEMBERED + 1, layout.STATES]
-    assert layout.MODE == 1 + layout.STATES
-    remembered = [layout.THERMAL_WEAKENING_RECENT_HEAT, layout.RATE_AND_STATE_AGE]
-    assert max(remembered) == layout.REMEMBERED and min(remembered) > layout.DISTANCE
 
 
 def test_the_tables_have_the_room_that_is_declared():
@@ -75,12 +40,6 @@ def test_an_effect_more_moves_no_other_number():
     assert {name for name in moved if not name.startswith("V_")} <= {"P_SIZE", "DRAW_SEED"}
 
 
-def test_parameters_fill_the_vector():
-    p = Parameters().pack()
-    assert len(p) == layout.P_SIZE
-    assert np.all(np.isfinite(p))
-
-
 def test_every_parameter_of_an_effect_reaches_the_vector():
     """Changing any of them, its effect on, changes ``p``."""
     for effect in EFFECTS:
@@ -93,15 +52,6 @@ def test_every_parameter_of_an_effect_reaches_the_vector():
             changed = value + 1 if isinstance(value, int) else 0.75 * value + 0.03125 * (value == 0)
             other = Parameters(**{effect.id: on | {name: changed}}).pack()
             assert other != plain, f"{effect.id}.{name}"
-
-
-def test_no_two_parameters_share_a_slot():
-    slots = [getattr(layout, name) for name in effect_slot_names(EFFECTS).values()]
-    assert len(set(slots)) == len(slots)
-
-
-def test_outputs_name_every_slot_of_a_row():
-    assert sorted(getattr(layout, port.slot) for port in OUTPUTS) == list(range(layout.O_SIZE))
 
 
 @pytest.mark.parametrize("file", stubs())

@@ -57,27 +57,23 @@ def close(printed):
     )
 
 
-def entries(table):
-    return [
-        (*case, h, rise)
-        for case, rises in table.items()
-        for h, rise in zip(FILMS, rises, strict=True)
-    ]
+#: What the ice takes, and whether it is at the end of the run or long after.
+TABLES = {
+    "shared with the ice": (SHARED, {}, False),
+    "all to the belt": (ALL_TO_BELT, {"ice": NO_ICE}, False),
+    "all to the belt, steady": (STEADY_ALL_TO_BELT, {"ice": NO_ICE}, True),
+}
 
 
-@pytest.mark.parametrize(("length", "speed", "h", "rise"), entries(SHARED))
-def test_heat_shared_with_the_ice(length, speed, h, rise):
-    assert sliding(length, speed, h).run(DURATION).entry == close(rise)
-
-
-@pytest.mark.parametrize(("length", "speed", "h", "rise"), entries(ALL_TO_BELT))
-def test_all_heat_to_the_belt(length, speed, h, rise):
-    assert sliding(length, speed, h, ice=NO_ICE).run(DURATION).entry == close(rise)
-
-
-@pytest.mark.parametrize(("length", "speed", "h", "rise"), entries(STEADY_ALL_TO_BELT))
-def test_steady_all_heat_to_the_belt(length, speed, h, rise):
-    assert sliding(length, speed, h, ice=NO_ICE).settle().entry == close(rise)
+@pytest.mark.parametrize(
+    ("table", "case"), [(name, case) for name, (table, *_) in TABLES.items() for case in table]
+)
+def test_rise_of_the_belt_is_as_printed(table, case):
+    printed, blocks, settles = TABLES[table]
+    for h, rise in zip(FILMS, printed[case], strict=True):
+        state = sliding(*case, h, **blocks)
+        found = state.settle() if settles else state.run(DURATION)
+        assert found.entry == close(rise), h
 
 
 def test_lumped_loop_explains_the_rest():

@@ -29,8 +29,12 @@ CASES = {
             ),
             railing_length=0.1,
             railing_conductance=200.0,
+            railing_friction=0.1,
+            railing_load=13.45,
+            railing_share=0.5,
             rollers=2,
             roller_arc=0.04,
+            roller_rise=0.7,
             **SHORT,
         )
     ),
@@ -56,6 +60,9 @@ def test_ledger_over_many_passes(case):
         worst = max(worst, abs(outputs["heat_residual"]) / outputs["heat_received"])
     assert worst < CLOSED
     assert outputs["air_heat"] > 0.05 * outputs["heat_received"], "the air's part must matter"
+    if "railing" in case:
+        assert outputs["railing_heat"] > 0.05 * outputs["heat_received"]
+        assert outputs["support_heat"] != 0.0
     if case == "near melting":
         assert outputs["latent_heat"] > 0.05 * outputs["heat_received"]
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from thermal import Belt, BeltIceModel, Contact, Ice, ParameterError, ThermalParameters
+from thermal import Belt, BeltIceModel, Contact, Ice, ThermalParameters
 from thermal.steady_sliding import SteadySliding
 
 LOAD, FRICTION, SHARE = 13.45, 0.1, 0.5  # N, 1, 1
@@ -34,50 +34,6 @@ def test_an_insulated_belt_keeps_all_of_its_share():
     assert model.belt.field().mean() == pytest.approx(expected / capacity, rel=0.05)
     assert outputs["heat_received"] == 0.0
     assert abs(outputs["heat_residual"]) < 1e-10 * expected
-
-
-def test_a_block_that_sticks_lets_the_railing_rub():
-    model = BeltIceModel(ThermalParameters(belt=Belt(cell_length=4e-3, **RAILING)))
-    model.step(0.5, 0.0, 0.0, -0.1)
-    assert model.outputs()["railing_heat"] == pytest.approx(SHARE * FRICTION * LOAD * 0.1)
-    model.step(0.5, 0.0, 0.0)
-    assert model.outputs()["railing_heat"] == pytest.approx(SHARE * FRICTION * LOAD * 0.1)
-
-
-def test_ledger_closes_with_railing_heat_and_warm_rollers():
-    rng = np.random.default_rng(4)
-    model = BeltIceModel(
-        ThermalParameters(
-            belt=Belt(
-                length=0.5,
-                cell_length=4e-3,
-                roller_rise=0.7,
-                **(ROLLERS | {"roller_arc": 0.04}),
-                **RAILING,
-            )
-        )
-    )
-    for _ in range(300):
-        model.step(rng.choice([1e-3, 0.02, 0.3]), rng.exponential(0.05), *rng.normal(0.0, 0.05, 2))
-    outputs = model.outputs()
-    put_in = outputs["heat_received"] + outputs["railing_heat"]
-    assert outputs["railing_heat"] > 0.05 * put_in
-    assert outputs["support_heat"] != 0.0
-    assert abs(outputs["heat_residual"]) < 1e-10 * put_in
-
-
-def test_off_is_as_if_there_were_no_such_keys():
-    """Bit for bit: a railing without friction, rollers as cold as the air."""
-    plain, off = (
-        BeltIceModel(
-            ThermalParameters(belt=Belt(cell_length=4e-3, railing_length=0.08, **ROLLERS, **more))
-        )
-        for more in ({}, {"railing_load": LOAD, "railing_share": 0.9, "roller_rise": 0.0})
-    )
-    for model in (plain, off):
-        for _ in range(20):
-            model.step(0.05, 0.02, 0.02)
-    assert np.array_equal(plain.state(), off.state())
 
 
 def test_warm_rollers_warm_a_belt_that_conducts_well():
@@ -123,11 +79,6 @@ def test_faces_apart_keep_what_arises_on_them(side):
     for _ in range(10):
         model.step(0.1, 0.05, 0.02)
     assert model.outputs()["belt_share"] == pytest.approx(side, abs=1e-6)
-
-
-def test_friction_on_no_railing_is_refused():
-    with pytest.raises(ParameterError, match=r"railing_friction = 0\.1 and belt\.railing_length"):
-        ThermalParameters.checked({"belt": {"railing_friction": 0.1}})
 
 
 def test_a_sample_of_one_temperature_holds_its_heat():

@@ -6,9 +6,7 @@ Slab of thickness d, conductivity k, diffusivity alpha, effusivity e; z from the
 import numpy as np
 import pytest
 from scipy.fft import rfft
-from scipy.linalg import eigh
 from scipy.optimize import brentq
-from skfem import BilinearForm, CellBasis, ElementQuad2, FacetBasis, MeshQuad
 
 from thermal import Belt
 from thermal.belt.material_frame import CONTACT, BeltField
@@ -130,32 +128,3 @@ def test_constant_flux_is_exact_in_time():
         fields.append(np.append(belt.field().ravel(), air))
     assert fields[1] == pytest.approx(fields[0], rel=1e-12)
     assert fields[2] == pytest.approx(fields[0], rel=1e-11)
-
-
-def test_tensor_factors_are_the_assembled_two_dimensional_problem():
-    """Rates against an eigenproblem that scikit-fem assembles in two dimensions.
-
-    Quadrilaterals, Q2, four times finer along x, periodic ends identified by a projection: the
-    slowest rate is that of the thickness alone, the next has one wave along the belt.
-    """
-    cells, length, h = 10, 0.004, 2000.0
-    belt = slab(elements=3, h=h, cells=cells, length=length)
-    mesh = MeshQuad.init_tensor(np.linspace(0, length, 4 * cells + 1), belt.depth[::2])
-    basis = CellBasis(mesh, ElementQuad2())
-    faces = FacetBasis(
-        mesh,
-        ElementQuad2(),
-        facets=mesh.facets_satisfying(lambda x: (x[1] < 1e-9) | (x[1] > D - 1e-9)),
-    )
-    stiffness = BilinearForm(
-        lambda u, v, w: K * (u.grad[0] * v.grad[0] + u.grad[1] * v.grad[1])
-    ).assemble(basis)
-    stiffness += h * BilinearForm(lambda u, v, w: u * v).assemble(faces)
-    mass = RHO * C * BilinearForm(lambda u, v, w: u * v).assemble(basis)
-    place = np.round(basis.doflocs * 1e9)  # nanometres, so that equal places are equal
-    place[0] %= round(length * 1e9)
-    _, same = np.unique(place, axis=1, return_inverse=True)
-    identify = np.eye(same.max() + 1)[same.ravel()]
-    rates = eigh(identify.T @ stiffness @ identify, identify.T @ mass @ identify, eigvals_only=True)
-    assert belt.rates[0, 0] == pytest.approx(rates[0], rel=1e-9)
-    assert belt.rates[0, 1] == pytest.approx(rates[1], rel=0.02)

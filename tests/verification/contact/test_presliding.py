@@ -86,18 +86,6 @@ def test_a_surface_slower_than_the_creep_never_loses_the_block():
     np.testing.assert_allclose(STIFFNESS * run["x"], load, rtol=1e-11, atol=0)
 
 
-def test_damping_is_part_of_the_load():
-    """x' = V - (c / (1 + c D)) (K x + D V), c = v_c / (mu_s N)."""
-    damping = 5.0
-    run = on_a_line(0.9, structural_damping={"coefficient": damping})
-    c = CREEP / HOLD
-    c /= 1.0 + c * damping
-    end = (SPEED - c * damping * SPEED) / (c * STIFFNESS)
-    exact = end * -np.expm1(-c * STIFFNESS * run.time)
-    assert not run["mode"].any()
-    np.testing.assert_allclose(run["x"], exact, rtol=0, atol=1e-13)
-
-
 def test_a_contact_that_ages_breaks_away_at_what_it_holds_then():
     growth, hold_time = 0.05, 0.1
     ageing = {"rate": growth, "hold_time": hold_time}
@@ -116,39 +104,7 @@ def test_the_heat_of_a_creep_weakens_the_slip_after_it():
     assert 1.0 - friction == pytest.approx(20.0 * heat, rel=1e-6)
 
 
-def test_a_creep_that_vanishes_is_none():
-    rigid, hardly = (
-        on_a_line(8.0, friction={"stick_creep": creep}) for creep in (0.0, 1e-10 * CREEP)
-    )
-    np.testing.assert_allclose(hardly["x"], rigid["x"], rtol=0, atol=1e-10)
-    np.testing.assert_array_equal(hardly["mode"], rigid["mode"])
-
-
 # The law with inertia, by scipy's stiff solver: m x'' = -K x + eta (V - x').
-
-
-def late(creep: float) -> float:
-    """How much later the load reaches mu_s N where the creep has inertia, s."""
-    eta = HOLD / creep
-
-    def slopes(t, y):
-        return [y[1], (eta * (SPEED - y[1]) - STIFFNESS * y[0]) / MASS]
-
-    def limit(t, y):
-        return eta * (SPEED - y[1]) - HOLD
-
-    limit.terminal = True
-    run = solve_ivp(
-        slopes, (0.0, 5.0), [0.0, SPEED], method="Radau", events=limit, rtol=1e-11, atol=1e-14
-    )
-    return run.t[-1] - on_a_line(friction={"stick_creep": creep}).slip_starts[0]
-
-
-def test_the_inertia_left_out_is_worth_the_time_that_it_is_said_to_be():
-    for creep in (2e-3, 1e-3, 5e-4):
-        # less what a block that creeps less is ahead; the next order is v_c K / (mu_s N) of it
-        expected = creep / (MU_S * GRAVITY) * (1.0 - creep / SPEED)
-        assert late(creep) == pytest.approx(expected, rel=0.02)
 
 
 PLANES = {

@@ -175,11 +175,3 @@ def test_without_a_transition_the_age_is_lost_at_once():
     ]
     for name in runs[0].columns:
         np.testing.assert_array_equal(runs[0][name], runs[1][name])
-
-
-def test_a_law_of_speed_and_state_has_no_mu_s_to_fall_from():
-    with pytest.raises(ValueError, match=r"friction.transition_speed = 0.001 m/s beside rate_and"):
-        Parameters(friction={"transition_speed": 1e-3}, rate_and_state={"direct": 0.01})
-    for exponent in (0.4, 3.1):
-        with pytest.raises(ValueError, match=r"friction.transition_exponent"):
-            Parameters(friction={"transition_exponent": exponent})

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from scipy.integrate import dblquad, solve_ivp
 from stickslip import Parameters, friction_coefficient, simulate
-from stickslip.catalogue import CATALOGUE
 from stickslip.kernel.friction.coefficient import holding_coefficient, local_coefficient
 from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_SIZE
 
@@ -160,17 +159,6 @@ def test_the_limit_of_no_speed_is_dry_and_what_is_at_rest_holds(temperature):
     assert holding_coefficient(p, u, w) == pytest.approx(DRY, rel=1e-15)
     for speed in SPEEDS:
         assert np.isfinite(local_coefficient(p, u, w, DRY, speed))
-
-
-def test_the_law_is_the_same_number_compiled():
-    p = parameters(asperity_melting=ASPERITY, melt_film=FILM).pack()
-    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
-    for u[U_TEMPERATURE] in (-16.0, -3.3, -1e-6, 0.0):
-        for speed in SPEEDS:
-            compiled = CATALOGUE.compiled.local_coefficient(
-                np.array(p), np.array(u), np.array(w), DRY, speed
-            )
-            assert compiled == local_coefficient(p, u, w, DRY, speed)
 
 
 def test_a_speed_must_be_one():

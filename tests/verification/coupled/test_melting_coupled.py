@@ -97,21 +97,3 @@ def test_the_balance_closes_on_itself(numbers):
     assert melting["flooded_share"] < melting["largest_flooded_share"]
     assert melting["friction_end"] < 0.65 * melting["friction_before"]
     assert melting["friction_before"] == pytest.approx(0.2086, rel=1e-3)
-
-
-def test_the_rig_keeps_straight(coupled):
-    """It starts 1 mm and 10 mrad off, and comes back."""
-    assert abs(coupled["mechanics.y"][0]) == 1e-3 and coupled["mechanics.phi"][0] == 0.01
-    late = coupled.time > 3.0
-    assert np.max(np.abs(coupled["mechanics.y"][late])) < 1e-4
-    assert np.max(np.abs(coupled["mechanics.phi"][late])) < 1e-3
-
-
-def test_a_finer_macro_step_changes_little(coupled):
-    """Half the step: the film follows friction sooner; 1.5 s in, a per mille of each."""
-    case = read_scenario("meltwater").changed(
-        {"run.duration": 1.5, "coupling.macro_step": 0.5 * MACRO_STEP}
-    )
-    fine = run_scenario(case).result
-    for name in ("mechanics.friction_force_x", "thermal.film_thickness", "thermal.melted_mass"):
-        assert at(coupled, name, 1.5) == pytest.approx(fine[name][-1], rel=4e-3), name

@@ -7,10 +7,8 @@ from math import pi, sqrt
 
 import numpy as np
 import pytest
-from kernel_steps import largest_step_difference, memory_of
 from scipy.optimize import brentq
 from stickslip import Parameters, friction_coefficient, simulate
-from stickslip.catalogue import CATALOGUE
 
 from thermal import Ambient, Belt, BeltIceModel, Contact, Ice, ThermalParameters
 from thermal.materials import WATER_DENSITY, WATER_VISCOSITY
@@ -70,23 +68,6 @@ def test_age_belongs_to_the_dry_part():
     found = friction_coefficient(parameters(rate_and_state=law), [0.1], film_thickness=3e-6)
     water = 0.25 * ETA * 0.1 / 3e-6 / PRESSURE
     assert found[0] == pytest.approx(0.5 * (MU_K + 0.03 * np.log(100.0)) + water, rel=1e-8)
-
-
-@pytest.mark.parametrize("film", [0.0, 5e-7, 2e-5])
-def test_interpreted_and_compiled_take_the_same_step(film):
-    plane = parameters(lateral_friction={"ratio": 1.0}, initial={"vx": 0.1, "y": 0.01, "phi": 0.1})
-    plane = plane.model_copy(
-        update={"rig": plane.rig.model_copy(update={"degrees_of_freedom": ("x", "y", "phi")})}
-    )
-    memory = memory_of(plane, film_thickness=film)
-    assert largest_step_difference(CATALOGUE.compiled, memory, 60) == 0.0
-
-
-def test_a_film_that_nothing_feels_changes_no_bit():
-    off = parameters(0.0)
-    plain, told = simulate(off, 3.0), simulate(off, 3.0, film_thickness=1e-5)
-    for name in ("x", "heat", "friction_force_x"):
-        np.testing.assert_array_equal(plain[name], told[name])
 
 
 @pytest.mark.parametrize("film", [-1e-9, np.inf, np.nan])

@@ -54,25 +54,9 @@ CASES = {
     ),
     # laws of the local speed go through the kernel's quadrature, 8 x 4 points over the contact,
     # which is that exact where the speed varies little over it (see test_effect_local_law)
-    "velocity_weakening, linear": (
-        {"velocity_weakening": {"linear": 1.2}},
-        {"law": lambda u: MU_K * (1.0 - 1.2 * u)},
-    ),
-    "velocity_weakening, hyperbolic": (
-        {"velocity_weakening": {"hyperbolic": 3.0}},
-        {"law": lambda u: MU_K / (1.0 + 3.0 * u)},
-    ),
-    "velocity_weakening, inverse root": (
-        {"velocity_weakening": {"inverse_root": 10.0}},
-        {"law": lambda u: MU_K / np.sqrt(1.0 + 10.0 * u)},
-    ),
     "velocity_weakening, Stribeck": (
         {"velocity_weakening": {"stribeck": 0.5, "stribeck_speed": 0.1}},
         {"law": lambda u: MU_K * (1.0 + 0.5 * np.exp(-u / 0.1))},
-    ),
-    "film_drag, root": (
-        {"film_drag": {"root_coefficient": 0.5}},
-        {"law": lambda u: MU_K + 0.5 / NORMAL * np.sqrt(u)},
     ),
 }
 

@@ -88,13 +88,6 @@ def test_scatter_has_its_mean_deviation_and_correlation():
     np.testing.assert_allclose(correlation, np.exp(-0.5 * gap**2), atol=4.0 * np.sqrt(2.0) * noise)
 
 
-def test_seeds_repeat_and_differ():
-    places = np.linspace(0.0, 0.2, 21)
-    first, again, other = (field(scattered(seed=seed), places) for seed in (7, 7, 8))
-    np.testing.assert_array_equal(first, again)
-    assert np.max(np.abs(first - other)) > 0.05
-
-
 def test_scatter_does_not_depend_on_the_step():
     """Cycles are those of a hundred times the tolerance: it is a field, not a throw per step."""
     runs = [

@@ -12,11 +12,9 @@ from kernel_steps import largest_step_difference, memory_of
 from scipy.interpolate import PchipInterpolator
 from stickslip import Parameters, friction_coefficient, simulate
 from stickslip.catalogue import CATALOGUE
-from stickslip.friction.table_file import table_of
 from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.friction.table import table_coefficient
 from stickslip.kernel.layout import P_MU_K, U_SIZE, W_FRICTION, W_SIZE
-from stickslip.packing import pack
 
 RADIUS, NORMAL = 0.04, 0.67 * 9.81
 #: Falls, is flat, has a peak, and falls to nothing.
@@ -118,22 +116,6 @@ def test_what_else_acts_on_mu_k_multiplies_it():
     mu = PchipInterpolator(SPEED, MU)(np.minimum(run["sliding_speed"][slip], SPEED[-1]))
     force = np.abs(run["friction_force_x"][slip])
     np.testing.assert_allclose(force, NORMAL * factor * mu, rtol=0, atol=1e-11)
-
-
-def test_it_is_found_again_under_the_fmu_s_names():
-    flat = Parameters(**table()).flat()
-    assert table_of(flat) == {"table_speed": SPEED, "table_mu": MU}
-    assert table_of(Parameters().flat()) == {"table_speed": (), "table_mu": ()}
-    few = {f"friction.table_{of}[{i}]": 0.1 * i for of in ("speed", "mu") for i in (1, 2, 3)}
-    given = Parameters().flat() | few  # the places that are left end it
-    mu = [table_coefficient(pack(given), v, -8.0) for v in (0.05, 0.2, 0.25, 1.0)]
-    assert mu == pytest.approx([0.1, 0.2, 0.25, 0.3])
-
-
-def test_the_ledger_closes():
-    run = simulate(Parameters(**table(), **(PLANAR | {"initial": {"vx": 0.15, "y": 0.005}})), 10.0)
-    assert run.complete and len(run.events) > 4
-    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]
 
 
 def test_interpreted_and_compiled_take_the_same_step():

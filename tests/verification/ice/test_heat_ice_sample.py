@@ -10,7 +10,6 @@ from scipy.sparse.linalg import eigsh
 from scipy.special import erfc
 
 from thermal import (
-    Ambient,
     Belt,
     BeltIceModel,
     Contact,
@@ -106,16 +105,6 @@ def test_cylinder_against_the_axisymmetric_model(tmp_path):
     assert np.log2(coarse[3] / fine[3]) == pytest.approx(ORDER_OF_THE_POLYGON, abs=0.4)
 
 
-def test_contact_on_a_narrow_belt(tmp_path):
-    """A third of the base on the belt: soon colder than a slab, at last warmed as a whole."""
-    ice = sample(tmp_path, box((1, 6, 4), EXTENT), width=0.02)
-    assert ice.area == pytest.approx(0.08 * 0.02)
-    assert ice.breadth == 0.02
-    assert ice.face_response(30.0)[1] * ice.area < 0.9 * slab(30.0, EXTENT[2])
-    late = ice.face_response(2e6)[1] - ice.face_response(1e6)[1]
-    assert late / 1e6 == pytest.approx(1.0 / (RHO * C * np.prod(EXTENT)), rel=1e-9)
-
-
 def test_heat_is_conserved(tmp_path):
     ice = sample(tmp_path, box((2, 2, 2), EXTENT), h=10.0)
     air = sum(ice.advance(30.0, float(n % 5)) for n in range(1000))
@@ -134,33 +123,6 @@ def test_section_shows_the_field(tmp_path):
     s = z / deep
     exact = 5.0 / ice.area * deep / K * (np.exp(-(s**2)) / np.sqrt(np.pi) - s * erfc(s))
     assert rise[x.size // 2] == pytest.approx(exact, abs=0.01 * exact[0])
-
-
-def models(tmp_path, across=4, **ambient):
-    """The whole model with a cylinder by itself and from a mesh, heated alike."""
-    path = write(tmp_path / "cylinder.vtu", *cylinder(across, 4))
-    belt = Belt(width=0.1, cell_length=4e-3)
-    contact = Contact(radius=0.04)
-    return [
-        BeltIceModel(
-            ThermalParameters(
-                belt=belt, contact=contact, ambient=Ambient(**ambient), ice=Ice(mesh=mesh)
-            )
-        )
-        for mesh in ("", str(path))
-    ]
-
-
-def test_a_sample_melts_as_the_cylinder_does(tmp_path):
-    rates = []
-    for model in models(tmp_path, across=2, temperature_degC=-1.0):
-        for _ in range(150):
-            model.step(0.01, 200.0 * model.footprint.area, 0.005)
-        outputs = model.outputs()
-        assert abs(outputs["heat_residual"]) < 1e-10 * outputs["heat_received"]
-        assert outputs["ice_face_temperature"] == pytest.approx(0.0, abs=1e-10)
-        rates.append(outputs["melt_rate"] / model.footprint.area)
-    assert rates[1] == pytest.approx(rates[0], rel=0.01)
 
 
 def test_fields_of_a_sample_read_back(tmp_path):

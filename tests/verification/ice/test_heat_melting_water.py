@@ -42,18 +42,6 @@ def test_shear_is_exact_for_any_step():
         assert water.mass == pytest.approx(exact, rel=1e-12)
 
 
-def test_squeeze_of_a_disc():
-    """h^-2 grows by 4 p t/(3 eta a^2), a^2 = area / pi (Stefan)."""
-    pressure, thickness, duration = 900.0, 3e-4, 5.0
-    water = film(pressure)
-    start = water.mass = thickness * WATER_DENSITY * AREA
-    left = sum(water.advance(duration / 20, 0.0, 0.0) for _ in range(20))
-    grown = 4.0 * pressure * duration / (3.0 * WATER_VISCOSITY * AREA / math.pi)
-    assert water.thickness**-2 == pytest.approx(thickness**-2 + grown, rel=1e-12)
-    assert left == 0.0
-    assert water.squeezed == pytest.approx(start - water.mass, rel=1e-12)
-
-
 @pytest.mark.parametrize("displacement", [0.0, 1e-12, 0.004, -2.0])
 def test_what_is_available_can_freeze_to_the_last_drop(displacement):
     water = film()

@@ -95,7 +95,7 @@ parameters = st.builds(
 )
 
 
-@settings(max_examples=30, deadline=None, derandomize=True)
+@settings(max_examples=30)
 @given(parameters)
 def test_mirror_images(p):
     """Left and right: y, phi change sign. Belt reversed: x, phi change sign, with the start."""

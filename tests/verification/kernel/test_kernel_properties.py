@@ -37,7 +37,7 @@ def run_from(parameters: Parameters, start: float, times: np.ndarray) -> tuple:
     return o.reshape(-1, layout.O_SIZE)[:rows], events - [start, 0.0, 0.0]
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@settings(max_examples=40)
 @given(seeds, effects, st.floats(0.0, 1000.0))
 def test_time_has_no_origin(seed, on, start):
     """Over 1 s; a clock at 1000 s reads to 1e-13 s, and few events magnify that little.
@@ -62,7 +62,7 @@ def test_time_has_no_origin(seed, on, start):
     np.testing.assert_allclose(later[:, motion], here[:, motion], rtol=0, atol=1e-8)
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(seeds, effects)
 def test_friction_never_drives_the_sliding(seed, on):
     """Power of the shown friction on the shown relative motion, at every sample; and the heat."""
@@ -94,7 +94,7 @@ def test_friction_used_up_by_age_and_speed():
     assert max(powers) <= 0.0
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@settings(max_examples=60)
 @given(seeds, st.sampled_from([(), ("turning_surface",), ("structural_damping",)]))
 def test_stick_stays_inside_the_limit_surface(seed, on):
     """|(F_x, F_y / kappa)| and M / (kappa a), per mu_s N, inside or on the disc's limit surface."""

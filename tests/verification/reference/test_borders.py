@@ -79,20 +79,6 @@ def test_the_reference_is_near_its_borders():
     assert {border.beyond for border in found.values()} == {(SLIDING, False)}
 
 
-def test_a_slower_ramp_and_springs_that_damp_less_are_well_inside():
-    parameters = REFERENCE.model_copy(
-        update={
-            "surface": replace_in(REFERENCE.surface, run_up_time=20.0),
-            "structural_damping": replace_in(REFERENCE.structural_damping, coefficient=0.014),
-        }
-    )
-    assert all(border.margin > 1.0 / 3.0 for border in nearest_borders(parameters, 40.0))
-
-
-def replace_in(table, **values):
-    return table.model_copy(update=values)
-
-
 def test_no_more_steps_are_taken_than_are_allowed():
     with pytest.raises(OutOfWork):
         nearest_borders(REFERENCE, work=Work(1e4, 45.0))

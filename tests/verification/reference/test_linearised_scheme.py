@@ -4,15 +4,12 @@ from ctypes import c_double
 
 import numpy as np
 import pytest
-from scipy.linalg import expm
-from stickslip import Parameters, simulate
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.interpreted_scheme import (
     interpreted_run,
-    load_strip_by_strip,
 )
 from stickslip.reference.linearised import Scheme
-from stickslip.reference.scheme import CUT, Propagator, functions
+from stickslip.reference.scheme import CUT, functions
 from stickslip.reference.scheme_errors import DESCRIPTIONS, MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import fixed_angles, stiffness_matrix
 from stickslip.reference.strip_friction import strips
@@ -32,28 +29,6 @@ def test_stiffness_matrix(treatment):
     np.testing.assert_array_equal(np.round(matrix, 5), PRINTED_MATRICES[treatment])
 
 
-def test_unknown_treatment():
-    with pytest.raises(ValueError, match="allowed are zero, constant, opposed, updated"):
-        Scheme(treatment="exact")
-
-
-def test_step_is_the_matrix_exponential():
-    """Hold of first order: load written as two more states, expm of the whole."""
-    rng = np.random.default_rng(3)
-    w = 200.0 * rng.normal(size=(3, 3))
-    h, q, v, a0, a1 = 1e-3, *rng.normal(size=(4, 3))
-    system = np.zeros((12, 12))
-    system[:3, 3:6] = np.eye(3)
-    system[3:6, :3], system[3:6, 6:9] = -w, np.eye(3)
-    system[6:9, 9:12] = np.eye(3)
-    expected = expm(system * h) @ np.concatenate([q, v, a0, (a1 - a0) / h])
-    matrices, vector, found = Propagator(), c_double * 3, np.empty((2, 3))
-    functions().propagator((vector * 3).from_buffer(w), h, matrices)
-    given = [vector.from_buffer(np.array(each)) for each in (q, v, a0, a1)]
-    functions().step(matrices, h, *given, *(vector.from_buffer(row) for row in found))
-    np.testing.assert_allclose(found.ravel(), expected[:6], rtol=1e-13, atol=1e-15)
-
-
 def plain_oscillator() -> CoulombOscillator:
     """What the mended scheme without scatter is: one mass on four springs."""
     weight = MASS * 9.81
@@ -69,14 +44,6 @@ def test_mended_scheme_is_the_closed_form():
     np.testing.assert_allclose(np.diff(slips[:, 0]), expected.period, atol=1e-10)
     np.testing.assert_allclose(slips[:, 4], 0.0, atol=1e-12)
     np.testing.assert_allclose(run.q[:, 1:], 0.0, atol=1e-14)  # the strips' moments cancel
-
-
-@pytest.mark.parametrize(("springs", "faults"), [(1, MENDED.only("F1")), (4, MENDED)])
-def test_where_slip_begins(springs, faults):
-    """F1: one spring in stick puts break-away at four times the displacement."""
-    run = Scheme(scatter=0.0, faults=faults).run(cycles=1)
-    breakaway = run.q[run.mode == 0, 0].max()
-    assert breakaway == pytest.approx(MU_S * MASS * 9.81 / (springs * STIFFNESS), abs=1e-12)
 
 
 def test_events_on_the_grid():
@@ -127,13 +94,6 @@ def test_two_draws_stand_for_a_hundred_strips():
     assert abs(np.corrcoef(loads.T)[0, 1]) < 4.0 / np.sqrt(n)
 
 
-def test_strips_one_by_one_or_together():
-    one = load_strip_by_strip(3, 1.4, 0.0, np.random.default_rng(0))
-    shares, middles = strips(0.05)
-    np.testing.assert_allclose(one, [[1.4 * shares.sum(), -1.4 * shares @ middles]] * 3, atol=1e-14)
-    assert shares.sum() == pytest.approx(0.9989, abs=1e-4)
-
-
 def scatter_at(place):
     """Two normals that belong to a place, m."""
     normals = (c_double * 2)()
@@ -151,19 +111,6 @@ def test_scatter_belongs_to_places():
     np.testing.assert_allclose(normals.std(axis=0), 1.0, atol=8 / np.sqrt(2 * 4000))
     close = scatter_at(0.00137 * 5 + 1e-9)
     np.testing.assert_allclose(close, again, atol=1e-5)
-
-
-def test_speed_dependence_lags_a_block():
-    """F15 shifts the load by up to 10 ms; mended, mu_k is that of the speed at every sample."""
-    law = dict(mu_slope=0.05, scatter=0.0, mu_s=0.3)
-    run = Scheme(**law, faults=MENDED).run(cycles=6)
-    # the last step of a slip looks past the surface's speed, where |sliding| has its kink
-    slip = (run.mode == 1) & (run.velocity[:, 0] < SPEED - 1e-3)
-    mu = MU_K - 0.05 * (SPEED - run.velocity[slip, 0] - 0.15)
-    expected = mu * strips(0.05)[0].sum() * MASS * 9.81
-    np.testing.assert_allclose(run.load[slip, 0], expected, atol=1e-6)
-    late = Scheme(**law, faults=MENDED.only("F15")).run(cycles=6)
-    assert abs(late.slip_phases[-1, 1] - run.slip_phases[-1, 1]) > 1e-4
 
 
 def test_interpreted_scheme_agrees():
@@ -189,58 +136,3 @@ def test_faults_by_name():
     )
     with pytest.raises(ValueError, match="allowed are F1, F2"):
         PRINTED.without("F99")
-
-
-@pytest.mark.parametrize(
-    ("key", "value"), [("mass", 0.0), ("scatter", -1.0), ("speed", float("nan"))]
-)
-def test_bad_numbers(key, value):
-    with pytest.raises(ValueError, match=key):
-        Scheme(**{key: value})
-
-
-def test_slides_through_where_friction_cannot_hold():
-    """Mended F6 at 0.37 m/s with weakening: no re-stick at the first meeting, as in the kernel.
-
-    The kernel runs the same law without linearising anything; along x the springs are linear.
-    """
-    weight = MASS * 9.81
-    slope, mu_rest = 0.03, 0.0545
-    run = Scheme(
-        speed=0.37,
-        mu_s=0.065,
-        mu_k=mu_rest,
-        mu_k_speed=0.0,
-        mu_slope=slope,
-        scatter=0.0,
-        faults=MENDED,
-    ).run(cycles=4)
-    share = strips(0.05)[0].sum()
-    exact = simulate(
-        Parameters(
-            rig={"degrees_of_freedom": ("x",)},
-            friction={"mu_s": 0.065, "mu_k": share * mu_rest},
-            velocity_weakening={"linear": slope / mu_rest},
-            surface={"speed": 0.37},
-            initial={"vx": 0.37},
-        ),
-        3.0,
-    )
-    begins, ends = exact.events[0::2, 0], exact.events[1::2, 0]
-    slip_time = (ends - begins[: len(ends)])[0]
-    ours = run.slip_phases[:, 1] - run.slip_phases[:, 0]
-    np.testing.assert_allclose(ours, slip_time, atol=1e-6)
-    # the first meeting of the speeds is well before: there the springs pull harder than mu_s N
-    plain = Scheme(
-        speed=0.37,
-        mu_s=0.065,
-        mu_k=mu_rest,
-        mu_k_speed=0.0,
-        mu_slope=slope,
-        scatter=0.0,
-        faults=MENDED.only("F6"),
-    ).run(cycles=4)
-    early = plain.slip_phases[:, 1] - plain.slip_phases[:, 0]
-    assert np.all(early < slip_time - 0.01)
-    restick = np.interp(plain.slip_phases[:, 1], plain.time, plain.q[:, 0])
-    assert np.all(4 * STIFFNESS * np.abs(restick) > 0.065 * weight)

@@ -159,13 +159,6 @@ def test_a_stick_that_creeps_as_fast_as_the_surface_is_refused_or_said():
     assert regimes(rig(0.02, surface=Surface(speed=0.0)))[OWN].name == STICKING
 
 
-@pytest.mark.parametrize(("damping", "run_up"), [(-0.1, 0.0), (20.0, 0.0), (0.0, -1.0)])
-def test_what_cannot_be_is_refused(damping, run_up):
-    oscillator = CoulombOscillator(0.67, STIFFNESS, 0.15, 0.2815 * LOAD, MU_K * LOAD)
-    with pytest.raises(ValueError, match="damping|run_up"):
-        BeltStart(oscillator, damping, run_up)
-
-
 def test_six_rigs_have_the_regimes_that_a_search_by_force_finds():
     """12 starts of 200 s each; `regimes_by_force` is the same with 200 rigs, 30 starts, 600 s."""
     several = 0

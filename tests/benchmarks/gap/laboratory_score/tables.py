@@ -1,4 +1,4 @@
-"""The scores as Markdown: what is wanted, kinds of answers, effects, parameters, times."""
+"""The scores as Markdown: kinds of answers, effects, parameters, times."""
 
 from __future__ import annotations
 
@@ -12,10 +12,8 @@ from .answers import Row
 from .outcome import Outcome, is_right, outcome
 from .parameters import WANTED, Compared, compared
 from .shares import share
-from .targets import scores
 
 SIZES = (0.0, 2.0, 5.0, 10.0, 20.0, 1e9)  # edges of the size classes, noise units
-MET = {True: "yes", False: "no", None: ""}
 
 
 def table(head: Sequence[str], lines: Iterable[Sequence[object]]) -> str:
@@ -28,16 +26,6 @@ def by_suite(rows: Sequence[Row]) -> Iterator[tuple[str, list[Row]]]:
     """Suites in the order in which they are met first."""
     for suite in dict.fromkeys(row.suite for row in rows):
         yield suite, [row for row in rows if row.suite == suite]
-
-
-def wanted_table(rows: Sequence[Row]) -> str:
-    """Each suite against what it has to show; intervals of 95 %, Clopper and Pearson's."""
-    lines = [
-        (suite, each.what, each.share, each.wanted, MET[each.met])
-        for suite, of_suite in by_suite(rows)
-        for each in scores(suite, of_suite)
-    ]
-    return table(("suite", "figure", "share (95 % interval)", "wanted", "met"), lines)
 
 
 def kinds_table(rows: Sequence[Row]) -> str:
@@ -118,7 +106,6 @@ def markdown(rows: Sequence[Row], title: str) -> str:
     """All tables on a page."""
     found = [each for row in rows for each in compared(row)]
     parts = {
-        "What is wanted": wanted_table(rows),
         "Kinds of answers": kinds_table(rows),
         "By what is hidden": hidden_table(rows),
         "By size": size_table(rows),

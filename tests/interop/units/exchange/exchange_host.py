@@ -1,14 +1,12 @@
 """Hosts for model exchange: fmpy's CVode, and one of the plainest kind; cases for them."""
 
 import ctypes
-import math
 from contextlib import contextmanager
 
 import fmpy
 import numpy as np
 from fmpy import simulate_fmu
 from fmpy.fmi2 import FMU2Model
-from scipy.integrate import solve_ivp
 from stickslip import Parameters
 
 from cosim.coupling.fmu.log import FmuLog
@@ -102,7 +100,6 @@ class Host:
         )
         self.unit.instantiate(callbacks=log.callbacks, loggingOn=True)
         self.states = self.description.numberOfContinuousStates
-        self.indicators = self.description.numberOfEventIndicators
         for name, value in starts.items():
             self.put(name, value)
 
@@ -145,45 +142,10 @@ class Host:
         self.be_at(time, x)
         return self.numbers(self.unit.getDerivatives, self.states)
 
-    def signs(self, time, x):
-        self.be_at(time, x)
-        return self.numbers(self.unit.getEventIndicators, self.indicators)
-
     def everything(self):
         return [
             self.get(name).hex() for name, each in self.variables.items() if each.type == "Real"
         ]
-
-    def integrate(self, end, method, tolerance):
-        """Times at which the mode changes, and the modes; by a method of scipy."""
-        self.initialise()
-        time, events, mode = 0.0, [], None
-        nominals = self.numbers(self.unit.getNominalsOfContinuousStates, self.states)
-        while True:
-            told = self.unit.newDiscreteStates()
-            known = told[5] if told[4] else math.inf
-            if mode is not None and self.get("mode") != mode:
-                events.append((time, self.get("mode")))
-            mode = self.get("mode")
-            self.unit.enterContinuousTimeMode()
-            if time >= end:
-                return np.array(events)
-            crossings = [lambda t, x, i=i: self.signs(t, x)[i] for i in range(self.indicators)]
-            for each in crossings:
-                each.terminal, each.direction = True, -1
-            done = solve_ivp(
-                self.rates,
-                (time, min(end, known)),
-                self.x(),
-                method=method,
-                rtol=tolerance,
-                atol=tolerance * nominals,
-                events=crossings,
-            )
-            time = done.t[-1]
-            self.be_at(time, done.y[:, -1])
-            assert self.unit.completedIntegratorStep() == (0, 0)
-            self.unit.enterEventMode()
 
 
 @contextmanager

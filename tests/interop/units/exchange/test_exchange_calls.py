@@ -1,7 +1,5 @@
 """Model exchange: states, rates, inputs and parameters, and what is refused."""
 
-import ctypes
-
 import fmpy
 import numpy as np
 import pytest
@@ -13,7 +11,7 @@ from exchange_host import (
 )
 from fmpy import simulate_fmu
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import FMU2Slave, fmi2Error
+from fmpy.fmi2 import fmi2Error
 from stickslip import Parameters
 
 from cosim.fmu.exchange import states, variables
@@ -132,32 +130,3 @@ def refused(call, *arguments):
     with pytest.raises(FMICallException) as caught:
         call(*arguments)
     assert caught.value.status == fmi2Error
-
-
-def test_one_interface_is_not_the_other(host):
-    slave = FMU2Slave(
-        guid=host.description.guid,
-        unzipDirectory=host.unit.unzipDirectory,
-        modelIdentifier=host.description.coSimulation.modelIdentifier,
-    )
-    slave.instantiate(callbacks=host.log.callbacks, loggingOn=True)
-    slave.setupExperiment()
-    slave.enterInitializationMode()
-    slave.exitInitializationMode()
-    host.begin()
-    refused(host.unit.setFMUState, slave.getFMUState())
-    assert "co-simulation" in host.log.take_errors()
-    host.unit.reset()
-    host.begin()
-    room = (ctypes.c_double * host.states)()
-    refused(_rates_of, slave, room, host.states)
-    slave.freeInstance()
-
-
-def _rates_of(slave, room, count):
-    """Ask an instance for co-simulation for its rates."""
-    function = slave.dll.fmi2GetDerivatives
-    function.argtypes = [ctypes.c_void_p, ctypes.POINTER(ctypes.c_double), ctypes.c_size_t]
-    status = function(slave.component, room, count)
-    if status:
-        raise FMICallException("fmi2GetDerivatives", status)

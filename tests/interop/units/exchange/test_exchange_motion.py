@@ -18,7 +18,6 @@ from exchange_host import (
     TOLERANCES,
     changes,
     exchanged,
-    hosted,
     values,
 )
 from fmpy import simulate_fmu
@@ -88,15 +87,3 @@ def test_special_contacts_move_as_in_co_simulation(fmu, case):
     for name in ("x", "y", "phi", "slip_time"):
         assert np.abs(result[name] - own[name]).max() < 5e-6, name
     assert (result["slip_count"] == own["slip_count"]).all()
-
-
-@pytest.mark.parametrize(
-    "case, method", [("line", "DOP853"), ("run-up", "DOP853"), ("slab", "Radau")]
-)
-def test_any_method_finds_the_same_events(fmu, tmp_path, case, method):
-    tables = {**CASES[case], "solver": {"tolerance": 1e-12}}
-    own = simulate(Parameters(**tables), duration=1.5).events
-    with hosted(fmu, tmp_path, CASES[case]) as host:
-        events = host.integrate(1.5, method, 1e-7)
-    assert list(events[:, 1]) == list(own[:, 1])
-    assert np.abs(events[:, 0] - own[:, 0]).max() < 1e-5

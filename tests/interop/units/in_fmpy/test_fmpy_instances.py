@@ -1,7 +1,6 @@
 """States and instances in fmpy: a run goes on from a state, and no instance knows of another."""
 
 import os
-import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -48,16 +47,6 @@ def test_two_instances_do_not_know_each_other(unit, tmp_path):
             c.initialise(surface_speed=speed)
             c.march(0, 100, 0.01)
             assert c.everything() == alone
-
-
-def test_a_process_outlives_many_instances_and_their_files(unit, tmp_path):
-    path = sys.path.copy()
-    for _ in range(30):
-        with instance(unit, tmp_path / "once") as one:
-            one.initialise()
-            one.march(0, 2, 0.01)
-        shutil.rmtree(tmp_path / "once")
-    assert sys.path == path
 
 
 def test_two_builds_run_side_by_side(python_fmu, tmp_path):

@@ -12,7 +12,7 @@ import time
 import traceback
 
 import pytest
-from fmpy_instance import instance, refused
+from fmpy_instance import refused
 
 
 @pytest.mark.parametrize(
@@ -82,27 +82,6 @@ def test_a_damaged_state_is_refused(block):
         block.initialise()
 
 
-def test_an_error_is_logged_where_the_host_wants_no_log(unit, tmp_path):
-    with instance(unit, tmp_path / "silent", logging=False) as block:
-        block.slave.fmi2SetDebugLogging(block.slave.component, False, 0, None)
-        said = block.refuses(block.initialise, **{"rig.spring_natural_length": 1.0})
-        assert said.startswith("rig.spring_natural_length = 1 m is more than twice")
-        refused(block.slave.doStep, 0.0, 0.01)
-        assert block.log.take_errors().startswith("fmi2DoStep: the instance has failed before")
-
-
-def test_one_reason_is_told_once(python_block):
-    """A host that sets a hundred parameters more does not hear of it a hundred times."""
-    python_block.set("rig.mass", -1.0)
-    python_block.set("surface_speed", 0.1)
-    python_block.slave.enterInitializationMode()
-    assert math.isnan(python_block.get("x"))
-    assert python_block.log.take_errors() == "rig.mass = -1: must lie in (0, inf]"
-    for call, *arguments in ("exitInitializationMode",), ("doStep", 0.0, 0.01):
-        refused(getattr(python_block.slave, call), *arguments)
-        assert "(rig.mass = -1: must lie in (0, inf])" in python_block.log.take_errors()
-
-
 def test_what_initialisation_refuses_is_told_at_its_end_in_one_line(block):
     """And the instance is as alive as after any other error: it can be asked, reset and freed."""
     for _ in range(3):
@@ -147,13 +126,6 @@ def test_what_nobody_can_compute_with_is_refused(block, name, value):
     """Squares and quotients of it would be infinite."""
     said = block.refuses(block.initialise, **{name: value})
     assert said == f"{name} = {value:g}: must be 0, or of a size from 1e-100 to 1e+100"
-
-
-def test_parameters_that_cannot_stand_side_by_side_are_refused(block):
-    values = {"friction.stick_creep": 1e-3, "rate_and_state.direct": 0.01}
-    said = block.refuses(block.initialise, **values)
-    assert said.startswith("friction.stick_creep = 0.001 m/s beside rate_and_state")
-    refused(block.slave.doStep, 0.0, 0.01)
 
 
 def test_ctrl_c_inside_a_step_is_an_error_and_the_state_is_that_before(python_block, ctrl_c):

@@ -37,18 +37,6 @@ def test_a_call_that_makes_no_sense_is_refused(block, call, arguments, says):
     block.slave.freeFMUState(state)
 
 
-def test_a_whole_number_is_read_as_a_real_one_too(block):
-    """References are unique, and some hosts read all variables by one function; only to set one,
-    and to read a real number as a whole one, is refused."""
-    block.initialise()
-    mode, x = (block.variables[name].valueReference for name in ("mode", "x"))
-    assert block.slave.getReal([mode, x]) == [
-        float(block.slave.getInteger([mode])[0]),
-        block.slave.getReal([x])[0],
-    ]
-    assert block.refuses(block.slave.getInteger, [x]) == "x is a real number, not an integer"
-
-
 def test_an_input_just_below_its_bound_is_at_it(unit, tmp_path):
     """A host that takes differences about 0 asks for a film that is thinner than none."""
     with instance(unit, tmp_path) as block:

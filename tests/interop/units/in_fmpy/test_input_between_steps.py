@@ -79,13 +79,6 @@ def test_the_motion_converges_to_that_of_the_ripple_inside(block, exact, given, 
     assert errors[-1] < finest
 
 
-def test_a_derivative_of_another_order_is_refused(fmu, tmp_path):
-    with instance(fmu, tmp_path) as block:
-        reference = block.variables["surface_speed"].valueReference
-        said = block.refuses(block.slave.setRealInputDerivatives, [reference], [2], [0.0])
-    assert "derivative of order 2" in said
-
-
 @pytest.mark.parametrize("hold", [0, 1])
 def test_the_unit_in_python_takes_them_the_same_way(block, python_fmu, tmp_path, hold):
     x, slips, _ = driven(block, 0.02, hold=hold)

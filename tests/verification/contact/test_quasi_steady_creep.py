@@ -1,4 +1,6 @@
-"""Rate-and-state friction in the plane: what the load makes of a slip slower than the creep speed.
+"""Slips in the plane that are too slow for inertia: the load makes them, by the law of friction.
+
+Friction that loses nothing on breaking away, and rate-and-state friction below its creep speed.
 
 Against scipy's Radau on the equations of motion themselves, which finds the direction of sliding
 from its stiffness, from 1e-9 m/s in the direction in which the slip begins.
@@ -13,7 +15,19 @@ from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import layout
 
 
-def rig(ratio: float) -> Parameters:
+def turning() -> Parameters:
+    """mu_k = mu_s, wound up by its start so that it gives way turning as well as sliding."""
+    return Parameters(
+        rig={"spring_natural_length": 0.17},
+        springs={"stiffness": 60.0},
+        friction={"mu_s": 0.3, "mu_k": 0.3},
+        lateral_friction={"ratio": 1.0},
+        surface={"speed": 0.02},
+        initial={"y": 0.004, "phi": 0.1, "vx": 0.02},
+    )
+
+
+def ageing(ratio: float) -> Parameters:
     return Parameters(
         rig={"spring_natural_length": 0.17},
         springs={"stiffness": 97.0},
@@ -77,15 +91,19 @@ def radau(memory, begin, end: float) -> np.ndarray:
     return run.y[:, -1]
 
 
-@pytest.mark.parametrize("ratio", [0.5, 1.0])
-def test_creep_is_the_stiff_motion_itself(ratio):
-    """Over 5 ms; how its start is taken costs some 1e-4 of the creep."""
-    memory = memory_of(rig(ratio))
+@pytest.mark.parametrize(
+    ("rig", "duration", "allowed"),
+    [(turning(), 0.1, 1e-9), (ageing(0.5), 0.005, None), (ageing(1.0), 0.005, None)],
+    ids=["turning", "ageing, half across", "ageing"],
+)
+def test_creep_is_the_stiff_motion_itself(rig, duration, allowed):
+    """How its start is taken costs 1e-9 m, or with an age some 1e-4 of the creep."""
+    memory = memory_of(rig)
     assert memory.p[layout.P_FREE_PHI] == 1.0
-    begin, end, crept = creep_from(memory, 0.005)
+    begin, end, crept = creep_from(memory, duration)
     exact = radau(memory, begin, end[layout.TIME])
     assert crept > 0
     distance = end[layout.DISTANCE] - begin[layout.DISTANCE]
     assert distance == pytest.approx(exact[7], rel=5e-4)
     away = (end[layout.X : layout.X + 3] - exact[:3]) * [1.0, 1.0, memory.p[layout.P_RADIUS]]
-    assert np.max(np.abs(away)) < 5e-4 * distance
+    assert np.max(np.abs(away)) < (allowed or 5e-4 * distance)
