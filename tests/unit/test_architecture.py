@@ -50,7 +50,10 @@ MAY_IMPORT = {
         *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.fmu"),
         *("cosim.report", *LEAVES),
     ),
-    "cosim.explore": ("stickslip", "cosim.fmu", "cosim.scenario", "cosim.report", *LEAVES),
+    "cosim.explore": (
+        *("stickslip", "thermal", "cosim.fmu", "cosim.scenario", "cosim.report"),
+        *LEAVES,
+    ),
     "cosim.simulated": ("stickslip", "cosim.scenario", "cosim.report"),
     "cosim.report": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario", *LEAVES),
     # two results may have one quantity in two units
