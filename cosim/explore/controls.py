@@ -17,7 +17,7 @@ from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.quantity import details
 
 from cosim.fmu.variables import bounds_of
-from cosim.report.quantities import spelled
+from cosim.report.page import unit_text
 from cosim.scenario import Scenario
 from cosim.scenario.validation import allowed, unit_of
 
@@ -130,13 +130,13 @@ def _table(model: type[BaseModel], name: str) -> type[BaseModel]:
 def control(key: str, field: FieldInfo) -> dict[str, Any]:
     """A key as the page shows it."""
     bounds = _bounds(field)
-    kind = _kind(field)
+    kind, unit = _kind(field), unit_of(field)
     numeric = kind in ("number", "whole", "inertia")
     return {
         "key": key,
         "name": key.partition(".")[2],
-        "unit": unit_of(field),
-        "spelled": spelled(unit_of(field)),
+        "unit": unit,
+        "spelled": "" if unit == "1" else unit_text(unit),
         "kind": kind,
         "description": field.description or "",
         "allowed": allowed(key, field),
