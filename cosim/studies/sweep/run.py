@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from stickslip import Parameters
 
 from cosim.report.files import provenance
@@ -20,6 +19,7 @@ from cosim.scenario import Scenario
 from .combination import COMPLETE, STATUS_MEANINGS, Row, Run, Task, Work, model_version
 from .errors import SweepError, SweepStopped, WorkersLost
 from .grid import Grid, product_grid
+from .result import Sweep
 from .store import Store
 from .workers import Workers, dask_workers, local_workers
 
@@ -48,7 +48,7 @@ def sweep(
     dask: str | None = None,
     folder: str | Path | None = None,
     progress: Progress | None = None,
-) -> xr.Dataset:
+) -> Sweep:
     """Features of the motion over the product of the varied keys.
 
     Parameters
@@ -64,8 +64,8 @@ def sweep(
     folder : where finished chunks are kept, and found again by the next sweep (none: nothing kept)
     progress : called with the combinations done and their number
 
-    Returns a dataset with one dimension for each varied key, one variable for each of `FEATURES`,
-    `status` and `reason`: a run that failed is NaN there and ends nothing.
+    Returns a `Sweep`: a dataset with one dimension for each varied key, one variable for each of
+    `FEATURES`, `status` and `reason`. A run that failed is NaN there and ends nothing.
 
     Raises SweepError before anything is computed when the combinations cannot be, SweepStopped
     when the workers are lost for good; what was finished until then is kept.
@@ -77,7 +77,7 @@ def sweep(
     """
     grid = product_grid(parameters, vary, coupled)
     given = {"duration": duration, "output_interval": output_interval}
-    return run_grid(
+    found = run_grid(
         grid,
         grid.run_of({name: value for name, value in given.items() if value is not None}),
         jobs=jobs,
@@ -85,6 +85,10 @@ def sweep(
         folder=folder,
         progress=progress,
     )
+    if not isinstance(parameters, Parameters):
+        first = parameters if isinstance(parameters, Scenario) else parameters[0]
+        found.attrs["scenario"] = first.to_toml()
+    return found
 
 
 def run_grid(
@@ -95,7 +99,7 @@ def run_grid(
     dask: str | None = None,
     folder: str | Path | None = None,
     progress: Progress | None = None,
-) -> xr.Dataset:
+) -> Sweep:
     """`sweep` over combinations that are made already."""
     _check(run, jobs)
     keys = grid.keys(run)
@@ -170,7 +174,7 @@ def _chunk_size(tasks: int, run: Run, workers: int) -> int:
     return max(min(round(CHUNK_TIME / run.duration), most, MOST_IN_CHUNK), 1)
 
 
-def _dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
+def _dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> Sweep:
     """``rows``, in the grid's order, as variables over the grid's dimensions."""
     blank = (math.nan,) * len(run.features)
     table = np.array([row.values or blank for row in rows], dtype=float)
@@ -191,7 +195,7 @@ def _dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
         for axis in grid.axes
         for name, (values, attributes) in axis.coordinates.items()
     }
-    return xr.Dataset(variables, coordinates, _attributes(grid, run, status))
+    return Sweep(variables, coordinates, _attributes(grid, run, status))
 
 
 def _attributes(grid: Grid, run: Run, status: np.ndarray) -> dict[str, object]:
