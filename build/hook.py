@@ -53,6 +53,7 @@ class NativeUnits(BuildHookInterface):
             libraries.prebuild(units, unit.NAME, unit.guid(), unit.sources, platforms)
         if IS_RELEASE:
             libraries.prebuild(units, web.NAME, web.guid(), web.sources, [BROWSER])
+            libraries.prebuild(units, web.HEAT, web.heat_guid(), web.heat_sources, [BROWSER])
         for code in (compiled.code(kernel_source()), scheme_code()):
             code.prebuild(kernels, platforms)
         build_data["force_include"] |= {

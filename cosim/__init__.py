@@ -20,11 +20,19 @@ if TYPE_CHECKING:
     from cosim.gap import read_campaign
     from cosim.gap.find import find_gap
     from cosim.gap.plan import make_plan, read_plan
+    from cosim.report.compare import compare, read_result
     from cosim.scenario import Scenario, read_scenario
     from cosim.simulated import SimulatedRun, simulate_scenario
     from cosim.studies.belt_length import how_long
     from cosim.studies.friction_map import friction_map
-    from cosim.studies.stability import case_of, pretension_map, regime_map, stick_slip_range
+    from cosim.studies.reproduction import reproduce
+    from cosim.studies.stability import (
+        case_of,
+        pretension_map,
+        regime_map,
+        stability,
+        stick_slip_range,
+    )
     from cosim.studies.sweep import sweep
     from cosim.systems import read_system, run_system
 
@@ -33,6 +41,7 @@ __all__ = [
     "Scenario",
     "SimulatedRun",
     "case_of",
+    "compare",
     "find_gap",
     "friction_map",
     "how_long",
@@ -40,12 +49,15 @@ __all__ = [
     "pretension_map",
     "read_campaign",
     "read_plan",
+    "read_result",
     "read_scenario",
     "read_system",
     "regime_map",
+    "reproduce",
     "run_scenario",
     "run_system",
     "simulate_scenario",
+    "stability",
     "stick_slip_range",
     "sweep",
 ]
@@ -64,8 +76,11 @@ _HOME = {
     "how_long": "cosim.studies.belt_length",
     "friction_map": "cosim.studies.friction_map",
     "sweep": "cosim.studies.sweep",
+    "reproduce": "cosim.studies.reproduction",
+    **dict.fromkeys(("compare", "read_result"), "cosim.report.compare"),
     **dict.fromkeys(
-        ("case_of", "pretension_map", "regime_map", "stick_slip_range"), "cosim.studies.stability"
+        ("case_of", "pretension_map", "regime_map", "stability", "stick_slip_range"),
+        "cosim.studies.stability",
     ),
 }
 

@@ -22,6 +22,8 @@ TIME = "time"
 class Result:
     """A result whose numbers, sentence, page and files are its own class's."""
 
+    __slots__ = ()  # a dataset can be one, too
+
     def summary(self) -> dict[str, Any]:
         """Its numbers, as the JSON file of the command has them."""
         raise NotImplementedError

@@ -17,6 +17,7 @@ from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.quantity import details
 
 from cosim.fmu.variables import bounds_of
+from cosim.report.page import unit_text
 from cosim.scenario import Scenario
 from cosim.scenario.validation import allowed, unit_of
 
@@ -75,8 +76,9 @@ def groups(catalogue: Catalogue = CATALOGUE) -> list[dict[str, Any]]:
     """Groups of controls as plain data, in the order of the page.
 
     Each has id, title, sentence, enters ("" where it is no effect), open, and controls: key, name,
-    unit, kind, description, allowed (words), bounds (gt, ge, lt, le), choices, slider (see
-    `slider`; None of what is no single number) and switch, whether it turns an effect on.
+    unit, spelled (the unit as it is read), kind, description, allowed (words), bounds (gt, ge, lt,
+    le), choices, slider (see `slider`; None of what is no single number) and switch, whether it
+    turns an effect on.
     """
     found = [
         {
@@ -128,12 +130,13 @@ def _table(model: type[BaseModel], name: str) -> type[BaseModel]:
 def control(key: str, field: FieldInfo) -> dict[str, Any]:
     """A key as the page shows it."""
     bounds = _bounds(field)
-    kind = _kind(field)
+    kind, unit = _kind(field), unit_of(field)
     numeric = kind in ("number", "whole", "inertia")
     return {
         "key": key,
         "name": key.partition(".")[2],
-        "unit": unit_of(field),
+        "unit": unit,
+        "spelled": "" if unit == "1" else unit_text(unit),
         "kind": kind,
         "description": field.description or "",
         "allowed": allowed(key, field),

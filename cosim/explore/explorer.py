@@ -1,4 +1,4 @@
-"""The explorer's page: one file with the kernel, the controls, scenarios and the scripts."""
+"""The explorer's page: one file with both models, the controls, scenarios and the scripts."""
 
 from __future__ import annotations
 
@@ -18,18 +18,21 @@ from stickslip.ports import OUTPUTS
 
 from cosim.explore.controls import groups
 from cosim.fmu import web
+from cosim.fmu.thermal.variables import outputs
 from cosim.report.page import render
 from cosim.scenario import Scenario, read_scenario
 
 #: Packaged scenarios that can be begun with, beside that which was asked for.
 PRESETS = ("reference", "study", "slab")
-#: Scripts of the page, in the order in which they need each other. The kernel's own runs in a
+#: Scripts of the page, in the order in which they need each other. That of the models runs in a
 #: thread of its own, without the others.
 WORKER = "worker.js"
 SCRIPTS = (
     *("units.js", "scenario.js", "checks.js", "runs.js", "statistics.js", "plots.js"),
-    *("pictures.js", "top_view.js", "controls.js", "main.js"),
+    *("pictures.js", "regimes.js", "top_view.js", "controls.js", "main.js"),
 )
+#: Of a belt: the unit has room for so many with any number of modes.
+MOST_CELLS = 2048
 #: Says, in the page, which tool has made it.
 GENERATOR = '<meta name="generator" content="stickslip explore">'
 
@@ -47,7 +50,6 @@ def explorer_page(scenario: Scenario | None = None) -> str:
         generator=Markup(GENERATOR),
         version=version("stickslip"),
         style=_text("explorer.css"),
-        kernel=base64.b64encode(zlib.compress(web.module(catalogue), 9)).decode("ascii"),
         data=_inside_script(
             json.dumps(page_data(scenario, catalogue), ensure_ascii=False, allow_nan=False)
         ),
@@ -57,26 +59,34 @@ def explorer_page(scenario: Scenario | None = None) -> str:
 
 
 def page_data(scenario: Scenario | None = None, catalogue: Catalogue = CATALOGUE) -> dict[str, Any]:
-    """What the scripts are told: scenarios, controls, and places in the kernel's arrays."""
-    presets = [preset(read_scenario(name)) for name in PRESETS]
+    """What the scripts are told: both models, scenarios, controls, and places in their arrays."""
+    scenarios = [read_scenario(name) for name in PRESETS]
+    presets = [preset(each) for each in scenarios]
     chosen = preset(scenario) if scenario is not None else presets[0]
-    if chosen not in presets:
+    if scenario is not None and chosen not in presets:
         presets.insert(0, chosen)
+        scenarios.insert(0, scenario)
+    warmth = outputs()
     return {
         "version": version("stickslip"),
-        "presets": presets,
+        "kernel": _packed(web.module(catalogue)),
+        "heat": _packed(web.heat_module()),
+        "presets": [
+            each | {"heat": _heat(of)} for each, of in zip(presets, scenarios, strict=True)
+        ],
         "chosen": presets.index(chosen),
         "groups": groups(catalogue),
         "names": list(value_names(catalogue.effects)),
-        "outputs": {port.name: getattr(layout, port.slot) for port in OUTPUTS},
-        "units": {port.name: port.unit or "1" for port in OUTPUTS},
+        "outputs": {port.name: getattr(layout, port.slot) for port in OUTPUTS}
+        | {each.name: layout.O_SIZE + i for i, each in enumerate(warmth)},
         "sizes": {
             "row": layout.O_SIZE,
+            "warmth": len(warmth),
+            "all": layout.O_SIZE + len(warmth),
             "event": layout.E_WIDTH,
             "inputs": layout.U_SIZE,
             "speed": layout.U_SPEED,
             "temperature": layout.U_TEMPERATURE,
-            "curve": layout.CURVE_LIMIT,
         },
         "belt_width": Scenario().belt.width,
     }
@@ -94,6 +104,34 @@ def preset(scenario: Scenario) -> dict[str, Any]:
             tables[name] = departs
     top = {name: value for name, value in plain.items() if not isinstance(value, dict)}
     return {"name": scenario.name, "top": top | {"name": scenario.name}, "tables": tables}
+
+
+def _heat(scenario: Scenario) -> dict[str, Any]:
+    """Of belt and ice: their matrices, and the parameters of the unit; or why there are none.
+
+    A belt that is too long for the unit is cut into longer cells.
+    """
+    from cosim.fmu.thermal import resources  # scikit-fem
+    from thermal import MeshError, ParameterError
+
+    parameters = scenario.thermal
+    shortest = parameters.belt.length / MOST_CELLS
+    belt = parameters.belt.model_copy(
+        update={"cell_length": max(parameters.belt.cell_length, shortest)}
+    )
+    try:
+        made = resources.reduction(parameters.model_copy(update={"belt": belt}))
+    except (ParameterError, MeshError, resources.TooLarge) as error:
+        return {"block": _packed(b""), "parameters": {}, "why": str(error)}
+    return {
+        "block": _packed(resources.packed(made)),
+        "parameters": resources.starts(made),
+        "why": "",
+    }
+
+
+def _packed(content: bytes) -> str:
+    return base64.b64encode(zlib.compress(content, 9)).decode("ascii")
 
 
 def _departs(plain: dict[str, Any], table: str, key: str, value: Any) -> bool:

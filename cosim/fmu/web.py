@@ -1,8 +1,8 @@
-"""The kernel as WebAssembly, for a page in a browser: the C of the native unit, no FMI around it.
+"""Both models as WebAssembly, for a page in a browser: the C of the native units, no FMI around it.
 
-Of the same sources as the library of StickSlip3DOF, with parameters checked and packed, random
-numbers drawn and refusals said by the same C. Compiled by zig, whose C library brings sin, exp and
-the others: nothing is asked of the browser.
+Of the same sources as the libraries of StickSlip3DOF and BeltIceThermal, with parameters checked
+and packed, random numbers drawn and refusals said by the same C. Compiled by zig, whose C library
+brings sin, exp and the others: nothing is asked of the browser.
 """
 
 from __future__ import annotations
@@ -16,13 +16,19 @@ from stickslip.generation.platforms import BROWSER
 
 from cosim.fmu import native
 from cosim.fmu.archive import digest_of, guid_of
-from cosim.fmu.libraries import libraries
+from cosim.fmu.libraries import Sources, libraries
+from cosim.fmu.thermal import native_unit
 
-NAME = "explorer"
+NAME, HEAT = "explorer", "explorer_heat"
 #: What is taken of the native unit.
 SHARED = (
     *("kernel.c", "kernel.h", "draws.c", "draws.h", "words.c", "words.h"),
     *("variables.c", "variables.h", "unit.h", "model.h"),
+)
+#: And of the thermal unit: all but the functions of FMI.
+SHARED_HEAT = (
+    *("belt.c", "belt.h", "ice.c", "ice.h", "linear.c", "linear.h", "water.c", "water.h"),
+    *("model.c", "model.h", "resources.c", "resources.h", "unit.h", "variables.c", "variables.h"),
 )
 
 
@@ -30,32 +36,58 @@ SHARED = (
 def sources(catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
     """File name -> content of everything that the module is compiled from."""
     made = native.sources(catalogue)
-    return {name: made[name] for name in SHARED} | _written()
+    return {name: made[name] for name in SHARED} | _written(NAME)
+
+
+@cache
+def heat_sources() -> dict[str, bytes]:
+    """The same of the heat."""
+    made = native_unit.sources()
+    return {name: made[name] for name in SHARED_HEAT} | _written(HEAT)
 
 
 @cache
 def guid(catalogue: Catalogue = CATALOGUE) -> str:
     """Of what the module is made from, by which a wheel's is known to be of today's content."""
+    return _guid(NAME, native.guid(catalogue))
+
+
+@cache
+def heat_guid() -> str:
+    """The same of the heat."""
+    return _guid(HEAT, native_unit.guid())
+
+
+def _guid(name: str, unit: str) -> str:
     made_from = {
-        "unit": native.guid(catalogue).encode(),
+        "unit": unit.encode(),
         "maker": Path(__file__).read_bytes(),
-        **_written(),
+        **_written(name),
     }
-    return guid_of(NAME, digest_of(made_from).hexdigest())
+    return guid_of(name, digest_of(made_from).hexdigest())
 
 
-def _written() -> dict[str, bytes]:
-    folder = native.native_folder() / NAME
+def _written(name: str) -> dict[str, bytes]:
+    folder = native.native_folder() / name
     return {file.name: file.read_bytes() for file in folder.iterdir() if file.suffix == ".c"}
 
 
 def module(catalogue: Catalogue = CATALOGUE) -> bytes:
-    """The WebAssembly: the wheel's where it is of today's content, or compiled.
+    """The kernel's WebAssembly: the wheel's where it is of today's content, or compiled.
 
     Raises CompilerError, in one line, where there is no way to it.
     """
+    return _module(NAME, guid(catalogue), partial(sources, catalogue))
+
+
+def heat_module() -> bytes:
+    """The same of the heat."""
+    return _module(HEAT, heat_guid(), heat_sources)
+
+
+def _module(name: str, guid: str, sources: Sources) -> bytes:
     try:
-        return libraries(NAME, guid(catalogue), partial(sources, catalogue), (BROWSER,))[BROWSER]
+        return libraries(name, guid, sources, (BROWSER,))[BROWSER]
     except CompilerError as error:
         if has_zig():
             raise

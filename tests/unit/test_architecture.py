@@ -50,7 +50,10 @@ MAY_IMPORT = {
         *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.fmu"),
         *("cosim.report", *LEAVES),
     ),
-    "cosim.explore": ("stickslip", "cosim.fmu", "cosim.scenario", "cosim.report", *LEAVES),
+    "cosim.explore": (
+        *("stickslip", "thermal", "cosim.fmu", "cosim.scenario", "cosim.report"),
+        *LEAVES,
+    ),
     "cosim.simulated": ("stickslip", "cosim.scenario", "cosim.report"),
     "cosim.report": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario", *LEAVES),
     # two results may have one quantity in two units
@@ -78,7 +81,10 @@ MUST_NOT_IMPORT = {
 KNOWN_BY = {
     "cosim.cli": ("cosim.cli", "cosim.__main__"),
     # and the results of whoever works in a notebook, which show themselves
-    "cosim.report": ("cosim.report", "cosim.cli", "cosim.coupling.case", "cosim.simulated"),
+    "cosim.report": (
+        *("cosim.report", "cosim.cli", "cosim.coupling.case", "cosim.simulated"),
+        "cosim.studies.stability.study",
+    ),
     "cosim.coupling.case": ("cosim.coupling.case", "cosim.gap", "cosim.studies", "cosim.cli"),
     "stickslip.kernel": ("stickslip",),
 }

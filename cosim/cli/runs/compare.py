@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from cosim.cli import DONE
 from cosim.cli.arguments import RESULTS, add_results
 from cosim.cli.numbers import numbers_asked
-from cosim.files import write_bytes, write_text
 from cosim.manifest import made_by, own_folder, results_in
 
 if TYPE_CHECKING:
@@ -47,6 +46,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 def execute(arguments: Namespace) -> int:
     """Read or run both, compare, write, print."""
     from cosim.report.compare import compare
+    from cosim.report.compare.page import write
     from cosim.report.files import json_text
 
     numbers = numbers_asked(arguments, ("a", "b", "numbers"))
@@ -55,12 +55,11 @@ def execute(arguments: Namespace) -> int:
     folder = own_folder(place, (RESULT, PAGE), arguments.force)
     made = made_by(a=both.a.place, b=both.b.place)
     with results_in(folder, made, force=arguments.force) as results:
-        write_text(json_text(both.as_dict()), folder / RESULT)
-        _draw(both, folder, made["command"])
+        write(both, folder, made["command"])
         results.complete = True
     for remark in both.remarks:
         print(f"warning: {remark}", file=sys.stderr)
-    if not numbers.give(json_text(both.as_dict())):
+    if not numbers.give(json_text(both.summary())):
         print(_table(both, folder))
     return DONE
 
@@ -113,18 +112,6 @@ def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
     failed = numbers["status"] != "complete"
     remarks = (f"{source}: its run is not complete ({numbers['reason']})",) * failed
     return OneResult(scenario.name, source, dataset, numbers, scenario.to_toml(), remarks)
-
-
-def _draw(both: Comparison, folder: Path, command: str) -> None:
-    from cosim.report.compare.figures import draw_phases, has_phases, moving, overlay
-    from cosim.report.compare.page import page
-
-    pictures = [overlay(both)] if moving(both) else []
-    if has_phases(both):
-        pictures.append(draw_phases(both))
-    for one in pictures:
-        write_bytes(one.png, folder / f"{one.name}.png")
-    write_text(page(both, pictures, command), folder / PAGE)
 
 
 def _table(both: Comparison, folder: Path) -> str:

@@ -8,7 +8,6 @@ import sys
 import time
 from argparse import ArgumentParser, ArgumentTypeError, Namespace
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 from cosim.cli import DONE, FAILED, BadInput
@@ -17,16 +16,12 @@ from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import write_atomically, write_bytes, write_text
 from cosim.manifest import made_by, own_folder, results_in
-from cosim.report.files import without_nan
-from cosim.report.page import Picture
 from cosim.scenario import Scenario
 from cosim.studies.belt_length import (
     AIR,
     CAMERA,
     Case,
-    DriftMap,
     Options,
     Protocol,
     Study,
@@ -44,13 +39,19 @@ from cosim.studies.belt_length import (
     work_off,
 )
 from cosim.studies.belt_length.lengths import length_text
-from cosim.studies.belt_length.show.page import page
+from cosim.studies.belt_length.show.files import (
+    CHANGES,
+    DOUBT,
+    PAGE,
+    RESULT,
+    TABLE,
+    write_numbers,
+    write_page,
+)
 from cosim.studies.belt_length.show.wording import two_digits
 from cosim.studies.belt_length.study import BOUNDS, check_case, check_options
 
 EXAMPLE = "stickslip belt-length --length 1 2 4 --speed 0.15 0.82 -o results/belt"
-RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
-CHANGES, DOUBT = "changes.csv", "doubt.csv"
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
 STUDY = Case(1.0, 0.82)
 
@@ -209,31 +210,27 @@ def execute(arguments: Namespace) -> int:
     given = given_scenario(arguments.scenario, arguments.changes) if arguments.scenario else None
     if given is not None:
         _look_at(given, wanted, arguments.scenario)
-    study, status = Study(options), DONE
+    study, status = Study(options, scenario="" if given is None else given.to_toml()), DONE
     own = wanted[0] if arguments.scenario else None
-    grid = empty_map(arguments.map, own) if arguments.map else None
+    study.grid = empty_map(arguments.map, own) if arguments.map else None
     try:
         with Bar(total=len(wanted) + arguments.map**2, unit="case") as bar:
             if own is not None:
                 answer_all(study, wanted, arguments.jobs, lambda count: None)
             work_off(study, wanted, arguments.jobs, bar.update)
-            if grid is not None:
-                fill_map(grid, wanted[0], arguments.jobs, bar.update)
+            if study.grid is not None:
+                fill_map(study.grid, wanted[0], arguments.jobs, bar.update)
     except KeyboardInterrupt:
         print(
             f"error: interrupted; {len(study.rows)} of {len(wanted)} cases are kept in {folder}",
             file=sys.stderr,
         )
         status = FAILED
-    source = None if given is None else given.to_toml()
-    made = made_by(scenario=source)
+    made = made_by(scenario=study.scenario or None)
     with results_in(folder, made, force=arguments.force) as results:
-        _write(study, grid, folder)
+        write_numbers(study, folder)
         if status == DONE:
-            pictures = _draw(study, grid, wanted[0], folder)
-            name = None if given is None else given.name
-            text = page(study, pictures, name=name, scenario=source, command=made["command"])
-            write_text(text, folder / PAGE)
+            write_page(study, folder, made["command"])
             results.complete = True
     _print(study, numbers, folder, time.perf_counter() - began)
     return status
@@ -297,36 +294,8 @@ def _protocol(base: Case, arguments: Namespace) -> Protocol:
     return replace(base.protocol, runs=arguments.runs, lifted=arguments.lifted, **said)
 
 
-def _write(study: Study, grid: DriftMap | None, folder: Path) -> None:
-    numbers = study.as_dict() | {"verdict": verdict(study)}
-    if grid is not None:
-        numbers["map"] = {
-            "lengths": grid.lengths.tolist(),
-            "speeds": grid.speeds.tolist(),
-            # where a stopped map did not come is null
-            "drift": without_nan(grid.drift.tolist()),
-        }
-    write_text(json.dumps(numbers, indent=1), folder / RESULT)
-    for name, table in ((TABLE, study.table()), (CHANGES, study.changes()), (DOUBT, study.doubt())):
-        if name == TABLE or not table.empty:
-            write_atomically(folder / name, partial(table.to_csv, index=False))
-
-
-def _draw(study: Study, grid: DriftMap | None, case: Case, folder: Path) -> list[Picture]:
-    from cosim.studies.belt_length.show.figures import draw_doubt, draw_drift, draw_map
-
-    pictures: list[Picture] = [draw_drift(study)]
-    if (row := study.most_doubted) is not None and row.uncertainty is not None:
-        pictures.append(draw_doubt(row, row.uncertainty))
-    if grid is not None:
-        pictures.append(draw_map(grid, case, study.options.limit))
-    for one in pictures:
-        write_bytes(one.png, folder / f"{one.name}.png")
-    return pictures
-
-
 def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None:
-    if asked.give(json.dumps(study.as_dict() | {"verdict": verdict(study)}, indent=1)):
+    if asked.give(json.dumps(study.summary(), indent=1)):
         return
     if study.answers:
         _print_answers(study)

@@ -6,14 +6,12 @@ import re
 import sys
 import time
 from argparse import ArgumentParser, Namespace
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_results
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
-from cosim.files import write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, own_folder, results_in
 
@@ -33,33 +31,36 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(arguments: Namespace) -> int:
     """Judge, write, print a line a claim; 0, or 1 when stopped."""
-    from cosim.studies.reproduction import claim_ids, reproduce
+    from cosim.report.files import json_text
+    from cosim.studies.reproduction import Reproduction, claim_ids, reproduce
 
     began = time.perf_counter()
     wanted = claim_ids(arguments.claims)
     asked = numbers_asked(arguments, ("referee", "claims"))
     folder = own_folder(arguments.output, (PAGE, RESULT), arguments.force)
     made = made_by(claims=wanted)
-    claims: list[Claim] = []
+    claims = Reproduction()
     try:
         for one in Bar(wanted, unit="claim"):
             claims += reproduce([one])
-        found = _datasets(wanted)
+        found = claims.datasets
         with results_in(folder, made, force=arguments.force) as results:
-            text = _write(claims, folder, time.perf_counter() - began, found)
+            claims.wall_time = time.perf_counter() - began
+            claims.save(folder)
             results.complete = True
     except KeyboardInterrupt:
         if not claims:
             raise
         with held_interrupts(), results_in(folder, made, force=arguments.force):
-            asked.give(_write(claims, folder, time.perf_counter() - began))
+            claims.datasets, claims.wall_time = None, time.perf_counter() - began
+            claims.save(folder)
+            asked.give(json_text(claims.summary()))
         print(
             f"error: interrupted; {len(claims)} of {len(wanted)} claims are in {folder / PAGE}",
             file=sys.stderr,
         )
         return FAILED
-    wall_time = time.perf_counter() - began
-    if asked.give(text):
+    if asked.give(json_text(claims.summary())):
         return DONE
     for line in _codes(claims):
         print(line)
@@ -73,7 +74,7 @@ def execute(arguments: Namespace) -> int:
         print(f"     {_firmness(claim)}")
     if found:
         print(f"Datasets: {found['says']}")
-    print(f"{len(claims)} claims in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
+    print(f"{len(claims)} claims in {claims.wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
     return DONE
 
 
@@ -89,13 +90,6 @@ def _codes(claims: list[Claim]) -> list[str]:
     return ["Faults of the study's scheme, by their numbers:", *lines] if lines else []
 
 
-def _datasets(wanted: tuple[str, ...]) -> dict[str, Any] | None:
-    """The study's datasets in every reading, where a claim was asked for that hangs on them."""
-    from cosim.studies.reproduction.attributions import CLAIMS, datasets
-
-    return datasets() if set(wanted) & set(CLAIMS) else None
-
-
 def _firmness(claim: Claim) -> str:
     """What would turn the verdict, in a line."""
     turn = claim.turns[0] if claim.turns else None
@@ -104,24 +98,3 @@ def _firmness(claim: Claim) -> str:
     if claim.steady:
         return f"turned by: none of {len(claim.turns)} changes tried"
     return f"turned by: {turn.change} ({turn.figure})"
-
-
-def _write(
-    claims: list[Claim],
-    folder: Path,
-    wall_time: float,
-    datasets: dict[str, Any] | None = None,
-) -> str:
-    """Numbers first, then figures, then the page; the numbers as JSON."""
-    from stickslip.reference.scheme_errors import DESCRIPTIONS
-
-    from cosim.report.files import json_text
-    from cosim.studies.reproduction.result import as_data, page
-
-    text = json_text(as_data(claims, wall_time, datasets))
-    write_text(text, folder / RESULT)
-    for claim in claims:
-        for picture in claim.pictures:
-            write_bytes(picture.png, folder / f"{picture.name}.png")
-    write_text(page(claims, DESCRIPTIONS, datasets), folder / PAGE)
-    return text

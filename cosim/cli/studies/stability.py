@@ -9,28 +9,21 @@ from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import add_results, add_scenario, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import write_bytes, write_text
 from cosim.manifest import made_by, own_folder, results_in
 
 if TYPE_CHECKING:
-    from cosim.report.page import Picture
-    from cosim.studies.stability import Case
+    pass
 
 EXAMPLE = "stickslip stability study --grid 20 -o results/stability"
 IMPORTS = ("cosim.studies.stability",)
 RESULT, PAGE = "stability.json", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("name", "stability", "regime_map")
-#: Speeds of the maps as parts of the scenario's, its pretensions as parts of a spring's length, and
-#: mu_s/mu_k.
-SPEEDS, PRETENSIONS, RATIOS = (0.2, 4.0), (0.0, 0.2), (1.02, 2.0)
 
 
 def add_arguments(parser: ArgumentParser) -> None:
@@ -55,9 +48,7 @@ def add_arguments(parser: ArgumentParser) -> None:
 
 def execute(arguments: Namespace) -> int:
     """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
-    from cosim.report.motion_text import border_sentence, regime_sentence, stability_sentence
-    from cosim.studies.stability import NotAMotion, case_of, range_sentence, stick_slip_range
-    from cosim.studies.stability.maps import as_json
+    from cosim.studies.stability import NotAMotion, Stability, case_of
 
     began = time.perf_counter()
     if (grid := arguments.grid) is None:
@@ -67,64 +58,26 @@ def execute(arguments: Namespace) -> int:
     scenario = given_scenario(arguments.scenario, arguments.changes)
     asked = numbers_asked(arguments, KEYS)
     folder = own_folder(arguments.output, (RESULT, PAGE), arguments.force)
-    case, status = case_of(scenario), DONE
+    found, status = Stability(case_of(scenario)), DONE
     note_taken(scenario)
-    maps: dict[str, Any] = {}
-    found: dict[str, Any] | None = None
     try:
         if arguments.border:
             with Bar(unit="run") as bar:
-                found = stick_slip_range(case, arguments.border, bar.update)
+                found.find_range(arguments.border, bar.update)
         if grid:
-            _fill(maps, case, grid)
+            with Bar(total=2 * grid**2, unit="cell") as bar:
+                found.fill_maps(grid, bar.update)
     except KeyboardInterrupt:
         print(f"error: interrupted; what was computed is in {folder}", file=sys.stderr)
         status = FAILED
-    numbers = as_json(case, maps.get("pretension"), maps.get("regimes"))
-    sentences = [
-        speaks(numbers) for speaks in (stability_sentence, regime_sentence, border_sentence)
-    ]
-    numbers["stick_slip_range"] = found
-    if found is not None:
-        sentences.insert(0, range_sentence(found))
     made = made_by(scenario=scenario.to_toml())
     with results_in(folder, made, force=arguments.force) as results:
-        _write(numbers, sentences, _pictures(maps, case), folder)
+        found.save(folder)
         results.complete = status == DONE
+    numbers = found.summary()
     if not asked.give(json.dumps(numbers, indent=1)):
-        _print(numbers, sentences, folder, time.perf_counter() - began)
+        _print(numbers, found.sentences, folder, time.perf_counter() - began)
     return status
-
-
-def _fill(maps: dict[str, Any], case: Case, grid: int) -> None:
-    """Both maps, the second only once the first is whole."""
-    from cosim.studies.stability import pretension_map, regime_map
-
-    speed = abs(case.parameters.surface.speed)
-    speeds = speed * np.linspace(*SPEEDS, grid)
-    with Bar(total=2 * grid**2, unit="cell") as bar:
-        if case.parameters.rig.degrees_of_freedom != ("x",):
-            stretched = case.parameters.rig.spring_length * np.linspace(*PRETENSIONS, grid)
-            maps["pretension"] = pretension_map(case, stretched, speeds, bar.update)
-        maps["regimes"] = regime_map(case, np.linspace(*RATIOS, grid), speeds, bar.update)
-
-
-def _pictures(maps: dict[str, Any], case: Case) -> list[Picture]:
-    from cosim.studies.stability.figures import draw_pretension_map, draw_regime_map
-
-    drawn = {"pretension": draw_pretension_map, "regimes": draw_regime_map}
-    return [drawn[name](found, case) for name, found in maps.items()]
-
-
-def _write(
-    numbers: dict[str, Any], sentences: list[str], pictures: list[Picture], folder: Path
-) -> None:
-    from cosim.studies.stability.maps import page
-
-    write_text(json.dumps(numbers, indent=1), folder / RESULT)
-    for picture in pictures:
-        write_bytes(picture.png, folder / f"{picture.name}.png")
-    write_text(page(numbers, sentences, pictures), folder / PAGE)
 
 
 def _print(numbers: dict[str, Any], sentences: list[str], folder: Path, wall_time: float) -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import sys
 import time
-import tomllib
 from argparse import ArgumentParser, Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,14 +14,13 @@ from cosim.cli.arguments import RESULTS, add_results, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
-from cosim.files import OutputError, not_taken, write_bytes, write_text
+from cosim.files import OutputError, not_taken
 from cosim.manifest import made_by, require_own, results_in
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from cosim.scenario import Scenario
     from cosim.studies.sweep import Grid, Run
+    from cosim.studies.sweep.result import Sweep
 
 EXAMPLE = "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82"
 IMPORTS = ("cosim.studies.sweep.figure",)
@@ -98,6 +96,7 @@ def execute(arguments: Namespace) -> int:
     from cosim.fmu.build import own_fmu
     from cosim.studies.sweep import SweepStopped, run_grid
     from cosim.studies.sweep.figure import check_shown
+    from cosim.studies.sweep.result import summary, write
 
     began = time.perf_counter()
     numbers = numbers_asked(arguments, ("runs",))
@@ -135,11 +134,11 @@ def execute(arguments: Namespace) -> int:
     made = made_by(scenario=scenario.to_toml())
     try:
         with results_in(folder, made, force=arguments.force) as results:
-            _write(datasets, folder, arguments.show, made["command"])
+            write(datasets, folder, arguments.show, made["command"])
             results.complete = True
     except OutputError as error:
         raise OutputError(f"{error}; all runs are kept, the same command goes on") from error
-    if numbers.give(_as_json(datasets)):
+    if numbers.give(json.dumps(summary(datasets), indent=1)):
         return _status(datasets)
     return _report(datasets, folder, time.perf_counter() - began)
 
@@ -184,43 +183,14 @@ def _is_coupled(grid: Grid) -> bool:
     return isinstance(grid.base, Whole)
 
 
-def _write(datasets: dict[str, xr.Dataset], folder: Path, asked: list[str], command: str) -> None:
-    from cosim.report.files import write_netcdf, write_table
-    from cosim.studies.sweep.figure import draw_sweep, shown_features
-    from cosim.studies.sweep.page import page, records
-
-    dataset = datasets[""]
-    write_netcdf(datasets, folder / RESULT)
-    import pandas as pd
-
-    table = pd.DataFrame(records(dataset))
-    write_table(table, folder / TABLE, index=False)
-    drawn, still = shown_features(dataset, asked)
-    picture = draw_sweep(dataset, drawn)
-    write_bytes(picture.png, folder / FIGURE)
-    scenario = dataset.attrs["scenario"]
-    name = tomllib.loads(scenario)["name"]
-    said = {"name": name, "command": command, "scenario": scenario}
-    write_text(page(dataset, picture, drawn, still, **said), folder / PAGE)
-
-
-def _as_json(datasets: dict[str, xr.Dataset]) -> str:
-    """Every run, NaN as null."""
-    from cosim.report.files import without_nan
-    from cosim.studies.sweep.page import records
-
-    found = {group or "runs": records(dataset) for group, dataset in datasets.items()}
-    return json.dumps(without_nan(found), indent=1)
-
-
-def _status(datasets: dict[str, xr.Dataset]) -> int:
+def _status(datasets: dict[str, Sweep]) -> int:
     """The exit status: whether anything came out."""
     from cosim.studies.sweep.combination import COMPLETE
 
     return DONE if any((each["status"] == COMPLETE).any() for each in datasets.values()) else FAILED
 
 
-def _report(datasets: dict[str, xr.Dataset], folder: Path, wall_time: float) -> int:
+def _report(datasets: dict[str, Sweep], folder: Path, wall_time: float) -> int:
     """Some lines on what came out."""
     from cosim.studies.sweep.combination import COMPLETE
 

@@ -74,15 +74,13 @@ function contradiction(scenario) {
 /* Rows of a run: as many as it may have, and as a page can keep. */
 function tooFine(scenario) {
   const [duration, interval] = [scenario.get("run.duration"), scenario.get("run.output_interval")];
-  if (duration / interval > MOST_ROWS) {
-    return fault("run.output_interval", `${g(interval)} s cuts run.duration = ${g(duration)} s into ` +
-      `more than ${MOST_ROWS} steps, allowed is at least ${g(duration / MOST_ROWS)} s`);
-  }
-  if (duration / interval > KEEPABLE) {
-    return fault("run.output_interval", `${g(interval)} s cuts run.duration = ${g(duration)} s into ` +
-      `more than ${KEEPABLE} rows, which is too much for a page; stickslip simulate takes it`);
-  }
-  return null;
+  const limits = [
+    [MOST_ROWS, `steps, allowed is at least ${g(duration / MOST_ROWS)} s`],
+    [KEEPABLE, "rows, which is too much for a page; stickslip simulate takes it"],
+  ];
+  const beyond = limits.find(([most]) => duration / interval > most);
+  return beyond ? fault("run.output_interval", `${g(interval)} s cuts run.duration = ${g(duration)} s ` +
+    `into more than ${beyond.join(" ")}`) : null;
 }
 
 /* What the kernel does not mind and a run is refused for all the same; null if nothing. */
@@ -129,16 +127,7 @@ function kernelFault(sentence) {
 
 /* A number as C writes it by %g: six digits, no zeros behind them. */
 function g(value) {
-  if (value === 0) return "0";
-  const [digits, power] = value.toExponential(5).split("e");
-  const exponent = Number(power);
-  if (exponent < -4 || exponent >= 6) {
-    const size = String(Math.abs(exponent)).padStart(2, "0");
-    return `${trimmed(digits)}e${exponent < 0 ? "-" : "+"}${size}`;
-  }
-  return trimmed(value.toFixed(5 - exponent));
-}
-
-function trimmed(digits) {
-  return digits.includes(".") ? digits.replace(/\.?0+$/, "") : digits;
+  const [digits, power] = value.toExponential(5).split("e").map(Number);
+  if (power >= -4 && power < 6) return String(Number(value.toPrecision(6)));
+  return `${digits}e${power < 0 ? "-" : "+"}${String(Math.abs(power)).padStart(2, "0")}`;
 }

@@ -46,7 +46,7 @@ class Controls {
     const input = control.choices.length || control.kind === "freedom" ? this.choice(row, id) : this.text(row, id);
     input.setAttribute("aria-describedby", said.id);
     row.input = input;
-    const unit = element("span", { className: "unit", textContent: shownUnit(control.unit) });
+    const unit = element("span", { className: "unit", textContent: control.spelled });
     const parts = [label, input, unit, reset];
     if (control.slider) parts.splice(1, 0, this.slider(row, id));
     reset.addEventListener("click", () => this.turned(control.key, undefined));
@@ -122,7 +122,7 @@ class Controls {
   placeSlider(slider, control, value, scenario) {
     const number = control.kind === "inertia" ? inertia(scenario) || 0.5 * scenario.get("rig.mass") * scenario.get("rig.contact_radius") ** 2 : value;
     slider.value = positionOf(control, number);
-    slider.setAttribute("aria-valuetext", `${textOf(value)} ${shownUnit(control.unit)}`.trim());
+    slider.setAttribute("aria-valuetext", `${textOf(value)} ${control.spelled}`.trim());
   }
 
   /* Rows whose key or words have all that is looked for; their groups open. */

@@ -18,7 +18,13 @@ const explorer = {
 };
 
 explorer.start = async function () {
-  explorer.runs = new Runs(await unpacked(byId("kernel").textContent), heard);
+  const models = {
+    kernel: await WebAssembly.compile(await unpacked(DATA.kernel)),
+    heat: await WebAssembly.compile(await unpacked(DATA.heat)),
+    blocks: await Promise.all(DATA.presets.map(async ({ heat }) => new Uint8Array(await unpacked(heat.block)))),
+  };
+  explorer.runs = new Runs(models, heard);
+  explorer.map = new RegimeMap(byId("regimes"), byId("legend"), models, explorer.set);
   explorer.pictures = new Pictures();
   explorer.top = new TopView(byId("top"));
   explorer.controls = new Controls(byId("groups"), explorer.set, refuse);
@@ -137,6 +143,7 @@ function heard(run, message) {
   }
   if (run.rows > 0) explorer.seen = run;
   if (run.state === "done" && run.reason) show(byId("fault"), run.reason);
+  if (message.warmed || (message.done && run.heat.why)) explorer.map.wish(run);
   stale = true;
 }
 
@@ -185,7 +192,7 @@ function frame(now) {
   const moved = moment !== explorer.moment;
   if (!moved && !stale) return; // a page at rest costs nothing
   explorer.moment = moment;
-  if (stale || !sameRange(range, explorer.range)) redraw(run, range);
+  if (stale || !same(range, explorer.range)) redraw(run, range);
   showMoment(run, moment);
 }
 
@@ -224,12 +231,10 @@ function shownRange(run, moment) {
   return [begin, begin + length];
 }
 
-function sameRange(one, other) {
-  return Boolean(other) && one[0] === other[0] && one[1] === other[1];
-}
-
 function redraw(run, range) {
   explorer.pictures.draw(run, explorer.kept, range);
+  explorer.map.show();
+  byId("cold").textContent = run.heat.why ? `No heat from here on: ${run.heat.why}.` : "";
   explorer.range = range;
   stale = false;
   showStatistics(run);
@@ -282,10 +287,11 @@ function showStatistics(run) {
     ["y, from … to", (n) => `${shown(MM * still(n.min_y), 3)} … ${mm(still(n.max_y))}`],
     ["largest rotation", (n) => `${shown(still(n.max_rotation_deg), 3)}°`],
     ["friction heat, mean", (n) => `${shown(n.mean_heat_flow, 3)} W`],
+    ["interface, warmest", (n, of) => `${shown(warmest(of), 4)} °C`],
   ];
   const entries = rows.map(([name, text]) => {
-    const parts = [element("dt", { textContent: name }), element("dd", { textContent: text(numbers) })];
-    if (before) parts.push(element("dd", { className: "kept", textContent: `kept: ${text(before)}` }));
+    const parts = [element("dt", { textContent: name }), element("dd", { textContent: text(numbers, run) })];
+    if (before) parts.push(element("dd", { className: "kept", textContent: `kept: ${text(before, explorer.kept)}` }));
     return element("div", {}, parts);
   });
   byId("statistics").replaceChildren(...entries);
@@ -293,6 +299,10 @@ function showStatistics(run) {
   for (const [id, what] of [["x", "x"], ["y", "y"], ["phi", "rotation"]]) {
     byId(id).setAttribute("aria-label", `${what} over time: the block ${regime(numbers)}${all ? "" : ", still computing"}`);
   }
+}
+
+function warmest(run) {
+  return extremes(run, "interface_temperature", { from: 0, to: run.warmed }).max_interface_temperature;
 }
 
 /* Rounding is nothing. */

@@ -1,10 +1,11 @@
 "use strict";
-/* The plots of a run, with a kept run behind them: x, y and phi over time, phase portrait, friction. */
+/* The plots of a run, with a kept run behind them: x, y, phi and the temperature over time, phase
+   portrait, friction. */
 
 const MM = 1e3, DEG = 180 / Math.PI;
 // Below these a channel is at rest: rounding, m and rad.
-const STILL = { x: 0, y: 1e-9, phi: 1e-8 };
-const SIGHT = { x: [MM, "mm"], y: [MM, "mm"], phi: [DEG, "°"] };
+const STILL = { x: -1, y: 1e-9, phi: 1e-8, interface_temperature: -1 };
+const SIGHT = { x: [MM, "mm"], y: [MM, "mm"], phi: [DEG, "°"], interface_temperature: [1, "°C"] };
 const MOST_OF_PHASE = 20000; // points of a phase portrait, the latest
 
 class Pictures {
@@ -14,6 +15,7 @@ class Pictures {
       x: plot("x", "x", "time [s]", "position along the motion [mm]"),
       y: plot("y", "y", "time [s]", "position across [mm]"),
       phi: plot("phi", "phi", "time [s]", "rotation [°]"),
+      interface_temperature: plot("temperature", "heat", "time [s]", "temperature of the interface [°C]"),
     };
     this.phase = plot("phase", "phase portrait", "x [mm]", "velocity along x [mm/s]");
     this.friction = plot("friction", "friction", "sliding speed [mm/s]", "coefficient");
@@ -23,9 +25,9 @@ class Pictures {
   /* Columns in the units of the plots. */
   of(run) {
     let kept = this.columns.get(run);
-    if (!kept || kept.rows !== run.rows) {
+    if (!kept || kept.rows !== run.rows || kept.warmed !== run.warmed) {
       kept = {
-        rows: run.rows,
+        rows: run.rows, warmed: run.warmed, interface_temperature: run.column("interface_temperature"),
         x: run.column("x", MM), y: run.column("y", MM), vx: run.column("vx", MM),
         phi: run.column("phi", DEG),
       };
@@ -37,7 +39,7 @@ class Pictures {
   /* All plots anew. range: times that are shown, s. */
   draw(run, kept, range) {
     const still = [];
-    for (const name of ["x", "y", "phi"]) {
+    for (const name of Object.keys(this.over)) {
       const at = this.overTime(name, run, kept, range);
       if (at !== null) still.push(`${name} stays at ${shown(at, 3)} ${SIGHT[name][1]}`);
     }
@@ -52,7 +54,7 @@ class Pictures {
     const runs = [kept, run].filter((each) => each && each.rows > 0);
     const parts = runs.map((each) => ({ values: this.of(each)[name], ...inside(each, range) }));
     const ends = rangeOf(parts, 0);
-    const still = name !== "x" && ends[1] - ends[0] <= STILL[name] * SIGHT[name][0];
+    const still = ends[1] - ends[0] <= STILL[name] * SIGHT[name][0];
     plot.canvas.hidden = still;
     if (still) return runs.length ? this.of(run)[name][0] : null;
     plot.draw({
@@ -85,7 +87,7 @@ class Pictures {
     this.phase.draw({
       x: rangeOf(parts("x"), 1e-3),
       y: rangeOf([...parts("vx"), { values: [0] }, ...(belt ? [{ values: [speed] }] : [])], 1e-3),
-      lines: belt ? [{ y: speed, colour: AXIS, label: "" }] : [],
+      lines: belt ? [speed] : [],
       curves,
     });
   }
@@ -106,13 +108,13 @@ class Pictures {
   /* The moment over all of them. */
   show(run, moment, now) {
     const colour = now.mode === 1 ? ORANGE : BLUE;
-    for (const name of ["x", "y", "phi"]) {
+    for (const name of Object.keys(this.over)) {
       const y = now[name] * SIGHT[name][0];
       this.over[name].show(moment, [{ x: moment, y, colour }]);
     }
     this.phase.show(null, [{ x: now.x * MM, y: now.vx * MM, colour }]);
     const slides = now.mode === 1 && run.curve;
-    const load = run.scenario.get("rig.mass") * 9.81;
+    const load = run.scenario.get("rig.mass") * GRAVITY;
     const mu = Math.hypot(now.friction_force_x, now.friction_force_y) / load;
     this.friction.show(null, slides ? [{ x: now.sliding_speed * MM, y: mu, colour }] : []);
   }

@@ -37,8 +37,8 @@ class Plot {
     };
   }
 
-  /* x, y: ranges; bands: spans of x; lines: levels of y; curves: {x, y, colour, width, from, to,
-     time: whether x grows}; dots: {x, y, colour}. */
+  /* x, y: ranges; bands: spans of x; patches: [x, y, width, height, colour]; lines: levels of y;
+     curves: {x, y, colour, width, from, to, time: whether x grows}; dots: {x, y, colour}. */
   draw(spec) {
     this.spec = spec;
     if (this.canvas.clientWidth === 0) return; // folded away
@@ -51,6 +51,7 @@ class Plot {
     const box = this.box;
     if (box.right <= box.left || box.bottom <= box.top) return;
     this.shade(context, spec.bands || [], box);
+    for (const patch of spec.patches || []) this.patch(context, patch);
     this.axes(context, spec, box);
     context.save();
     context.beginPath();
@@ -74,6 +75,13 @@ class Plot {
     return bottom - ((y - low) / (high - low)) * (bottom - top);
   }
 
+  /* What stands at a place of the canvas, CSS pixels. */
+  at(left, top) {
+    const { box, spec } = this;
+    const part = [(left - box.left) / (box.right - box.left), (box.bottom - top) / (box.bottom - box.top)];
+    return [spec.x, spec.y].map(([low, high], i) => low + (high - low) * Math.min(Math.max(part[i], 0), 1));
+  }
+
   shade(context, bands, box) {
     context.fillStyle = SLIP_BAND;
     for (const [from, to] of bands) {
@@ -81,6 +89,13 @@ class Plot {
       const right = Math.min(this.px(to), box.right);
       if (right > left) context.fillRect(left, box.top, Math.max(right - left, 0.5), box.bottom - box.top);
     }
+  }
+
+  /* A pixel more than it is: no seams. */
+  patch(context, [x, y, width, height, colour]) {
+    const [left, top] = [this.px(x), this.py(y + height)];
+    context.fillStyle = colour;
+    context.fillRect(left, top, this.px(x + width) - left + 0.5, this.py(y) - top + 0.5);
   }
 
   axes(context, spec, box) {
@@ -111,17 +126,12 @@ class Plot {
     context.fillText(this.xLabel, box.right, this.back.height / this.density - 1);
   }
 
-  level(context, { y, colour, label }, box) {
+  level(context, y, box) {
     context.save();
-    context.strokeStyle = colour;
+    context.strokeStyle = AXIS;
     context.setLineDash([5, 4]);
     stroke(context, box.left, this.py(y), box.right, this.py(y));
     context.restore();
-    if (!label) return;
-    context.fillStyle = colour;
-    context.textAlign = "right";
-    context.textBaseline = "bottom";
-    context.fillText(label, box.right - 4, this.py(y) - 2);
   }
 
   curve(context, { x, y, colour, width = 1.4, from = 0, to = x.length, time = false }, box) {

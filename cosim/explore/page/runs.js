@@ -12,8 +12,10 @@ class Run {
     this.time = sampleTimes(scenario.get("run.duration"), scenario.get("run.output_interval"));
     this.rampEnd = scenario.get("surface.run_up_time");
     this.speeds = curveSpeeds(scenario);
-    this.table = new Float64Array(this.time.length * DATA.sizes.row);
+    this.table = new Float64Array(this.time.length * DATA.sizes.all).fill(NaN);
     this.rows = 0;
+    this.heat = heatOf(scenario);
+    this.warmed = 0; // rows
     this.events = [];
     this.state = "wished"; // then begun, refused or done
     this.reason = "";
@@ -23,12 +25,21 @@ class Run {
   column(name, factor = 1) {
     const values = new Float64Array(this.rows);
     let at = DATA.outputs[name];
-    for (let i = 0; i < this.rows; i++, at += DATA.sizes.row) values[i] = this.table[at] * factor;
+    for (let i = 0; i < this.rows; i++, at += DATA.sizes.all) values[i] = this.table[at] * factor;
     return values;
   }
 
   at(name, row) {
-    return this.table[row * DATA.sizes.row + DATA.outputs[name]];
+    return this.table[row * DATA.sizes.all + DATA.outputs[name]];
+  }
+
+  /* Rows of some width from one on, into their columns; the row behind them. */
+  put(numbers, from, width, column) {
+    let row = from;
+    for (let i = 0; i < numbers.length; i += width, row++) {
+      this.table.set(numbers.subarray(i, i + width), row * DATA.sizes.all + column);
+    }
+    return row;
   }
 
   take(message) {
@@ -39,16 +50,19 @@ class Run {
       this.state = "begun";
       ({ attachments: this.attachments, anchors: this.anchors, curve: this.curve } = message);
     } else if (message.rows) {
-      this.table.set(message.rows, message.from * DATA.sizes.row);
-      this.rows = message.from + message.rows.length / DATA.sizes.row;
+      this.rows = this.put(message.rows, message.from, DATA.sizes.row, 0);
       const width = DATA.sizes.event;
       for (let i = 0; i < message.events.length; i += width) {
         this.events.push(message.events.slice(i, i + width));
       }
+    } else if (message.warmth) {
+      this.warmed = this.put(message.warmth, message.from, DATA.sizes.warmth, DATA.sizes.row);
+    } else if (message.warmed) {
+      this.heat.ended = true;
+      this.heat.why = message.reason;
     } else if (message.done) {
       this.state = "done";
       this.reason = message.reason;
-      this.energyAtStart = message.energyAtStart;
       // the internal step that the run ends in may have met an event beyond that end
       const end = this.time[this.rows - 1] ?? 0;
       if (!this.reason) this.events = this.events.filter((event) => event[0] <= end);
@@ -71,11 +85,22 @@ function curveSpeeds(scenario) {
   return Float64Array.from({ length: CURVE_POINTS }, (_, i) => top * ((i + 1) / CURVE_POINTS) ** 2);
 }
 
+/* A thread with the models; heard: called with what it says. */
+function thread(models, heard) {
+  const text = document.getElementById("worker").textContent;
+  const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
+  const worker = new Worker(address);
+  URL.revokeObjectURL(address);
+  worker.onmessage = ({ data }) => heard(data);
+  worker.postMessage(models);
+  return worker;
+}
+
 /* The thread that computes, begun anew where it does not answer. `told` is called with each run that
    has changed. */
 class Runs {
-  constructor(kernel, told) {
-    this.kernel = kernel;
+  constructor(models, told) {
+    this.models = models;
     this.told = told;
     this.number = 0;
     this.current = null;
@@ -84,13 +109,7 @@ class Runs {
   }
 
   begin() {
-    const text = document.getElementById("worker").textContent;
-    const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
-    this.worker = new Worker(address);
-    URL.revokeObjectURL(address);
-    this.worker.onmessage = ({ data }) => this.heard(data);
-    this.worker.postMessage({ kernel: this.kernel });
-    this.last = performance.now();
+    this.worker = thread(this.models, (message) => this.heard(message));
   }
 
   /* Compute a scenario; what was being computed is let go. */
@@ -107,11 +126,12 @@ class Runs {
     this.worker.postMessage({
       run: run.number,
       values: kernelValues(run.scenario),
-      speed: run.scenario.get("surface.speed"),
-      temperature: run.scenario.get("ambient.temperature_degC"),
+      inputs: kernelInputs(run.scenario),
       times: run.time,
       speeds: run.speeds,
       sizes: DATA.sizes,
+      places: ["surface_travel", "heat", "x"].map((name) => DATA.outputs[name]),
+      warmed: run.heat.parameters && run.heat,
     });
   }
 

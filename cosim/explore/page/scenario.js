@@ -7,6 +7,11 @@ const DATA = JSON.parse(document.getElementById("data").textContent);
 const CONTROLS = new Map();
 for (const group of DATA.groups) for (const each of group.controls) CONTROLS.set(each.key, each);
 
+const GRAVITY = 9.81; // m/s2
+const FREEDOM = ["x", "y", "phi"];
+// Keys that make another belt or block, of which the page has none.
+const OF_BLOCK = ["rig.contact_radius", "rig.surface", "rig.slab_radius"];
+
 /* Keys whose values differ from the plain model are in `tables`; also those of belt, ice and
    coupling, which the page does not show and a saved scenario keeps. */
 class Scenario {
@@ -72,6 +77,26 @@ function kernelValue(scenario, name) {
       if (scenario.get("rig.surface") === "slab") return 1 / scenario.get("rig.slab_radius");
   }
   return scenario.get(name);
+}
+
+function kernelInputs(scenario) {
+  const inputs = new Float64Array(DATA.sizes.inputs);
+  inputs[DATA.sizes.speed] = scenario.get("surface.speed");
+  inputs[DATA.sizes.temperature] = scenario.get("ambient.temperature_degC");
+  return inputs;
+}
+
+/* Of belt and ice: the preset that their matrices are of, and the parameters of the unit; or why there
+   are none. */
+function heatOf(scenario) {
+  const { heat, tables } = scenario.preset;
+  const other = OF_BLOCK.find((key) => !same(scenario.get(key), scenario.begun(key)));
+  if (heat.why) return { why: heat.why };
+  if (other) return { why: `${other} is not that of the scenario, whose belt and block the page has` };
+  const parameters = { ...heat.parameters };
+  parameters["ambient.temperature_degC"] = scenario.get("ambient.temperature_degC");
+  if (!tables.contact?.load) parameters["contact.load"] = GRAVITY * scenario.get("rig.mass");
+  return { block: DATA.presets.indexOf(scenario.preset), parameters: Object.values(parameters), why: "" };
 }
 
 /* 0 stands for a disc, by the kernel's own rule. */
@@ -182,26 +207,14 @@ function decoded(text) {
 
 /* The value of a control from JSON; undefined for what it cannot be. Bounds are checked later. */
 function ofText(control, text) {
-  if (!control) return undefined;
   let value;
   try {
     value = JSON.parse(text);
   } catch {
     return undefined;
   }
-  const isNumber = typeof value === "number" && Number.isFinite(value);
-  const isList = Array.isArray(value);
-  switch (control.kind) {
-    case "number":
-      return isNumber ? value : undefined;
-    case "whole":
-      return Number.isInteger(value) ? value : undefined;
-    case "inertia":
-      return isNumber || value === "disc" || value === "ring" ? value : undefined;
-    case "choice":
-      return control.choices.includes(value) ? value : undefined;
-    case "freedom":
-      return isList && value.every((each) => ["x", "y", "phi"].includes(each)) ? value : undefined;
-  }
-  return isList && value.every((each) => Number.isFinite(each)) ? value : undefined;
+  if (!control || Array.isArray(value) !== Array.isArray(control.default)) return undefined;
+  if (control.kind === "freedom") return value.every((each) => FREEDOM.includes(each)) ? value : undefined;
+  if (control.kind === "choice") return control.choices.includes(value) ? value : undefined;
+  return valueOfText(control, textOf(value));
 }

@@ -59,15 +59,6 @@ function typedValue(text, unit) {
   return Number((number * (one.factor / other.factor)).toPrecision(15));
 }
 
-/* A unit as it is read: "N·s/m", "kg·m²"; nothing for a plain number. */
-function shownUnit(unit) {
-  if (unit === "1") return "";
-  const raised = { 2: "²", 3: "³", 4: "⁴", 5: "⁵" };
-  return unit
-    .replace(/([a-zA-Z])([2-5])(?!\d|\.\d)/g, (_, letter, digit) => letter + raised[digit])
-    .replace(/\./g, "·").replace("s0·5", "s^0.5").replace("degC", "°C").replace(/^deg$/, "°");
-}
-
 /* A number with so many significant digits, and no more zeros than it needs. */
 function shown(value, digits = 4) {
   if (!Number.isFinite(value)) return "–";

@@ -171,6 +171,7 @@ def _comment(key: str, value: Any, known: Quantity | None, catalogue: Catalogue)
     said = ", ".join(filter(None, (re.split(r"[:;\[]", meaning)[0].strip(), unit)))
     if known is None:
         return said
-    if known.interval and known.holds(value):
-        return f"{said}; fitted, 90 %: {known.interval}"
-    return f"{said}; {f'of this run, of all 90 %: {known.interval}' if known.interval else known.value}"
+    if not known.interval:
+        return f"{said}; {known.value}"
+    whose = "fitted" if known.holds(value) else "of this run, of all"
+    return f"{said}; {whose}, 90 %: {known.interval}"

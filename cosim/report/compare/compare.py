@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from importlib import import_module
+from pathlib import Path
 from typing import Any, NamedTuple
 
 from cosim.report.quantities import ROUNDING
+from cosim.result import Result
 
 from .one_result import OneResult
 from .series import Apart, Series, apart, ends, matched
 
+#: What draws and writes; loaded when asked for.
+PAGE = "cosim.report.compare.page"
 #: What a summary has beside the numbers of the run itself, and how it was computed.
 NOT_NUMBERS = (
     *("units", "versions", "parameters", "name", "case", "status", "reason", "created"),
@@ -84,8 +89,8 @@ class Difference(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Comparison:
-    """Two results.
+class Comparison(Result):
+    """Two results beside each other.
 
     Attributes
     ----------
@@ -153,8 +158,20 @@ class Comparison:
             )
         return [*said, *self.not_compared]
 
-    def as_dict(self) -> dict[str, Any]:
-        """Everything but the time series, for JSON."""
+    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
+        page = import_module(PAGE)
+        return page.sentence(self), page.tiles(self)
+
+    def _page(self) -> str:
+        page = import_module(PAGE)
+        text: str = page.page(self, page.pictures(self))
+        return text
+
+    def _write(self, folder: Path) -> None:
+        import_module(PAGE).write(self, folder)
+
+    def summary(self) -> dict[str, Any]:
+        """What `compare.json` holds: everything but the time series."""
         return {
             "a": {"name": self.a.label, "place": self.a.place},
             "b": {"name": self.b.label, "place": self.b.place},
@@ -180,6 +197,14 @@ def compare(a: OneResult, b: OneResult) -> Comparison:
 
     Their numbers are those of `summary.json`, in SI units; what only one has is None in the other.
     Outputs of a system are compared with what the other has of the same name, and in A's unit.
+
+    >>> from cosim import compare, read_result, read_scenario, simulate_scenario
+    >>> short = read_scenario().changed(run_duration=2.0)
+    >>> folders = [simulate_scenario(short.changed(rig_mass=mass)).save(f"results/{mass:g}")
+    ...            for mass in (0.67, 1.0)]
+    >>> both = compare(*map(read_result, folders))
+    >>> list(both.keys), both.save("results/two-masses").name
+    (['rig.mass'], 'two-masses')
     """
     if a.label == b.label:
         a, b = replace(a, label=f"{a.label} (A)"), replace(b, label=f"{b.label} (B)")

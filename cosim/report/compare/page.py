@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
+from cosim.files import write_bytes, write_text
+from cosim.report.files import json_text
 from cosim.report.page import Picture, render
 from cosim.report.quantities import DIGITS, FOUND, NONE, ROUNDING, digits, told, worded
 
 from .compare import SAME, Comparison, Difference
 from .series import Apart
 
+RESULT, PAGE = "compare.json", "report.html"
 #: What a difference of two values in such a unit is in.
 DEGREES = {"degC": "K"}
 #: A difference by so many times the value is told as times the value.
@@ -36,6 +40,23 @@ TITLES = {
     "overstretched": "How far springs are stretched",
     "left_belt": "How far the block is off the middle",
 }
+
+
+def write(both: Comparison, folder: Path, command: str = "") -> None:
+    """Numbers, figures and the page."""
+    write_text(json_text(both.summary()), folder / RESULT)
+    drawn = pictures(both)
+    for one in drawn:
+        write_bytes(one.png, folder / f"{one.name}.png")
+    write_text(page(both, drawn, command), folder / PAGE)
+
+
+def pictures(both: Comparison) -> list[Picture]:
+    """What moves in both, one over the other, and phase portraits."""
+    from .figures import draw_phases, has_phases, moving, overlay
+
+    found = [overlay(both)] if moving(both) else []
+    return [*found, draw_phases(both)] if has_phases(both) else found
 
 
 def page(both: Comparison, pictures: Sequence[Picture], command: str = "") -> str:

@@ -8,12 +8,15 @@ many of them the belt that is there is long enough.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
+from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cosim.result import Result
 from cosim.scenario import Scenario
 
 from .case import Case
@@ -68,7 +71,7 @@ class Question:
 
 
 @dataclass(frozen=True)
-class Answer:
+class Answer(Result):
     """How long a belt must be, for one drive.
 
     Attributes
@@ -83,6 +86,7 @@ class Answer:
     reason : why there is no doubt, "" where there is
     melts : share of the sampled rigs, on the case's own belt, in which the ice comes to melt;
         their rises are told as if it did not
+    scenario : that was asked about, as TOML; "" of a `Case`
     """
 
     case: Case
@@ -96,6 +100,31 @@ class Answer:
     reason: str = ""
     rigs: Rigs | None = None
     melts: float = 0.0
+    scenario: str = field(default="", repr=False)
+
+    def summary(self) -> dict[str, Any]:
+        """What `stickslip belt-length --json` prints of the scenario."""
+        numbers: dict[str, Any] = self._study().summary()
+        return numbers
+
+    def _study(self) -> Any:
+        """The study that the command makes of the question: with the row of the belt there is."""
+        study = import_module(f"{__package__}.study")
+        made = study.Study(study.Options(self.limit, samples=self.evaluations), answers=[self])
+        made.scenario = self.scenario
+        study.work_off(made, [self.case], 1, lambda count: None)
+        return made
+
+    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
+        found: tuple[str, Sequence[tuple[str, str]]] = self._study()._answer()
+        return found
+
+    def _page(self) -> str:
+        text: str = self._study()._page()
+        return text
+
+    def _write(self, folder: Path) -> None:
+        self._study()._write(folder)
 
     def as_dict(self) -> dict[str, object]:
         """Everything but the rigs, for JSON."""
@@ -144,8 +173,11 @@ def how_long(
     >>> from cosim.studies.belt_length import how_long
     >>> steel = {"thickness": 5e-4, "density": 7850.0, "heat_capacity": 470.0, "conductivity": 45.0}
     >>> own = read_scenario().changed({"belt": {"length": 2.0, "layers": [steel]}})
-    >>> how_long(own, limit=0.05, samples=0)
+    >>> found = how_long(own, limit=0.05, samples=0)
+    >>> found
     <Answer: 0.37 m for 0.05 K at 0.15 m/s; on 2 m 0.0085 K>
+    >>> found.save("results/belt").name
+    'belt'
     """
     case = scenario_case(asked) if isinstance(asked, Scenario) else asked
     cold, for_ever, steady = shortest_belts(case.with_length(1.0), limit)
@@ -156,6 +188,7 @@ def how_long(
         Question(interface_drift(case), steady, None),
         np.empty(0),
         np.empty((2, 3, 0)),
+        scenario=asked.to_toml() if isinstance(asked, Scenario) else "",
     )
     if not samples:
         return replace(plain, reason=NOT_ASKED)

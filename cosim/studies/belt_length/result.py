@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
+from importlib import import_module
 from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
+from cosim.report.files import without_nan
+from cosim.result import Result
+
 from .case import Case
 from .changes import Change, FrictionEffect
 from .drift import CAMERA, Drift, Wait
-from .lengths import Length, Levels, shortest_in_doubt
+from .lengths import DriftMap, Length, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
 
+#: What speaks, draws and writes; loaded when asked for.
+VERDICT, PAGE, FILES = (f"{__package__}.show.{name}" for name in ("verdict", "page", "files"))
 #: Column of the table -> place in a case's JSON.
 _COLUMNS = tomllib.loads((files(__package__) / "columns.toml").read_text(encoding="utf-8"))
 #: Of a case, what JSON has elsewhere, or not at all.
@@ -94,13 +101,53 @@ class Options:
 
 
 @dataclass
-class Study:
-    """Rows so far; `complete` when none is missing. answers: of an own rig, one for each drive."""
+class Study(Result):
+    """Rows so far; `complete` when none is missing.
+
+    answers: of an own rig, one for each drive; scenario: its TOML, "" of the source study's rig;
+    grid: the map over length and speed, None where it was not asked for.
+
+    >>> from cosim.studies.belt_length import Case, Options, Study, work_off
+    >>> study = Study(Options(0.1, samples=0))
+    >>> work_off(study, [Case(1.0, 0.82)], 1, lambda count: None)
+    >>> study.summary()["cases"][0]["questions"]["comes_round_cold"]["answer"]
+    False
+    >>> study.save("results/belt").name
+    'belt'
+    """
 
     options: Options
     rows: list[Row] = field(default_factory=list)
     complete: bool = False
     answers: list[Answer] = field(default_factory=list)
+    scenario: str = field(default="", repr=False)
+    grid: DriftMap | None = field(default=None, repr=False)
+
+    def summary(self) -> dict[str, Any]:
+        """What `belt_length.json` holds."""
+        numbers: dict[str, Any] = self.as_dict() | {"verdict": import_module(VERDICT).verdict(self)}
+        if self.grid is not None:
+            numbers["map"] = {
+                "lengths": self.grid.lengths.tolist(),
+                "speeds": self.grid.speeds.tolist(),
+                # where a stopped map did not come is null
+                "drift": without_nan(self.grid.drift.tolist()),
+            }
+        return numbers
+
+    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
+        page = import_module(PAGE)
+        return page.headline(self), page.tiles(self)
+
+    def _page(self) -> str:
+        files = import_module(FILES)
+        text: str = files.page_text(self, files.drawn(self))
+        return text
+
+    def _write(self, folder: Path) -> None:
+        files = import_module(FILES)
+        files.write_numbers(self, folder)
+        files.write_page(self, folder)
 
     def table(self) -> pd.DataFrame:
         """One row a case; NaN where nothing is known."""

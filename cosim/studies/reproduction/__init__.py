@@ -10,13 +10,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from .claim import JUDGES, Check, Claim, Row, UnknownClaim, claim_ids
+from .judged import Reproduction
 
-__all__ = ["Check", "Claim", "Row", "UnknownClaim", "claim_ids", "reproduce"]
+__all__ = ["Check", "Claim", "Reproduction", "Row", "UnknownClaim", "claim_ids", "reproduce"]
 
 
 def reproduce(
     ids: Sequence[str] = (), progress: Callable[[str], None] = lambda _id: None
-) -> list[Claim]:
+) -> Reproduction:
     """Compute and judge the claims (all of them for no ids), in the study's order.
 
     ``progress`` is called with each id when its claim is judged. Raises `UnknownClaim`.
@@ -24,7 +25,7 @@ def reproduce(
     wanted = claim_ids(ids)
     from . import claims as claims  # matplotlib and the thermal model: only when there is work
 
-    judged = []
+    judged = Reproduction()
     for one in wanted:
         judged.append(JUDGES[one]())
         progress(one)

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from stickslip import Parameters
 
 from cosim.report.files import provenance
@@ -30,6 +29,7 @@ from .combination import (
     model_version,
 )
 from .grid import Grid, product_grid
+from .result import Sweep
 from .store import Store
 from .workers import Chunks, Rows, WorkersLost, workers
 
@@ -58,7 +58,7 @@ def sweep(
     dask: str | None = None,
     folder: str | Path | None = None,
     progress: Progress | None = None,
-) -> xr.Dataset:
+) -> Sweep:
     """Features of the motion over the product of the varied keys.
 
     Parameters
@@ -74,8 +74,8 @@ def sweep(
     folder : where finished chunks are kept, and found again by the next sweep (none: nothing kept)
     progress : called with the combinations done and their number
 
-    Returns a dataset with one dimension for each varied key, one variable for each of `FEATURES`,
-    `status` and `reason`: a run that failed is NaN there and ends nothing.
+    Returns a `Sweep`: a dataset with one dimension for each varied key, one variable for each of
+    `FEATURES`, `status` and `reason`. A run that failed is NaN there and ends nothing.
 
     Raises SweepError before anything is computed when the combinations cannot be, SweepStopped
     when the workers are lost for good; what was finished until then is kept.
@@ -87,7 +87,7 @@ def sweep(
     """
     grid = product_grid(parameters, vary, coupled)
     given = {"duration": duration, "output_interval": output_interval}
-    return run_grid(
+    found = run_grid(
         grid,
         grid.run_of({name: value for name, value in given.items() if value is not None}),
         jobs=jobs,
@@ -95,6 +95,10 @@ def sweep(
         folder=folder,
         progress=progress,
     )
+    if not isinstance(parameters, Parameters):
+        first = parameters if isinstance(parameters, Scenario) else parameters[0]
+        found.attrs["scenario"] = first.to_toml()
+    return found
 
 
 def run_grid(
@@ -105,7 +109,7 @@ def run_grid(
     dask: str | None = None,
     folder: str | Path | None = None,
     progress: Progress | None = None,
-) -> xr.Dataset:
+) -> Sweep:
     """`sweep` over combinations that are made already."""
     for name, value in (("duration", run.duration), ("output_interval", run.output_interval)):
         if not (math.isfinite(value) and value > 0.0):
@@ -171,7 +175,7 @@ def _finish(
     ) from lost
 
 
-def _dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
+def _dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> Sweep:
     """``rows``, in the grid's order, as variables over the grid's dimensions."""
 
     def over_grid(values: Sequence[Any], dtype: Any, attributes: dict[str, Any]) -> Any:
@@ -206,4 +210,4 @@ def _dataset(grid: Grid, run: Run, rows: Sequence[Row]) -> xr.Dataset:
         "stickslip": version("stickslip"),
         **provenance(),
     }
-    return xr.Dataset(variables, coordinates, attributes)
+    return Sweep(variables, coordinates, attributes)

@@ -133,26 +133,30 @@ static FILE *opened(const char *path)
 /* --- the file --- */
 
 typedef struct {
-    FILE *file;
-    uint64_t sum; /* FNV-1a of 64 bits */
+    const unsigned char *next;
+    size_t left;
     bool is_good;
 } Reader;
 
-static void add(Reader *reader, const unsigned char bytes[], size_t size)
+/* FNV-1a of 64 bits. */
+static uint64_t added_to(uint64_t sum, const unsigned char bytes[], size_t size)
 {
     for (size_t i = 0; i < size; i++) {
-        reader->sum = (reader->sum ^ bytes[i]) * 1099511628211u;
+        sum = (sum ^ bytes[i]) * 1099511628211u;
     }
+    return sum;
 }
 
 static void take(Reader *reader, size_t count, double numbers[])
 {
     size_t size = count * sizeof(double);
-    if (!reader->is_good || fread(numbers, 1, size, reader->file) != size) {
+    if (!reader->is_good || reader->left < size) {
         reader->is_good = false;
         return;
     }
-    add(reader, (const unsigned char *)numbers, size);
+    memcpy(numbers, reader->next, size);
+    reader->next += size;
+    reader->left -= size;
     for (size_t i = 0; i < count; i++) {
         reader->is_good = reader->is_good && isfinite(numbers[i]);
     }
@@ -200,24 +204,21 @@ static void take_all(Reader *reader, Tables *t)
     take(reader, ice, t->ice_heat);
 }
 
-/* What is wrong with the file; NULL for nothing. */
-static const char *take_file(Reader *reader, Tables *tables)
+const char *tables_in(const unsigned char bytes[], size_t size, Tables *tables)
 {
-    unsigned char header[HEADER];
     uint32_t order, version;
     uint64_t sum;
     int32_t sizes[4];
-    if (fread(header, 1, HEADER, reader->file) != HEADER || memcmp(header, "BELTICE", 8) != 0) {
+    if (size < HEADER || memcmp(bytes, "BELTICE", 8) != 0) {
         return "it is no file of this unit";
     }
-    memcpy(&order, header + 8, sizeof order);
-    memcpy(&version, header + 12, sizeof version);
-    memcpy(sizes, header + 16, sizeof sizes);
-    memcpy(&sum, header + SUM_AT, sizeof sum);
+    memcpy(&order, bytes + 8, sizeof order);
+    memcpy(&version, bytes + 12, sizeof version);
+    memcpy(sizes, bytes + 16, sizeof sizes);
+    memcpy(&sum, bytes + SUM_AT, sizeof sum);
     if (order != ORDER || version != VERSION) {
         return "it is of another version, or for machines that write numbers in another order";
     }
-    add(reader, header, SUM_AT);
     int *into[] = {&tables->cells, &tables->modes, &tables->ice, &tables->strips};
     for (int i = 0; i < 4; i++) {
         *into[i] = sizes[i];
@@ -225,8 +226,11 @@ static const char *take_file(Reader *reader, Tables *tables)
     if (!fits(tables)) {
         return "its sizes are beyond what this unit has room for";
     }
-    take_all(reader, tables);
-    if (!reader->is_good || reader->sum != sum || fgetc(reader->file) != EOF) {
+    Reader reader = {.next = bytes + HEADER, .left = size - HEADER, .is_good = true};
+    take_all(&reader, tables);
+    uint64_t found = added_to(added_to(14695981039346656037u, bytes, SUM_AT), bytes + HEADER,
+                              size - HEADER);
+    if (!reader.is_good || found != sum || reader.left != 0) {
         return "it is damaged";
     }
     return has_window(tables) ? NULL : "its contact is too long for its cells or its belt";
@@ -234,13 +238,15 @@ static const char *take_file(Reader *reader, Tables *tables)
 
 bool read_tables(Tables *tables, const char *path, char message[], size_t message_size)
 {
-    Reader reader = {.file = opened(path), .sum = 14695981039346656037u, .is_good = true};
-    if (reader.file == NULL) {
+    /* room for all numbers of Tables, and a byte more, by which a longer file is known */
+    unsigned char bytes[HEADER + sizeof(Tables) + 1];
+    FILE *file = opened(path);
+    if (file == NULL) {
         snprintf(message, message_size, "%.500s: cannot be read", path);
         return false;
     }
-    const char *why = take_file(&reader, tables);
-    fclose(reader.file);
+    const char *why = tables_in(bytes, fread(bytes, 1, sizeof bytes, file), tables);
+    fclose(file);
     if (why != NULL) {
         snprintf(message, message_size, "%.500s: %s", path, why);
     }

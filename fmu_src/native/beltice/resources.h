@@ -16,6 +16,9 @@
 bool path_in(const char *uri, bool is_uri, const char *file, char path[], size_t size, char message[],
              size_t message_size);
 
+/* The matrices of a file that stands in memory. NULL, or what is wrong with it. */
+const char *tables_in(const unsigned char bytes[], size_t size, Tables *tables);
+
 /* Read the matrices. False, with the reason in `message`, when the file is not what it must be. */
 bool read_tables(Tables *tables, const char *path, char message[], size_t message_size);
 

@@ -1,6 +1,7 @@
 /* The kernel for a page in a browser: one run, in memory that the page reads and writes.
 
    As WebAssembly this is a module that imports nothing. Texts are ASCII and end with a zero. */
+#include <math.h>
 #include <string.h>
 
 #include "draws.h"
@@ -11,6 +12,12 @@
 
 /* Of one call of `record`; the page asks for as many rows as it has time for. */
 enum { MOST_ROWS = 1024, MOST_EVENTS = 4096, TEXT = 1024 };
+
+/* What a run comes to, as `regime_of` of the Python package names it; a page has the same order. */
+enum { ENDS_EARLY, STICKS, STICKS_AND_SLIPS, SLIDES, CREEPS };
+
+/* A contact that is said to stick, but slides at this part of the surface's speed, creeps. */
+static const double FULL_SPEED = 0.9;
 
 static double v[V_SIZE]; /* values of the parameters */
 static double p[P_SIZE], u[U_SIZE], z[Z_SIZE], w[W_SIZE];
@@ -66,9 +73,6 @@ CALLED(reached) double explorer_reached(void) { return z[SHOWN + TIME]; }
 CALLED(attachments) const double *explorer_attachments(void) { return p + P_ATTACH; }
 CALLED(anchors) const double *explorer_anchors(void) { return p + P_ANCHOR; }
 
-/* Kinetic and spring energy at the start of the run, J. */
-CALLED(energy_at_start) double explorer_energy_at_start(void) { return z[Z_ENERGY]; }
-
 /* Friction over normal force of a contact that slides along x at a speed above 0, m/s, with its
    memory as at the start of a run; of the parameters of the last `begin`. */
 CALLED(coefficient) double explorer_coefficient(double speed)
@@ -77,4 +81,55 @@ CALLED(coefficient) double explorer_coefficient(double speed)
     memset(scratch, 0, sizeof scratch);
     stickslip_friction_in_slip(p, u, scratch, speed, 0.0, 0.0);
     return -scratch[W_FRICTION] / p[P_NORMAL_FORCE];
+}
+
+/* Of the events those after a time, s, alone: an internal step goes beyond where it is looked at. */
+static void forget_events(double until)
+{
+    int count = explorer_take_events();
+    for (int i = 0; i < count; i++) {
+        const double *event = e + E_FIRST + E_WIDTH * i;
+        if (event[0] > until) {
+            memmove(e + E_FIRST + E_WIDTH * (int)e[E_COUNT], event, E_WIDTH * sizeof *event);
+            e[E_COUNT] += 1.0;
+        }
+    }
+}
+
+/* Seconds in slip between two rows of `outputs`, at the times `begin` and `end`. */
+static double time_in_slip(double begin, double end)
+{
+    double since = begin, mode = o[O_MODE], sum = 0.0;
+    int count = explorer_take_events();
+    for (int i = 0; i < count; i++) {
+        const double *event = e + E_FIRST + E_WIDTH * i;
+        if (event[0] > begin && event[0] < end) {
+            sum += mode * (event[0] - since);
+            since = event[0];
+            mode = event[1];
+        }
+    }
+    return sum + mode * (end - since);
+}
+
+/* The regime between two times, s, of a run from `values` and `inputs`. */
+CALLED(regime) int explorer_regime(double begin, double end)
+{
+    const double *late = o + O_SIZE;
+    times[0] = begin;
+    times[1] = end;
+    if (explorer_begin()[0] != '\0' || explorer_record(1) < 1) {
+        return ENDS_EARLY;
+    }
+    forget_events(begin);
+    if (stickslip_record(p, u, z, w, e, times, o, 1, 1) < 1) {
+        return ENDS_EARLY;
+    }
+    double share = time_in_slip(begin, end) / (end - begin);
+    if (share > 0.0) {
+        return share < 1.0 ? STICKS_AND_SLIPS : SLIDES;
+    }
+    double speed = fabs(late[O_SURFACE_SPEED]);
+    double slid = (late[O_DISTANCE] - o[O_DISTANCE]) / (end - begin);
+    return speed > 0.0 && slid > FULL_SPEED * speed ? CREEPS : STICKS;
 }

@@ -14,8 +14,17 @@ from explorer_page import address_of
 from stickslip import EFFECTS, Parameters, simulate
 from stickslip.friction.law import friction_coefficient
 from stickslip.packing import in_order
+from stickslip.steady_motion import Interface
+from stickslip.steady_motion.regimes import (
+    CREEPING,
+    ENDED,
+    SLIDING,
+    STICK_SLIP,
+    STICKING,
+    regime_of,
+)
 
-from cosim import read_scenario
+from cosim import read_scenario, run_scenario
 from cosim.report import trajectory_dataset
 from cosim.report.run_summary import after_ramp
 from cosim.scenario import ScenarioError
@@ -357,3 +366,74 @@ def test_no_serious_barrier(page, width):
         assert browser.barriers() == []
     finally:
         browser.command("Emulation.clearDeviceMetricsOverride")
+
+
+# --- the heat, and the regimes around a run ---
+
+#: Waits in the page until heat and regimes have been computed.
+SETTLED = """
+const back = arguments[0];
+(function look() {
+  const { run, map } = explorer;
+  const heat = run.heat.why || run.warmed === run.rows;
+  if (heat && map.cells.length && map.regimes.length === map.cells.length) back(run.heat.why);
+  else requestAnimationFrame(look);
+})();
+"""
+#: In the middle of the map.
+CLICK = """
+const { canvas, plot } = explorer.map, { box } = plot, place = canvas.getBoundingClientRect();
+canvas.dispatchEvent(new MouseEvent("click", {
+  clientX: place.left + (box.left + box.right) / 2, clientY: place.top + (box.top + box.bottom) / 2,
+}));
+"""
+#: K, of the reduced model beside the finite elements; the belt around the slab's ring is cut into
+#: cells that are half as long again.
+NEAR = {"reference": 2e-6, "slab": 1e-5}
+
+
+@pytest.mark.parametrize("preset", NEAR)
+def test_the_interface_warms_as_in_a_coupled_run(page, preset):
+    changes = {"run.duration": 5.0, "surface.run_up_time": 2.0, "ambient.temperature_degC": -5.0}
+    page.ended(address_of(preset, changes))
+    assert page.driver.execute_async_script(SETTLED) == ""
+    found = page.tell("return [...explorer.run.column('interface_temperature')]")
+    held = {"belt.still_air_speed": 0.0}  # the page keeps the heat transfer that it was made with
+    film = page.tell("return explorer.scenario.preset.heat.parameters['belt.air_heat_transfer']")
+    scenario = read_scenario(preset, changes | held | {"belt.air_heat_transfer": film})
+    expected = run_scenario(scenario).result["thermal.interface_temperature"]
+    assert np.ptp(expected) > 500 * NEAR[preset]
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=NEAR[preset])
+
+
+def test_where_there_is_no_heat_it_says_why(page):
+    page.ended(address_of("reference", {"rig.contact_radius": 0.03}))
+    assert "rig.contact_radius" in page.driver.execute_async_script(SETTLED)
+    page.ended(address_of("reference", {"ambient.temperature_degC": 3.0}))
+    assert "would not be ice" in page.driver.execute_async_script(SETTLED)
+
+
+def test_the_regimes_are_those_of_the_stability_study(page):
+    """At some cells of the map; a click goes to one."""
+    changes = {"run.duration": 12.0, "surface.run_up_time": 4.0, "rig.mass": 1.0}
+    page.ended(address_of("study", changes))
+    page.driver.execute_async_script(SETTLED)
+    known = page.tell("return [explorer.map.regimes, explorer.map.cells, explorer.map.tops]")
+    regimes, cells, tops = known
+    names = [ENDED, STICKING, STICK_SLIP, SLIDING, CREEPING]
+    seen = set()
+    for place in range(0, len(cells), 23):
+        speed, damping = page.tell("return explorer.map.middle(arguments[0])", place)
+        here = {"surface.speed": speed, "structural_damping.coefficient": damping}
+        scenario = read_scenario("study", changes | here)
+        interface = Interface(scenario.ambient.temperature_degC)
+        regime = regime_of(scenario.mechanics, scenario.run.duration, interface)
+        assert names[regimes[place]] == regime.name, here
+        seen.add(regime.name)
+    assert seen == {STICK_SLIP, SLIDING}
+    page.tell(CLICK)
+    page.ended()
+    assert page.tell("return explorer.scenario.get('surface.speed')") == pytest.approx(
+        0.5 * tops[0], rel=0.05
+    )
+    assert page.tell("return explorer.map.regimes.length") == len(cells)  # it is the same map

@@ -5,7 +5,16 @@ import json
 import pytest
 import xarray as xr
 
-from cosim import read_scenario, run_scenario, simulate_scenario
+from cosim import (
+    compare,
+    read_result,
+    read_scenario,
+    reproduce,
+    run_scenario,
+    simulate_scenario,
+    stability,
+    sweep,
+)
 
 
 @pytest.fixture(scope="module", params=[run_scenario, simulate_scenario])
@@ -72,3 +81,43 @@ def test_keywords_change_a_scenario_as_keys_do():
     for wrong, near in (("speed", "surface.speed"), ("rig_mas", "rig.mass"), ("mas", "rig.mass")):
         with pytest.raises(ValueError, match=f"nearest known: {near}"):
             scenario.changed(**{wrong: 1.0})
+
+
+def swept(folder):
+    return sweep(read_scenario("study").changed(run_duration=1.0), {"rig.mass": [0.6, 0.7]}, jobs=1)
+
+
+def compared(folder):
+    short = read_scenario("study").changed(run_duration=1.0)
+    runs = [simulate_scenario(short.changed(rig_mass=mass)) for mass in (0.6, 0.7)]
+    return compare(*(read_result(run.save(folder / f"{i}")) for i, run in enumerate(runs)))
+
+
+def assessed(folder):
+    return stability(read_scenario("study").changed(run_duration=20.0))
+
+
+def reproduced(folder):
+    return reproduce(["C1"])
+
+
+@pytest.mark.parametrize(
+    "made, numbers",
+    [
+        (swept, "sweep.nc"),
+        (compared, "compare.json"),
+        (assessed, "stability.json"),
+        (reproduced, "reproduction.json"),
+    ],
+)
+def test_a_study_has_the_files_and_the_page_of_its_command(made, numbers, tmp_path):
+    found = made(tmp_path)
+    folder = found.save(tmp_path / "saved")
+    assert {numbers, "report.html"} <= {file.name for file in folder.iterdir()}
+    page = found.report(tmp_path / "page.html").read_text("utf-8")
+    assert page.lstrip().lower().startswith("<!doctype html>")
+    told = json.loads(json.dumps(found.summary()))
+    if numbers.endswith(".json"):
+        assert told == json.loads((folder / numbers).read_text("utf-8"))
+    else:
+        assert [row["rig.mass"] for row in told["runs"]] == [0.6, 0.7]

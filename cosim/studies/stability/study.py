@@ -1,0 +1,135 @@
+"""What `stickslip stability` finds of a rig, as one result."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cosim.files import write_bytes, write_text
+from cosim.report.motion_text import border_sentence, regime_sentence, stability_sentence
+from cosim.report.page import Picture
+from cosim.result import Result
+from cosim.scenario import Scenario
+
+from .maps import (
+    Case,
+    NotAMotion,
+    PretensionMap,
+    RegimeMap,
+    as_json,
+    case_of,
+    page,
+    pretension_map,
+    regime_map,
+    tiles,
+)
+from .stick_slip_range import range_sentence, stick_slip_range
+
+RESULT, PAGE = "stability.json", "report.html"
+#: Speeds of the maps as parts of the scenario's, its pretensions as parts of a spring's length, and
+#: mu_s/mu_k.
+SPEEDS, PRETENSIONS, RATIOS = (0.2, 4.0), (0.0, 0.2), (1.02, 2.0)
+
+
+@dataclass
+class Stability(Result):
+    """The assessment of a scenario, and the maps and the range that were asked for.
+
+    Attributes
+    ----------
+    case : the scenario's own assessment
+    pretension, regimes : the maps around it; None where they were not computed
+    stick_slip : what `stick_slip_range` says; None where that was not asked
+    """
+
+    case: Case
+    pretension: PretensionMap | None = None
+    regimes: RegimeMap | None = None
+    stick_slip: dict[str, Any] | None = None
+
+    def __repr__(self) -> str:
+        """The sentence that answers, in a line."""
+        return f"<Stability of {self.case.name}: {self.sentences[0]}>"
+
+    def find_range(self, word: str, look: Callable[[], object] = lambda: None) -> None:
+        """In which range of one number the rig sticks and slips; see `stick_slip_range`."""
+        self.stick_slip = stick_slip_range(self.case, word, look)
+
+    def fill_maps(self, grid: int, done: Callable[[int], object] = lambda count: None) -> None:
+        """Both maps, ``grid`` points a side, the second only once the first is whole.
+
+        The first only of a rig that can leave its line. done: called with 1 after each cell.
+        """
+        parameters = self.case.parameters
+        speeds = abs(parameters.surface.speed) * np.linspace(*SPEEDS, grid)
+        if parameters.rig.degrees_of_freedom != ("x",):
+            stretched = parameters.rig.spring_length * np.linspace(*PRETENSIONS, grid)
+            self.pretension = pretension_map(self.case, stretched, speeds, done)
+        self.regimes = regime_map(self.case, np.linspace(*RATIOS, grid), speeds, done)
+
+    def summary(self) -> dict[str, Any]:
+        """What `stability.json` holds."""
+        numbers = as_json(self.case, self.pretension, self.regimes)
+        return numbers | {"stick_slip_range": self.stick_slip}
+
+    @property
+    def sentences(self) -> list[str]:
+        """What the numbers say, what was asked first."""
+        numbers = as_json(self.case, self.pretension, self.regimes)
+        told = (stability_sentence, regime_sentence, border_sentence)
+        first = [] if self.stick_slip is None else [range_sentence(self.stick_slip)]
+        return [*first, *(speaks(numbers) for speaks in told)]
+
+    @property
+    def pictures(self) -> list[Picture]:
+        """Of the maps."""
+        from .figures import draw_pretension_map, draw_regime_map
+
+        drawn = []
+        if self.pretension is not None:
+            drawn.append(draw_pretension_map(self.pretension, self.case))
+        if self.regimes is not None:
+            drawn.append(draw_regime_map(self.regimes, self.case))
+        return drawn
+
+    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
+        return self.sentences[0], tiles(self.summary())
+
+    def _page(self) -> str:
+        return page(self.summary(), self.sentences, self.pictures)
+
+    def _write(self, folder: Path) -> None:
+        pictures = self.pictures
+        write_text(json.dumps(self.summary(), indent=1), folder / RESULT)
+        for picture in pictures:
+            write_bytes(picture.png, folder / f"{picture.name}.png")
+        write_text(page(self.summary(), self.sentences, pictures), folder / PAGE)
+
+
+def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stability:
+    """Which steady motions a rig has, which of them it can keep to, and where stick-slip stops.
+
+    grid : points a side of each map, at least 2; 0 for none
+    border : "speed", "ramp", "damping", "pretension" or "ratio": the range of that number in which
+        the block sticks and slips; "" is not asked
+
+    Raises NotAMotion, in one line, where there is nothing to be assessed.
+
+    >>> from cosim import read_scenario, stability
+    >>> found = stability(read_scenario("study").changed(run_duration=20.0))
+    >>> found.summary()["name"], found.save("results/stability").name
+    ('study', 'stability')
+    """
+    if grid < 0 or grid == 1:
+        raise NotAMotion(f"grid = {grid}: must be at least 2, or 0 for none")
+    found = Stability(case_of(scenario))
+    if border:
+        found.find_range(border)
+    if grid:
+        found.fill_maps(grid)
+    return found
