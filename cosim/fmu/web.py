@@ -92,7 +92,6 @@ def _module(name: str, guid: str, sources: Sources) -> bytes:
         if has_zig():
             raise
         raise CompilerError(
-            "no kernel for the browser: the installed package has none of today's content, and "
-            "zig, which would compile it, is not there; `pip install ziglang`, or install "
-            "stickslip again (a wheel brings the kernel along)"
+            "no kernel for the browser: zig, which compiles it, is not there; "
+            "`pip install ziglang` (the extra `explore`), or install a wheel, which has the kernel"
         ) from error

@@ -7,6 +7,7 @@ themselves, as ``NAME_track.csv`` with one header row, which is what a campaign 
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import zip_longest
@@ -83,17 +84,31 @@ def campaign_of(
     """Write ``campaign.toml`` into a folder of tracker files; its path, and what was found.
 
     known : settings that all runs have; frames : a second, and pixel : m, of tracks in pixels.
-    Raises CampaignError in one line for a file that cannot be read, and OutputRefused where there
-    is a campaign already, unless ``force``.
+    A ``campaign.toml`` of nothing but [columns] and [units] says what files call them. Raises
+    CampaignError in one line for a file that cannot be read, and OutputRefused where there is a
+    campaign already, unless ``force``.
     """
     target = folder / FILE_NAME
-    if target.exists() and not force:
+    said = _said_beforehand(target)
+    if target.exists() and said is None and not force:
         raise OutputRefused(f"{target}: is there, allowed is --force to overwrite it")
-    found = [_found(file) for file in _readable(folder, frames, pixel)]
+    found = [_found(file, said or Reading()) for file in _readable(folder, frames, pixel)]
     if not found:
         raise CampaignError(f"{folder}: no tracks, allowed are {', '.join((*TEXTS, *EXCEL))}")
     write_text(_toml(folder.resolve().name, found, known or {}), target)
     return target, found
+
+
+def _said_beforehand(file: Path) -> Reading | None:
+    """Of a campaign's file that names columns and no run yet; None of another."""
+    try:
+        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return None
+    named = [tables.get(key, {}) for key in ("columns", "units")]
+    if set(tables) - {"name", "columns", "units"} or not all(isinstance(n, dict) for n in named):
+        return None
+    return Reading(*({str(k): str(v) for k, v in one.items()} for one in named))
 
 
 def _readable(folder: Path, frames: float | None, pixel: float | None) -> Iterator[Path]:
@@ -225,11 +240,16 @@ def settings_of(name: str) -> dict[str, float]:
     return found
 
 
-def _found(file: Path) -> Found:
-    """A file with what its name and its header say; CampaignError where no column is x."""
+def _found(file: Path, said: Reading) -> Found:
+    """A file with what its name and its header say; CampaignError where no column is x.
+
+    said : columns and units that are known
+    """
     header = next((line for line in _text(file).splitlines() if line.strip()), "")
-    columns, units = {}, {}
+    columns, units = dict(said.columns), dict(said.units)
     for channel in SI:
+        if channel in columns:
+            continue
         for cell in _cells(header):
             name, unit = header_parts(cell)
             ending = unit_in_name(channel, name)

@@ -21,6 +21,8 @@ SEPARATOR = re.compile(r'^"?sep=."?\s*$')
 NUMERIC = re.compile(r"(?:[-+\d.eE;,\s]|nan|NaN)+")
 #: What trackers write where they lost the mark.
 MISSING = ("", "-", "--", "nan", "NaN", "NAN", "NA", "N/A", "n/a", "null", "None", "inf", "-inf")
+#: What is larger is no measurement, and its square no number.
+BEYOND = 1e30
 #: Fewer samples of x than this hold neither a cycle nor its noise.
 FEWEST = 20
 #: A record is also looked at on an even grid, as long as it takes: so many places for each of its
@@ -166,18 +168,23 @@ def _parse(rows: list[tuple[int, str]], separator: str, width: int) -> pd.DataFr
     if len(fields) < width or any(fields[width:]):
         many = f"has {len(fields)} fields, the header has {width}; allowed is the same number"
         raise CampaignError(f"line {rows[longest][0]} {many}")
-    return pd.read_csv(
+    decimal = "," if is_comma and separator != "," else "."
+    table = pd.read_csv(
         io.StringIO("\n".join(text)), sep=separator, header=None, names=range(width),
-        decimal="," if is_comma and separator != "," else ".", usecols=range(width),
-        index_col=False, skipinitialspace=True, na_values=MISSING, skip_blank_lines=False,
+        decimal=decimal, usecols=range(width), index_col=False, skipinitialspace=True,
+        na_values=MISSING, skip_blank_lines=False,
     )  # fmt: skip
+    for name in table.select_dtypes(exclude="number"):  # one strange cell leaves all of them text
+        text_of = table[name].astype(str).str.replace(decimal, ".", regex=False)
+        table[name] = text_of.where(table[name].notna())
+    return table
 
 
 def _numbers(name: str, column: pd.Series, lines: np.ndarray) -> np.ndarray:
     values = pd.to_numeric(column, errors="coerce").to_numpy(dtype=float)
     strange = np.flatnonzero(np.isnan(values) & column.notna().to_numpy())
     if not strange.size:
-        return np.where(np.isfinite(values), values, np.nan)
+        return np.where(np.abs(values) < BEYOND, values, np.nan)
     text = str(column.iloc[strange[0]])
     where = f'line {lines[strange[0]]}: {name} = "{text[:40]}" is'
     if strange[0] == 0 and is_unit(text):  # a second header row

@@ -6,7 +6,7 @@
 
 Each campaign is made and answered in one process, on one core, and written as a line of
 campaigns.jsonl as it ends; --resume does what is missing. Then scores.md (tables), wrong.md (every
-answer that is not right) are written. --count is the size of a suite, whose
+answer that is not right) and calibration.png are written. --count is the size of a suite, whose
 orders depend on it; --first takes only so many of them.
 """
 
@@ -37,6 +37,7 @@ from blind.laboratory.__main__ import answer, write_campaign  # noqa: E402
 from blind.laboratory.campaign import make_campaign  # noqa: E402
 from blind.laboratory.suites import SUITES, orders_of  # noqa: E402
 from laboratory_score.answers import Row, read_lines, rows_of  # noqa: E402
+from laboratory_score.calibration import write_calibration  # noqa: E402
 from laboratory_score.outcome import is_right  # noqa: E402
 from laboratory_score.shares import share  # noqa: E402
 from laboratory_score.tables import by_suite, markdown  # noqa: E402
@@ -176,10 +177,11 @@ def run(tasks: list[Task], out: Path, jobs: int, resume: bool, keep: Path | None
 
 
 def report(rows: list[Row], out: Path) -> str:
-    """Tables and list of errors; the tables' text."""
+    """Tables, list of errors and figure; the tables' text."""
     text = markdown(rows, f"Campaigns with answers, {code()}")
     (out / "scores.md").write_text(text, encoding="utf-8")
     (out / "wrong.md").write_text(listing(rows), encoding="utf-8")
+    write_calibration(rows, out / "calibration.png")
     return text
 
 

@@ -115,3 +115,20 @@ def test_what_no_name_says_is_given_or_asked_for(tmp_path, capsys):
     assert "--force to overwrite" in capsys.readouterr().err
     assert main(["campaign", str(tmp_path), "--set", "weight=1"]) == 2
     assert main(["campaign", str(tmp_path / "none")]) == 2
+
+
+def test_columns_of_other_names_are_said_beforehand(tmp_path):
+    """A campaign.toml without runs keeps nobody from making one, and is not lost."""
+    name = "m0.87_v0.06_k38.5.csv"
+    write(
+        tmp_path,
+        name,
+        "Zeit [s];Weg [mm]",
+        *(f"{t:.3f};{1e3 * x:.6f}" for t, x in zip(TIME, X, strict=True)),
+    )
+    with pytest.raises(CampaignError, match="column t: missing"):
+        campaign_of(tmp_path)
+    said = '[columns]\nt = "Zeit"\nx = "Weg"\n'
+    (tmp_path / "campaign.toml").write_text(said, encoding="utf-8")
+    campaign_of(tmp_path)
+    assert read_campaign(tmp_path).runs[0].track.x == pytest.approx(X, abs=1e-6)

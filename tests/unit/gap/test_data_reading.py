@@ -141,6 +141,7 @@ BAD_TEXT = {
     "empty": ("", "no data"),
     "only a header": ("t,x\n", "a header row without numbers"),
     "a word": ("t,x\n0,0\n1,lost\n", 'line 3: x = "lost" is not a number'),
+    "a word among decimal commas": ("t;x\n0,0;\n0,1;1,5\n0,2;lost\n", 'line 4: x = "lost" is'),
     "ragged": ("t,x\n0,0\n1,0,5\n", "line 3 has 3 fields, the header has 2"),
     "rows too short": ("t,x,z\n0,0\n1,0\n", "line 2 has 2 fields, the header has 3"),
     "decimal commas": ("t,x\n0,0,1,5\n1,0,1,6\n", "decimal commas between commas"),
@@ -166,6 +167,13 @@ def scaled(name, factor):
 
 def put(name, row, value):
     return lambda c: c | {name: np.where(np.arange(c[name].size) == row, value, c[name])}
+
+
+def test_a_place_beyond_all_numbers_is_missing(tmp_path):
+    rows = [f"{0.01 * n:.2f},{1e300 if n == 7 else 0.001 * n}" for n in range(30)]
+    (tmp_path / "run.csv").write_text("\n".join(["t,x", *rows]), encoding="utf-8")
+    track, _, _ = read_track(tmp_path / "run.csv")
+    assert np.flatnonzero(np.isnan(track.x)).tolist() == [7]
 
 
 BAD_DATA = {

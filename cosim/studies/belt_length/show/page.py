@@ -31,7 +31,7 @@ FILES = {
 
 def _on_page(sentence: str) -> Markup:
     """A sentence of the terminal as a page has it: signs, units, what is typed."""
-    text = escape(_MINUS.sub("−", sentence).replace("W/m2K", "W/(m² K)"))
+    text = str(escape(_MINUS.sub("−", sentence).replace("W/m2K", "W/(m² K)")))
     return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", text))
 
 

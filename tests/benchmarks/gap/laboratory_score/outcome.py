@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-from .answers import Row
+from .answers import FAULT, Row
 
 NAMING = ("named", "class", "partial")  # verdicts that give a name
 
@@ -73,6 +73,32 @@ def is_right(row: Row) -> bool:
     if row.truth.effects or row.truth.members:
         return found in (Outcome.NAMED, Outcome.CLASS)
     return found is not Outcome.WRONG and verdict(row) in row.truth.verdicts
+
+
+def names_physics(row: Row) -> bool:
+    """Whether an effect of the block is given a name that no stated class shares with a fault."""
+    groups = [frozenset(group) for group in (row.found or {}).get("classes") or ()]
+    for name in given(row):
+        alike = frozenset((name,)).union(*(group for group in groups if name in group))
+        if not any(each.startswith(FAULT) for each in alike):
+            return True
+    return False
+
+
+def names_fault(row: Row) -> bool:
+    """Whether faults of the measurement alone are given a name."""
+    names = given(row)
+    return bool(names) and all(name.startswith(FAULT) for name in names)
+
+
+def probability(row: Row) -> float | None:
+    """How probable the answer says the one that it names to be; None where it names no one."""
+    if verdict(row) != "named" or len(given(row)) != 1:
+        return None
+    ranked = (row.found or {}).get("ranking") or ()
+    return next(
+        (float(each["probability"]) for each in ranked if each["effect"] in given(row)), None
+    )
 
 
 def gap(row: Row, when: str, part: str = "held_out") -> float | None:
