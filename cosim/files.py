@@ -47,8 +47,7 @@ def writable(folder: Path, files: Iterable[str] = ()) -> Path:
             pass  # the only sure test: permissions do not bind everybody, a disk may be read-only
     except OSError as error:
         raise OutputRefused(
-            f"{folder}: cannot be written to ({error.strerror}), allowed is a folder that can: "
-            "name one with -o"
+            f"{folder}: cannot be written to ({error.strerror}), allowed is a folder that can"
         ) from error
     not_taken(folder, files)
     clear_partial(folder)

@@ -86,7 +86,8 @@ def closing_lines(plan: Plan) -> list[str]:
     for size in plan.sizes:
         said = percent_text(size) if size.value is not None else "whatever its size"
         if size.value is not None and size.alone != size.value:
-            said += f", by itself from {value_text(size.alone, size, 'no size on')}"
+            alone = value_text(size.alone, size)
+            said += ", never by itself" if size.alone is None else f", by itself from {alone}"
         lines.append(f"  {size.law.key:{width}}  {value_text(size.value, size):>16}  {said}")
     lines += [
         f"  {effect:{width}}  {'not tried':>16}  {why}" for effect, why in plan.silent.items()

@@ -18,6 +18,7 @@ from cosim.gap.plan.laws import Law, laws_of
 from cosim.gap.plan.planned import PlannedRun, rows_of_run, simulated
 from cosim.gap.plan.sizes import Design
 from cosim.gap.weak_form.arguments import Arguments
+from cosim.gap.weak_form.constants import ALIKE
 from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.unknowns import Unknown
@@ -57,6 +58,7 @@ class NextRun:
             f"surface at {self.surface_speed:.3g} m/s for {self.duration:.3g} s tells "
             f"{' from '.join(self.effects)} by a ln Bayes factor of {self.separation:.2g}, "
             f"which is {self.separation_before:.2g} without it"
+            f"{f': less than the {ALIKE:g} that tell' if self.separation < ALIKE else ''}"
         )
 
     def as_data(self) -> dict[str, Any]:
