@@ -7,7 +7,7 @@ their laws, so that what is shown is the model that a unit would run.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -80,12 +80,12 @@ class Part:
         """Id in the catalogue: of the law, where one of the user's own does better."""
         return self.fits[0].effect if self.fits else self.finding.name
 
-    def rivals(self, own: Collection[str]) -> list[str]:
-        """Other effects with a law of this curve: those nearly as probable, by e^3, and the user's.
-
-        own : ids of the user's own effects; a kink of theirs is no smooth curve
-        """
-        most = self.fits[0].price + 2.0 * ALIKE if self.fits else 0.0
+    def rivals(self, campaign: Campaign) -> list[str]:
+        """Other effects with a law of this curve: those nearly as probable, by e^3, and those of
+        the user's own files, as a kink of theirs is no smooth curve."""
+        if not self.fits:
+            return []
+        most, own = self.fits[0].price + 2.0 * ALIKE, own_effects(campaign)
         near = [fit.effect for fit in self.fits if fit.price < most or fit.effect in own]
         return [effect for effect in dict.fromkeys(near) if effect != self.effect]
 

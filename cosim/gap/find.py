@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from cosim.gap.checks import blocking, doubts_of
 from cosim.gap.data import Campaign
-from cosim.gap.extended import Part, as_points, own_effects, part_of
+from cosim.gap.extended import Part, as_points, part_of
 from cosim.gap.judge import (
     EXPLAINED,
     NOTHING_MISSING,
@@ -201,7 +201,7 @@ class _Fitting:
         """
         models = self._fitted(named, parts)
         for part in parts:
-            for effect in part.rivals(own_effects(self.campaign)):
+            for effect in part.rivals(self.campaign):
                 other = part_of(self.campaign, named.system, named.rung, part.finding, effect)
                 swapped = [other if one.finding is part.finding else one for one in parts]
                 others = self._fitted(named, swapped)

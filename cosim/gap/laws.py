@@ -1,15 +1,13 @@
 """Which law of the catalogue follows a curve that the runs have drawn.
 
-The argument has been decided on; each law of it that an effect offers is fitted to what the rows
-say of the curve, without the smoothness that is expected of it: a kink is smooth beforehand only.
-The law with the least chi^2 + parameters ln(nodes) is taken.
+The argument has been decided on; each law of it that an effect offers is fitted to the curve, with
+the curve's own covariance, and the one with the least chi^2 + parameters ln(nodes) is taken.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -25,36 +23,15 @@ from cosim.gap.weak_form.system import Rung
 #: A curve is followed by a law whose chi^2 per node is below this: a chi^2 of nine degrees of
 #: freedom exceeds 2.8 of them once in 300 curves.
 FOLLOWED = 2.8
-#: Part of the best known axis of a curve below which rounding hides what rows say of an axis.
-TOLD = 1e-6
 
 
 @dataclass(frozen=True)
 class FreeCurve:
-    """A curve that is 0 at its first node, in the unit of its law: parts of mu_k or of mu_s, or N.
-
-    at, mean : (q,); covariance : (q, q), with that expected beforehand, prior, or None for any
-    """
+    """A curve with its covariance, in the unit of its law: parts of mu_k or of mu_s, or N."""
 
     at: np.ndarray
     mean: np.ndarray
     covariance: np.ndarray
-    prior: np.ndarray | None = None
-
-    @cached_property
-    def rows(self) -> tuple[np.ndarray, np.ndarray]:
-        """(m, q - 1), (m,) of unit noise: what the rows alone say of the values at later nodes.
-
-        With a Gaussian prior the precision P of the curve is its own and the prior's.
-        """
-        precision = np.linalg.inv(self.covariance[1:, 1:])
-        right = precision @ self.mean[1:]
-        if self.prior is not None:
-            precision = precision - np.linalg.inv(self.prior[1:, 1:])
-        told, axes = np.linalg.eigh(0.5 * (precision + precision.T))
-        is_told = told > TOLD * told[-1]
-        roots, turned = np.sqrt(told[is_told])[:, None], axes[:, is_told].T
-        return roots * turned, np.asarray((turned / roots) @ right)
 
 
 @dataclass(frozen=True)
@@ -105,8 +82,7 @@ def free_curve(rung: Rung, finding: Finding, unit: float) -> FreeCurve | None:
         return None
     part = rung.part_of(finding.main)
     mean, covariance = rung.posterior[0][part], rung.posterior[1][part, part]
-    prior = unit**2 * finding.main.factor @ finding.main.factor.T
-    return FreeCurve(unknown.curve.nodes, unit * mean, unit**2 * covariance, prior)
+    return FreeCurve(unknown.curve.nodes, unit * mean, unit**2 * covariance)
 
 
 def laws_of(name: str, curve: FreeCurve, context: Context) -> list[LawFit]:
@@ -121,7 +97,7 @@ def laws_of(name: str, curve: FreeCurve, context: Context) -> list[LawFit]:
             continue
         for candidate in effect.candidates(context.scales):
             if context.allows(effect, candidate):
-                found.append(_fitted(effect, candidate, law, curve))
+                found.append(_fitted(effect, candidate, law, curve, name not in _WITHOUT_LEVEL))
     return sorted(found, key=lambda fit: fit.price)
 
 
@@ -237,25 +213,33 @@ SHAPES: dict[str, Callable[[Effect, Context], _Law | None]] = {
     "thermal_weakening": _over("recent_heat", ("fast_heat", "slow_heat")),
     "static_strengthening": _hold,
 }
+#: Laws beside which no coefficient is free that would take up a constant.
+_WITHOUT_LEVEL = ("structural_damping", "spring_hardening")
 
 
-def _fitted(effect: Effect, candidate: Candidate, law: _Law, curve: FreeCurve) -> LawFit:
-    """Least squares of a law, less its value at the first node, to what rows say of the curve."""
+def _fitted(
+    effect: Effect, candidate: Candidate, law: _Law, curve: FreeCurve, level: bool
+) -> LawFit:
+    """Least squares of a law, and a constant where a coefficient is free, to the curve."""
     free = [each for each in candidate.free_parameters if not each.per_run]
     prefix = f"{effect.id}."
     defaults = {name: field.default for name, field in effect.table.model_fields.items()}
     set_values = {key.removeprefix(prefix): value for key, value in candidate.settings.items()}
-    columns, told = curve.rows
+    lower = np.linalg.cholesky(curve.covariance + 1e-10 * np.diag(np.diag(curve.covariance))
+                               + 1e-18 * np.eye(curve.at.size))  # fmt: skip
 
     def values(scaled: np.ndarray) -> dict[str, float]:
         own = {each.key.removeprefix(prefix): each.value(each.inside(s))
                for each, s in zip(free, scaled, strict=True)}  # fmt: skip
         return {**defaults, **set_values, **own}
 
+    constant = np.linalg.solve(lower, np.ones(curve.at.size)) if level else None
+
     def residuals(scaled: np.ndarray) -> np.ndarray:
-        drawn = law(curve.at, values(scaled))
-        rows = columns @ (drawn[1:] - drawn[0]) - told
-        return np.asarray(np.nan_to_num(rows, nan=1e6, posinf=1e6, neginf=-1e6))
+        rows = np.linalg.solve(lower, law(curve.at, values(scaled)) - curve.mean)
+        if constant is not None:  # the best constant, without a search
+            rows = rows - constant * (constant @ rows) / (constant @ constant)
+        return np.nan_to_num(rows, nan=1e6, posinf=1e6, neginf=-1e6)
 
     start = np.array([each.scaled(each.start) for each in free])
     low = np.array([each.scaled(each.low) for each in free])
