@@ -96,7 +96,7 @@ def test_a_folder_that_cannot_be_written_is_refused_before_anything_is_computed(
     for command in ("run", "simulate"):
         for folder in ("taken", "taken/below"):
             line = refusal(capsys, command, "-o", folder)
-            assert line.startswith(f"{folder}: cannot be written to (") and "-o" in line
+            assert line.startswith(f"{folder}: cannot be written to (")
     assert refusal(capsys, "build", "-o", "taken").startswith("taken: cannot be written to")
     assert (tmp_path / "taken").read_text() == "a file"
     assert [path.name for path in tmp_path.iterdir()] == ["taken"]
