@@ -7,8 +7,8 @@
  3. Whatever friction may depend on is an argument with one free curve; all have the same evidence,
     of which a fault, and what no effect stands for, needs e^3 times as much.
  4. An argument is a finding where the rows are e^6 times as probable with it (e^3 the first), and
-    it takes more than a small part of what was missing at first; the best joins, all others are
-    asked again.
+    it takes more than a small part of what was missing at first, or, where contact and scatter had
+    taken all of that, e^12 times; the best joins, all others are asked again.
  5. Findings within e^3 of one another in the same place, and within e^6 in simulated runs, cannot
     be told apart: a class; so are two within e^12, the first below e^500, of which simulated runs
     prefer the second; where they do so by e^500, and rows prefer the first by e^200 at most, the

@@ -174,9 +174,10 @@ def _parse(rows: list[tuple[int, str]], separator: str, width: int) -> pd.DataFr
         decimal=decimal, usecols=range(width), index_col=False, skipinitialspace=True,
         na_values=MISSING, skip_blank_lines=False,
     )  # fmt: skip
-    for name in table.select_dtypes(exclude="number"):  # one strange cell leaves all of them text
-        text_of = table[name].astype(str).str.replace(decimal, ".", regex=False)
-        table[name] = text_of.where(table[name].notna())
+    if decimal == ",":  # one strange cell leaves a column text, with its commas
+        for name in table.select_dtypes(exclude="number"):
+            points = table[name].astype(str).str.replace(",", ".", regex=False)
+            table[name] = points.where(table[name].notna())
     return table
 
 
