@@ -12,7 +12,11 @@ let newest = 0;
 const CHUNK_MS = 12, MOST_ROWS = 1024; // between two answers
 const turn = new MessageChannel();
 let goOn = null;
-turn.port1.onmessage = () => goOn();
+turn.port1.onmessage = () => {
+  const next = goOn;
+  goOn = null; // the turn of work that has been let go may still come: nothing is done twice
+  if (next) next();
+};
 
 onmessage = ({ data }) => {
   if (data.kernel) {

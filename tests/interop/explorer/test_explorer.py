@@ -406,6 +406,33 @@ def test_the_interface_warms_as_in_a_coupled_run(page, preset):
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=NEAR[preset])
 
 
+#: Turns a key while the run before is still being warmed; what is then heard of the last run.
+TURNED_ON_AND_ON = """
+const back = arguments[0], heard = [], { told } = explorer.runs;
+explorer.runs.told = (run, message) => {
+  if (run.scenario.get("run.duration") === 14) heard.push(Object.keys(message).sort().join(" "));
+  told(run, message);
+};
+let duration = 5, after = 0;
+(function turn() {
+  const { run, pending } = explorer;
+  const there = !pending && run.state === "done";
+  if (duration < 14 && there) explorer.set("run.duration", ++duration);
+  if (duration === 14 && there && run.heat.ended && ++after > 20) {
+    explorer.runs.told = told;
+    back(heard);
+  } else requestAnimationFrame(turn);
+})();
+"""
+
+
+def test_a_run_is_computed_once_whatever_was_going_on_before(page):
+    page.ended(address_of("reference", {"run.duration": 5.0}))
+    heard = page.driver.execute_async_script(TURNED_ON_AND_ON)
+    for ending in ("done reason run", "reason run warmed"):
+        assert heard.count(ending) == 1, heard
+
+
 def test_where_there_is_no_heat_it_says_why(page):
     page.ended(address_of("reference", {"rig.contact_radius": 0.03}))
     assert "rig.contact_radius" in page.driver.execute_async_script(SETTLED)
