@@ -31,7 +31,7 @@ from cosim.gap.weak_form.rig_unknowns import (
 )
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.windows.numbers import Number
-from cosim.gap.windows.run_model import FORCE_PART, PER_WEIGHT, TABLE_PART, WITH_WEIGHT
+from cosim.gap.windows.run_model import FORCE_PART, LOADING, PER_WEIGHT, TABLE_PART, WITH_WEIGHT
 from cosim.gap.windows.windows import moves_across
 
 #: Bounds of the contact's own numbers: friction falls over 0.3 to 20 mm/s, and over a small part of
@@ -56,6 +56,7 @@ class Part:
 
     curve : its free curve, or None; fits : the catalogue's laws on it, the best first
     numbers, settings : of the kernel; starts : labels -> values from which runs' own numbers start
+    shifts : labels -> what the rows' value of a number of the rig has of the law
     """
 
     finding: Finding
@@ -64,6 +65,7 @@ class Part:
     numbers: tuple[Number, ...]
     settings: dict[str, float]
     starts: dict[str, float] = field(default_factory=dict)
+    shifts: dict[str, float] = field(default_factory=dict)
 
     @property
     def in_model(self) -> bool:
@@ -80,22 +82,27 @@ class Part:
         """Id in the catalogue: of the law, where one of the user's own does better."""
         return self.fits[0].effect if self.fits else self.finding.name
 
-    def rivals(self, campaign: Campaign) -> list[str]:
-        """Other effects with a law of this curve: those nearly as probable, by e^3, and those of
-        the user's own files, as a kink of theirs is no smooth curve."""
+    def rivals(self, campaign: Campaign) -> list[LawFit]:
+        """Other laws of this curve, each form of its effect and the best of each other: those
+        nearly as probable, by e^3, and those of the user's own files, as a kink of theirs is no
+        smooth curve."""
         if not self.fits:
             return []
-        most, own = self.fits[0].price + 2.0 * ALIKE, own_effects(campaign)
-        near = [fit.effect for fit in self.fits if fit.price < most or fit.effect in own]
-        return [effect for effect in dict.fromkeys(near) if effect != self.effect]
+        best, own = self.fits[0], own_effects(campaign)
+        others = {best.law: best}
+        for fit in self.fits:
+            if fit.price < best.price + 2.0 * ALIKE or fit.effect in own:
+                form = fit.candidate.form if fit.effect == best.effect else ""
+                others.setdefault((fit.effect, form), fit)
+        return list(others.values())[1:]
 
 
 def part_of(
-    campaign: Campaign, system: System, rung: Rung, finding: Finding, effect: str = ""
+    campaign: Campaign, system: System, rung: Rung, finding: Finding, law: LawFit | None = None
 ) -> Part:
     """A finding's law and the numbers that are fitted of it; none where no effect stands for it.
 
-    effect : id of the one whose law is taken; else that of the best, if it follows the curve
+    law : of this form; else that which is nearest to the curve, if it follows it
     """
     if finding.numbers:
         return _across(finding)
@@ -125,9 +132,10 @@ def part_of(
     fits = laws_of(finding.name, curve, context)
     if not fits:
         return Part(finding, curve, (), (), {})
-    fits.sort(key=lambda fit: bool(effect) and fit.effect != effect)
+    if law is not None:
+        fits.sort(key=lambda fit: fit.law != law.law)
     best = fits[0]
-    if not (effect or best.follows) and (points := _points(campaign, finding, curve, scales)):
+    if not (law or best.follows) and (points := _points(campaign, finding, curve, scales)):
         return Part(finding, curve, tuple(fits), (), points)
     numbers, settings = _numbers(best)
     if finding.name in BY_SPEED:
@@ -140,7 +148,10 @@ def part_of(
         settings[f"{best.effect}.diffusion"] = unknown.settings["diffusion"]
         if unknown.settings["per_weight"]:
             settings[f"per_weight.{best.effect}.per_joule"] = scales.force
-    return Part(finding, curve, tuple(fits), tuple(numbers), settings)
+    shifts = {}
+    if finding.name == "static_strengthening":  # the rows' mu_s is that of the shortest hold
+        shifts[f"friction.{MU_S}"] = level.static * best.level
+    return Part(finding, curve, tuple(fits), tuple(numbers), settings, shifts=shifts)
 
 
 def as_points(campaign: Campaign, system: System, part: Part) -> Part:
@@ -149,7 +160,7 @@ def as_points(campaign: Campaign, system: System, part: Part) -> Part:
         return part
     scales = scales_of(campaign, system.runs, system.level.kinetic)
     points = _points(campaign, part.finding, part.curve, scales)
-    return replace(part, numbers=(), settings=points) if points else part
+    return replace(part, numbers=(), settings=points, shifts={}) if points else part
 
 
 def _points(
@@ -335,7 +346,7 @@ def contact_numbers(campaign: Campaign, fastest: float) -> list[Number]:
         # below 1 friction falls infinitely fast at rest: no contact does, and steps would crawl
         Number("friction.transition_exponent", 1.3, 0.5, 1.0, 3.0),
         Number("friction.stick_creep", 0.03 * slowest, None, 0.0, CREEP_PART * slowest),
-        Number("offset.loading", 0.0, CONTACT_DELAY, -LONGEST_DELAY, LONGEST_DELAY),
+        Number(LOADING, 0.0, CONTACT_DELAY, -LONGEST_DELAY, LONGEST_DELAY),
     ]
 
 
@@ -382,5 +393,5 @@ def started_from(campaign: Campaign, rows: Rung) -> dict[str, float]:
         elif name == SCATTER and each.unknown.variant == "both":
             of_runs("offset.friction", values)
         elif name == CONTACT and each.unknown.variant == "loading":
-            starts["offset.loading"] = -float(values[0])
+            starts[LOADING] = -float(values[0])
     return starts

@@ -10,18 +10,22 @@ from cosim.gap.data import Campaign
 from cosim.gap.extended import Part, as_points, part_of
 from cosim.gap.judge import (
     EXPLAINED,
+    MUCH_MORE,
     NOTHING_MISSING,
     SURE,
     explains,
     halves,
+    is_asked_for_ageing,
     judge,
     judged,
     leaves,
     may_be_spurious,
+    much_more,
     rivals_of,
     runs_ask,
     told_by_both,
 )
+from cosim.gap.laws import LawFit
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
 from cosim.gap.plan.next_run import next_experiment
@@ -37,10 +41,12 @@ from cosim.gap.report_of_findings import (
 from cosim.gap.result import Doubt, Gap, Rejected, Rung, Score
 from cosim.gap.scatter import Scatter
 from cosim.gap.weak_form.camera_faults import FAULTS
-from cosim.gap.weak_form.constants import ALIKE
+from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
 from cosim.gap.weak_form.ladder import Finding, Ladder, price_of
 from cosim.gap.weak_form.track import thinned
+from cosim.gap.windows.run_model import LOADING
 
+AGEING = "static_strengthening"
 #: Steps of the bar: checks, search, and the models that are fitted.
 STEPS = 6
 
@@ -156,15 +162,17 @@ def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
     rejected: list[Rejected] = []
     while True:
         named = naming.named([one.effect for one in rejected])
-        parts = [part_of(campaign, named.system, named.rung, finding) for finding in named.findings]
+        parts = [fitting.part(named, finding) for finding in named.findings]
         most = max((part.finding.gain for part in parts), default=0.0)
         faint = {part.finding.name for part in parts
                  if may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
         if outdone := fitting.outdone(parts, named, faint):
             rejected += outdone
             continue
-        doubted = fitting.rejected(parts, named, faint)
+        doubted = fitting.lost(parts, named, faint) or fitting.rejected(parts, named, faint)
         if doubted is None:
+            if not parts:
+                parts, named = fitting.aged(named)
             found, models = fitting.best_of(parts, named)
             if not (explains(models.ladder) and models.is_felt):
                 along = {part.finding.name for part in parts if part.finding.added}
@@ -193,6 +201,44 @@ class _Fitting:
     jobs: int
     known: list[tuple[Models, bool]] = field(default_factory=list)
 
+    def part(self, named: Named, finding: Finding, law: LawFit | None = None) -> Part:
+        """What a finding puts into the model."""
+        return part_of(self.campaign, named.system, named.rung, finding, law)
+
+    def aged(self, named: Named) -> tuple[list[Part], Named]:
+        """Static friction over the hold time, where a contact would have to let go very soon.
+
+        Rows hardly tell the one from the other.
+        """
+        without = self._fitted(named, [])
+        offered = named.ladder.first_offers.get(AGEING)
+        if offered is None or not is_asked_for_ageing(without.fits[-1].values.get(LOADING, 0.0)):
+            return [], named
+        finding = Finding(AGEING, offered[1], 0.0)
+        aged = replace(named, rung=named.system.rung(finding.added))
+        gained = self._gained(self.part(aged, finding), without, aged, MUCH_MORE)
+        if not much_more(gained):
+            return [], named
+        finding = replace(finding, gain=gained)
+        return [self.part(aged, finding)], replace(aged, findings=(finding,))
+
+    def _gained(
+        self, part: Part, without: Models, named: Named, enough: float = LEAST_GAIN
+    ) -> float:
+        """ln of how much more probable simulated runs are with a finding.
+
+        Laws that follow a curve alike move the block differently: where the first brings neither
+        enough nor as much less, another form of it counts with which they are much more so.
+        """
+        first = without.gained(part)
+        if abs(first) <= enough + price_of(part.finding.name):
+            for law in part.rivals(self.campaign):
+                if law.effect == part.effect:
+                    gained = without.gained(self.part(named, part.finding, law))
+                    if much_more(gained):
+                        return gained
+        return first
+
     def best_of(self, parts: list[Part], named: Named) -> tuple[list[Part], Models]:
         """With laws that follow the curves, or with the curves where the runs ask for them.
 
@@ -201,8 +247,10 @@ class _Fitting:
         """
         models = self._fitted(named, parts)
         for part in parts:
-            for effect in part.rivals(self.campaign):
-                other = part_of(self.campaign, named.system, named.rung, part.finding, effect)
+            for law in part.rivals(self.campaign):
+                if law.effect == part.effect and explains(models.ladder):
+                    continue  # another form of it hardly tells
+                other = self.part(named, part.finding, law)
                 swapped = [other if one.finding is part.finding else one for one in parts]
                 others = self._fitted(named, swapped)
                 if judged(others.ladder[-1].gap) < judged(models.ladder[-1].gap):
@@ -229,7 +277,7 @@ class _Fitting:
             for part in least_first:
                 if part.finding.name in asked and not is_needed(part, parts, named):
                     without = self._without(part, parts, named)
-                    gained = without.gained(part) if part.in_kernel else None
+                    gained = self._gained(part, without, named) if part.in_kernel else None
                     return Rejected(part.finding.name, part.finding.gain, gained)
         return None
 
@@ -245,14 +293,31 @@ class _Fitting:
         lesser = [part for part in parts if part is not greatest and part.finding.name in asked]
         if greatest is None or len(lesser) < 2 or any(p.finding.gain >= SURE for p in lesser):
             return []
-        alone = self._fitted(named, [greatest], is_shown=False)
+        alone = self._fitted(named, [greatest], is_shown=False, scatters=False)
         if judged(alone.unscattered) > EXPLAINED:
             return []
+        alone.let_scatter()
         gained = [alone.gained(part) if part.in_kernel else None for part in lesser]
         if any(gain is not None and gain >= SURE for gain in gained):
             return []
         return [Rejected(part.finding.name, part.finding.gain, gain)
                 for part, gain in zip(lesser, gained, strict=True)]  # fmt: skip
+
+    def lost(self, parts: Sequence[Part], named: Named, asked: Collection[str]) -> Rejected | None:
+        """The greatest finding, where simulated runs are much worse with it alone, and do not ask
+        for it beside contact and scatter: nothing is built upon it."""
+        greatest = max(parts, key=lambda part: part.finding.gain, default=None)
+        if greatest is None or greatest.finding.name not in asked or not greatest.in_kernel:
+            return None
+        alone = self._fitted(named, [greatest], is_shown=False, scatters=False)
+        without = self._fitted(named, [], is_shown=False, scatters=False)
+        if not alone.is_lost_beside(without):
+            return None
+        without.let_scatter()
+        gained = self._gained(greatest, without, named)
+        if runs_ask(gained - price_of(greatest.finding.name)):
+            return None
+        return Rejected(greatest.finding.name, greatest.finding.gain, gained)
 
     def _without(self, part: Part, parts: Sequence[Part], named: Named) -> Models:
         return self._fitted(named, [other for other in parts if other is not part], is_shown=False)
@@ -265,7 +330,7 @@ class _Fitting:
         """
         without = self._without(part, parts, named)
         is_lesser = part.finding.gain < max(other.finding.gain for other in parts)
-        gained = without.gained(part) if part.in_kernel else 0.0
+        gained = self._gained(part, without, named) if part.in_kernel else 0.0
         is_sure = max(part.finding.gain, gained) >= SURE
         if is_lesser and not is_sure and judged(without.unscattered) <= EXPLAINED:
             return False
@@ -342,21 +407,25 @@ class _Fitting:
 
     def _in_place(self, named: Named, name: str) -> Part:
         """What another explanation would put into the model."""
-        added = named.ladder.first_offers[name][1]
-        rows = named.system.rung(added)
-        return part_of(self.campaign, named.system, rows, Finding(name, added, 0.0))
+        finding = Finding(name, named.ladder.first_offers[name][1], 0.0)
+        return self.part(replace(named, rung=named.system.rung(finding.added)), finding)
 
-    def _fitted(self, named: Named, parts: Sequence[Part], is_shown: bool = True) -> Models:
-        for models, was_shown in self.known:
-            same = list(map(id, models.parts)) == list(map(id, parts))
-            if same and (was_shown or not is_shown):
-                return models
-        added = [one for part in parts for one in part.finding.added]
-        models = Models.fitted(
-            self.campaign, named.system, named.system.rung(added), parts, step=self.step,
-            jobs=self.jobs, others=self.known[0][0] if self.known else None, is_shown=is_shown,
-        )  # fmt: skip
-        self.known.append((models, is_shown))
+    def _fitted(
+        self, named: Named, parts: Sequence[Part], is_shown: bool = True, scatters: bool = True
+    ) -> Models:
+        """Models of these findings; of what no page shows friction need not scatter."""
+        ids = list(map(id, parts))
+        known = (models for models, was_shown in self.known
+                 if list(map(id, models.parts)) == ids and (was_shown or not is_shown))  # fmt: skip
+        models = next(known, None)
+        if models is None:
+            models = Models.fitted(
+                self.campaign, named.system, parts, step=self.step, jobs=self.jobs,
+                others=self.known[0][0] if self.known else None, is_shown=is_shown,
+            )  # fmt: skip
+            self.known.append((models, is_shown))
+        if scatters:
+            models.let_scatter()
         return models
 
 

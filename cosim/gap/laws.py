@@ -39,7 +39,7 @@ class LawFit:
     """A law of the catalogue beside a curve.
 
     values : `block.parameter` -> value, fitted and set; at : (q,) of the law at the curve's nodes;
-    misfit : chi^2 per node
+    misfit : chi^2 per node; level : by which the curve lies above the law all along
     """
 
     effect: str
@@ -48,6 +48,12 @@ class LawFit:
     at: np.ndarray
     misfit: float
     price: float
+    level: float = 0.0
+
+    @property
+    def law(self) -> tuple[str, str]:
+        """Effect and form."""
+        return self.effect, self.candidate.form
 
     @property
     def follows(self) -> bool:
@@ -233,13 +239,16 @@ def _fitted(
                for each, s in zip(free, scaled, strict=True)}  # fmt: skip
         return {**defaults, **set_values, **own}
 
-    constant = np.linalg.solve(lower, np.ones(curve.at.size)) if level else None
+    constant = np.linalg.solve(lower, np.ones(curve.at.size)) if level else np.zeros(curve.at.size)
+
+    def beside(scaled: np.ndarray) -> tuple[np.ndarray, float]:
+        """What the law leaves of the curve, and the best constant beside it, without a search."""
+        rows = np.linalg.solve(lower, law(curve.at, values(scaled)) - curve.mean)
+        above = -float(constant @ rows) / max(float(constant @ constant), 1e-300)
+        return rows + above * constant, above
 
     def residuals(scaled: np.ndarray) -> np.ndarray:
-        rows = np.linalg.solve(lower, law(curve.at, values(scaled)) - curve.mean)
-        if constant is not None:  # the best constant, without a search
-            rows = rows - constant * (constant @ rows) / (constant @ constant)
-        return np.nan_to_num(rows, nan=1e6, posinf=1e6, neginf=-1e6)
+        return np.nan_to_num(beside(scaled)[0], nan=1e6, posinf=1e6, neginf=-1e6)
 
     start = np.array([each.scaled(each.start) for each in free])
     low = np.array([each.scaled(each.low) for each in free])
@@ -251,5 +260,5 @@ def _fitted(
     chi = float(2.0 * solved.cost)
     return LawFit(
         effect.id, candidate, chosen, law(curve.at, values(solved.x)), chi / curve.at.size,
-        chi + len(free) * float(np.log(curve.at.size)),
+        chi + len(free) * float(np.log(curve.at.size)), beside(solved.x)[1],
     )  # fmt: skip

@@ -16,6 +16,7 @@ from cosim.gap.extended import (
     scatter_numbers,
     started_from,
 )
+from cosim.gap.judge import judged
 from cosim.gap.report_of_findings import text_of
 from cosim.gap.result import Rung, Score
 from cosim.gap.scatter import Scatter, averaged_over, scatter_text
@@ -51,6 +52,7 @@ class Models:
     fits, ladder : one a rung; free : its numbers, its settings and how much friction scatters
     scatter : of friction, with its 90 % interval, as the rows alone have it
     last : ln evidence of the last rung's rows
+    is_scattered : whether friction has been let scatter, if it is to
     known : what was fitted to these windows before, by its numbers, settings and scatter
     """
 
@@ -64,16 +66,17 @@ class Models:
     ladder: list[Rung] = field(default_factory=list)
     scatter: tuple[float, float, float] | None = None
     last: float | None = None
+    is_scattered: bool = False
     known: dict[frozenset[object], Fitted] = field(default_factory=dict)
 
     @classmethod
     def fitted(
-        cls, campaign: Campaign, system: System, rows: Rows, parts: Sequence[Part], *,
+        cls, campaign: Campaign, system: System, parts: Sequence[Part], *,
         step: Callable[[], None], jobs: int, others: Models | None = None, is_shown: bool = True,
     ) -> Models:  # fmt: skip
-        """The user's model, then the findings, then contact and scatter where they are felt.
+        """The user's model, then the findings, then a contact where it is felt.
 
-        rows : with all findings; others : whose windows and fits these have as well; is_shown :
+        others : whose windows and fits these have as well; is_shown :
         each finding by itself; else all of them and a contact in one rung
         """
         windows = others.windows if others else windows_of_campaign(campaign)
@@ -84,14 +87,19 @@ class Models:
         if is_shown:
             models._add_parts()
             step()
-            if models.is_lost:
-                return models  # no contact makes up for that
-            models._try_contact()
+            models.is_scattered = models.is_lost  # no contact makes up for that
+            if not models.is_lost:
+                models._try_contact()
         else:
             models._add_at_once()
         step()
-        models._try_scatter(Scatter.of(rows))
         return models
+
+    def let_scatter(self) -> None:
+        """Once: friction scatters, as the rows with all findings have it, where that is felt."""
+        if not self.is_scattered:
+            self.is_scattered = True
+            self._try_scatter(Scatter.of(self.system.rung(self._added)))
 
     @property
     def _added(self) -> list[Added]:
@@ -142,7 +150,12 @@ class Models:
     @property
     def is_lost(self) -> bool:
         """Whether the findings make it much worse."""
-        return self.ladder[-1].gap.fit > LOST * self.ladder[0].gap.fit
+        return self.unscattered.fit > LOST * self.ladder[0].gap.fit
+
+    def is_lost_beside(self, other: Models) -> bool:
+        """Whether it is much worse than another, in fitted runs or in those that judge."""
+        here, there = self.unscattered, other.unscattered
+        return here.fit > LOST * there.fit or judged(here) > LOST * judged(there)
 
     @property
     def is_felt(self) -> bool:
@@ -166,7 +179,7 @@ class Models:
         rows = self.system.rung([*self._added, *part.finding.added])
         starts = [
             {**near.values, **part.starts, **_next_to_nothing(part.numbers)},
-            {**near.values, **part.starts, **started_from(self.campaign, rows)},
+            {**near.values, **part.starts, **self._by_rows(rows, part)},
         ]
         free = [*part.numbers, *numbers], {**settings, **part.settings}
         found = self._fitted_once(free, scatter, starts, near)
@@ -186,7 +199,7 @@ class Models:
         near = self.fits[-1] if self.fits else None
         own = {label: value for part in self.parts for label, value in part.starts.items()}
         before = {**own, **(near.values if near else {})}
-        starts = [{**before, **started_from(self.campaign, rows)}, before]
+        starts = [{**before, **self._by_rows(rows)}, before]
         found = self._fitted_once(free, scatter, starts, near)
         if near and found.gap[0] > near.gap[0] + FELT_GAP:  # though it holds that model
             held = {number.key for number in self.free[-1][0]}
@@ -195,6 +208,14 @@ class Models:
             again = fit(self.campaign, self.windows, *free, scatter, [inside], near, self.jobs)
             found = self.known[_same(*free, scatter)] = min(found, again, key=lambda f: f.gap[0])
         return found
+
+    def _by_rows(self, rows: Rows, *more: Part) -> dict[str, float]:
+        """label -> value of the rig's numbers as the rows have them beside the laws."""
+        starts = started_from(self.campaign, rows)
+        for part in [*self.parts, *more]:
+            for label in part.shifts.keys() & starts.keys():
+                starts[label] += part.shifts[label]
+        return starts
 
     def _fitted_once(
         self, free: _Free, scatter: float, starts: Sequence[dict[str, float]], near: Fitted | None

@@ -16,6 +16,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+from scipy.interpolate import CubicSpline
 from scipy.ndimage import gaussian_filter1d
 from scipy.signal import lfilter
 
@@ -25,6 +26,8 @@ from cosim.gap.weak_form.camera_faults import COURSES, crept, leaning
 
 #: Faults that can be undone; what a filter took away, or rounding, is gone.
 UNDONE = ("scale", "clock", "rotation", "drift", "latency")
+#: Part of an interval by which samples are off that count as even.
+JITTER = 0.01
 #: How far a filter's kernel reaches, in standard deviations.
 REACH = 5.0
 
@@ -90,7 +93,20 @@ def _filtered(places: np.ndarray, time: np.ndarray, values: Mapping[str, float])
         return places
     is_past = values.get("measurement.smoothing_past", 0.0) > 0.0
     gaps = np.flatnonzero(np.diff(time) > GAP * interval) + 1
-    return np.concatenate([_smoothed(part, width, is_past) for part in np.split(places, gaps)])
+    parts = zip(np.split(places, gaps), np.split(time, gaps), strict=True)
+    return np.concatenate([_evenly_smoothed(*part, width, is_past) for part in parts])
+
+
+def _evenly_smoothed(
+    places: np.ndarray, time: np.ndarray, width: float, is_past: bool
+) -> np.ndarray:
+    """A filter is one over time: samples whose times jitter are drawn from an even course."""
+    even = np.linspace(time[0], time[-1], time.size)
+    is_even = np.allclose(time, even, rtol=0.0, atol=JITTER * (time[-1] - time[0]) / time.size)
+    if is_even or np.isnan(places).any():  # a model that is lost is seen nowhere
+        return _smoothed(places, width, is_past)
+    smooth = _smoothed(CubicSpline(time, places)(even), width, is_past)
+    return np.asarray(CubicSpline(even, smooth)(time))
 
 
 def _smoothed(places: np.ndarray, width: float, is_past: bool) -> np.ndarray:

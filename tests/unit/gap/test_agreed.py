@@ -5,10 +5,12 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from stickslip.effects.candidate import Candidate
 
 from cosim.gap import find, models
 from cosim.gap.extended import Part
 from cosim.gap.judge import SURE
+from cosim.gap.laws import LawFit
 from cosim.gap.models import Models, _same
 from cosim.gap.naming import Named
 from cosim.gap.result import Doubt, Rejected, Score
@@ -17,6 +19,7 @@ from cosim.gap.weak_form.ladder import Finding
 from cosim.gap.weak_form.unknowns import Unknown
 from cosim.gap.windows.fitted import Fitted, FittedRun
 from cosim.gap.windows.numbers import Number
+from cosim.gap.windows.run_model import LOADING
 
 
 def finding(name, gain):
@@ -24,28 +27,37 @@ def finding(name, gain):
 
 
 class Rows:
-    """Ask for the first of some findings that is not barred, or for so many of them."""
+    """Ask for the first of some findings that is not barred, or for so many of them.
 
-    def __init__(self, *findings, most=1):
+    offers : what they ask for too little
+    """
+
+    def __init__(self, *findings, most=1, offers=()):
         self.findings, self.most, self.asked = findings, most, []
+        self.offers = {one.name: (one.gain, one.added) for one in offers}
 
     def named(self, without):
         self.asked.append(tuple(without))
         left = [one for one in self.findings if one.name not in without]
-        ladder = SimpleNamespace(first_offers={})
-        found = tuple(left[: self.most])
-        return SimpleNamespace(findings=found, ladder=ladder, system=None, rung=None)
+        system = SimpleNamespace(rung=lambda added: None)
+        return Named(SimpleNamespace(first_offers=self.offers), tuple(left[: self.most]), system,
+                     None, {})  # fmt: skip
 
 
-def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0), felt=True, lost=False):
+def agreed(
+    monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0), felt=True, lost=False, sooner=0.0
+):
     """Findings and what was pretended; gained : name -> what simulated runs gain by it.
 
     reached : gap at the end of ladders, of all findings where two; halved : what the contact
-    leaves, without and with; felt, lost : what findings do by themselves
+    leaves, without and with; felt, lost : what findings do by themselves; sooner : by which a
+    contact lets go, s
     """
     monkeypatch.setattr(find.Naming, "of", lambda campaign: rows)
     monkeypatch.setattr(
-        find, "part_of", lambda campaign, system, rung, one: Part(one, None, (), (), {"on": 1.0})
+        find,
+        "part_of",
+        lambda campaign, system, rung, one, law: Part(one, None, (), (), {"on": 1.0}),
     )
 
     class Models:
@@ -56,12 +68,19 @@ def agreed(monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0), felt=True,
             self.ladder = [SimpleNamespace(name="user's model", gap=Score(ends, ends))]
             left = halved[whole]
             self.unscattered = Score(left, left)
+            self.fits = [SimpleNamespace(values={LOADING: sooner})]
+
+        def is_lost_beside(self, other):
+            return self.is_lost
+
+        def let_scatter(self):
+            pass
 
         def gained(self, part):
             return gained[part.finding.name]
 
     fitting = find._Fitting(None, lambda: None, 1)
-    monkeypatch.setattr(fitting, "_fitted", lambda named, parts, is_shown=True: Models(parts))
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts, **_: Models(parts))
     answer = find._agreed(None, fitting)
     rejected = tuple(one.effect for one in answer.rejected)
     return [part.finding.name for part in answer.parts], rejected
@@ -160,13 +179,13 @@ def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told
     offers = {name: (30.0 + less, (wave,)) for name, less in one.others.items()}
     named = Named(SimpleNamespace(first_offers=offers, system=system), (one,), system, rung, {})
     monkeypatch.setattr(
-        find, "part_of", lambda campaign, system, rung, one: Part(
+        find, "part_of", lambda campaign, system, rung, one, law: Part(
             one, None, (), (), {} if one.name == "other.order" else {"on": 1.0})
     )  # fmt: skip
     fitting = find._Fitting(None, lambda: None, 1)
     gains = {"run_in": 20.0, "film_drag": gained}
     models = SimpleNamespace(gained=lambda part: gains[part.finding.name])
-    monkeypatch.setattr(fitting, "_fitted", lambda named, parts, is_shown=True: models)
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts, **_: models)
     part = Part(one, None, (), (), {"on": 1.0})
     rivals = fitting.rivals([part], named)
     others = fitting.told_apart(named, rivals).findings[0].others
@@ -233,6 +252,50 @@ def test_what_no_effect_stands_for_beside_a_greater_finding_is_asked_of_runs_it_
     assert found == ["run_in", "other.time"][:named]
 
 
+@pytest.mark.parametrize(
+    ("sooner", "gained", "named"), [(0.031, 31.0, 1), (0.029, 31.0, 0), (0.031, 29.0, 0)]
+)
+def test_a_contact_that_lets_go_very_soon_has_aged_less(monkeypatch, sooner, gained, named):
+    """Rows do not tell the one from the other; simulated runs may."""
+    rows = Rows(offers=[finding("static_strengthening", 0.1)])
+    found, _ = agreed(monkeypatch, rows, {"static_strengthening": gained}, sooner=sooner)
+    assert found == ["static_strengthening"] * named
+
+
+def test_what_is_lost_by_itself_goes_before_the_others_are_asked_beside_it(monkeypatch):
+    rows = Rows(finding("spring_hardening", 58.0), finding("film_drag", 20.0), most=2)
+    gained = {"spring_hardening": -9e3}  # film_drag: KeyError
+    with pytest.raises(KeyError, match="film_drag"):
+        agreed(monkeypatch, rows, gained, lost=True)
+    assert rows.asked == [(), ("spring_hardening",)]
+
+
+def law(effect, form, price=0.0):
+    return LawFit(effect, Candidate(effect, form, ()), {}, np.zeros(2), 1.0, price)
+
+
+@pytest.mark.parametrize(
+    ("first", "power", "gained"),
+    [(5.9, 31.0, 31.0), (5.9, 29.0, 5.9), (-5.9, 31.0, 31.0), (6.1, 40.0, 6.1), (-6.1, 40.0, -6.1)],
+)
+def test_another_form_of_a_law_is_tried_where_runs_are_of_two_minds(
+    monkeypatch, first, power, gained
+):
+    """Of its own effect, and not one that is far from the curve."""
+    own = "static_strengthening"
+    forms = [law(own, "logarithmic"), law(own, "power", 5.9), law(own, "saturating", 6.1)]
+    forms.append(law("mine", "kinked", 1.0))
+    gains = {"logarithmic": first, "power": power, "saturating": 80.0, "kinked": 90.0}
+    monkeypatch.setattr(
+        find, "part_of", lambda campaign, system, rung, one, law: Part(one, None, (law,), (), {})
+    )
+    campaign = SimpleNamespace(catalogue=SimpleNamespace(effects=()))
+    without = SimpleNamespace(gained=lambda part: gains[part.fits[0].candidate.form])
+    part = Part(finding(own, 10.0), None, tuple(forms), (), {})
+    named = Named(None, (), None, None, {})
+    assert find._Fitting(campaign, lambda: None, 1)._gained(part, without, named) == gained
+
+
 def test_a_problem_of_least_squares_is_the_same_from_any_start():
     free = Number("friction.mu_k", 0.2, None, 0.0, 1.0)
     known = Number("offset.x", 0.0, 1e-3, -3e-3, 3e-3, "run")
@@ -284,12 +347,17 @@ def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):
     rows = Rows(finding("spring_hardening", 205.0))
     monkeypatch.setattr(find.Naming, "of", lambda campaign: rows)
     monkeypatch.setattr(
-        find, "part_of", lambda campaign, system, rung, one: Part(one, None, (), (), {"on": 1.0})
+        find,
+        "part_of",
+        lambda campaign, system, rung, one, law: Part(one, None, (), (), {"on": 1.0}),
     )
     fitting = find._Fitting(None, lambda: None, 1)
     noise = SimpleNamespace(name="user's model", gap=Score(1.0, 1.0))
-    models = SimpleNamespace(ladder=[noise], gained=lambda part: -906.0, is_felt=True)
-    monkeypatch.setattr(fitting, "_fitted", lambda named, parts, is_shown=True: models)
+    models = SimpleNamespace(
+        ladder=[noise], gained=lambda part: -906.0, is_felt=True,
+        is_lost_beside=lambda other: False, fits=[SimpleNamespace(values={})],
+    )  # fmt: skip
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts, **_: models)
     assert find._agreed(None, fitting).rejected == (Rejected("spring_hardening", 205.0, -906.0),)
 
 
@@ -353,11 +421,21 @@ def test_what_noise_does_not_explain_counts_as_noise():
 
 
 @pytest.mark.parametrize(
+    ("fit", "held_out", "lost"), [(2.9, 1.5, False), (3.1, 1.0, True), (2.0, 1.6, True)]
+)
+def test_half_as_much_more_than_without_is_lost_in_either_kind_of_runs(fit, held_out, lost):
+    with_it, without = (Models(None, None, {}, [], 1) for _ in range(2))
+    with_it.ladder = [SimpleNamespace(name="contact", gap=Score(fit, held_out))]
+    without.ladder = [SimpleNamespace(name="contact", gap=Score(2.0, 1.0))]
+    assert with_it.is_lost_beside(without) == lost
+
+
+@pytest.mark.parametrize(
     ("after", "felt", "lost"),
     [(1.983, True, False), (1.987, False, False), (2.9, False, False), (3.1, False, True)],
 )
 def test_what_findings_do_to_the_gap_by_themselves(after, felt, lost):
     """3 beyond noise, of which 2 % is felt; half as much more is lost."""
     models = Models(None, None, {}, [None], 1)
-    models.ladder = [SimpleNamespace(gap=Score(gap, None)) for gap in (2.0, after)]
+    models.ladder = [SimpleNamespace(name="", gap=Score(gap, None)) for gap in (2.0, after)]
     assert (models.is_felt, models.is_lost) == (felt, lost)

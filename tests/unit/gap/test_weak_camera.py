@@ -274,3 +274,10 @@ def test_a_filter_of_simulated_runs_knows_of_lost_samples(past):
     is_near = (np.abs(time - 4.25) < 0.5) | (time < 0.25) | (time > 9.75)
     assert off[is_near].max() < 0.12  # half a swing goes by beside each of its samples
     assert off[~is_near].max() < (0.04 if past else 1e-3)  # a past of one sample's steps
+
+
+def test_a_filter_is_one_over_time_whatever_the_samples_times_do():
+    """A ramp comes out as it was; samples that jitter by 4 ms at 0.2 m/s are off by 0.8 mm."""
+    time = np.arange(0.0, 4.0, 0.02) + np.random.default_rng(1).uniform(-0.007, 0.007, 200)
+    seen = camera.seen(np.outer(0.2 * time, np.ones(3)), time, {"measurement.smoothing": 0.05})
+    np.testing.assert_allclose(seen[:, 0], 0.2 * time, atol=1e-9)
