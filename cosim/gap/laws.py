@@ -248,7 +248,7 @@ def _fitted(
         return rows + above * constant, above
 
     def residuals(scaled: np.ndarray) -> np.ndarray:
-        return np.nan_to_num(beside(scaled)[0], nan=1e6, posinf=1e6, neginf=-1e6)
+        return np.asarray(np.nan_to_num(beside(scaled)[0], nan=1e6, posinf=1e6, neginf=-1e6))
 
     start = np.array([each.scaled(each.start) for each in free])
     low = np.array([each.scaled(each.low) for each in free])
