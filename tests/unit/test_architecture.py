@@ -264,9 +264,9 @@ def test_the_kernel_travels_alone():
 
 
 def test_those_who_hide_effects_know_nothing_of_the_product():
-    """Campaigns with answers are foreign data: neither generator imports what is asked of them."""
+    """Campaigns with answers are foreign data: the laboratory imports nothing that is asked."""
     files = [*(ROOT / "tests" / "blind").rglob("*.py")]
-    assert len(files) > 30
+    assert len(files) > 20
     imported = {
         name.partition(".")[0]
         for file in files

@@ -1,1 +1,0 @@
-"""The simulator: forces on a hidden rig, and its motion in tiny fixed steps."""
