@@ -1,4 +1,4 @@
-"""Each means of the kernel's text, once or twice: what becomes C."""
+"""Each means of the kernel's text beside those of random expressions: what becomes C."""
 
 SNIPPETS = '''
 """A heading."""
@@ -12,9 +12,6 @@ ON = True
 HUGE = 1e200
 KNOTS = (0.25, -1.5, 3, 1e-300)
 
-def association(a: float, b: float, c: float) -> float:
-    return a - (b - c) + a * (b * c) - a / (b / c) - (a - b - c) / (a * b / c)
-
 def signs(a: float, b: float) -> float:
     return -a ** 2 - -b + a * -b - -(-a) + (-a) ** 2 - 2.0 ** -b + +a
 
@@ -25,35 +22,14 @@ def powers(a: float, b: float) -> float:
 def division(a: float, i: int, j: int) -> float:
     return i / j + a / i + 1 / 3 + THREE / 2
 
-def float_modulo(a: float, b: float) -> float:
-    return a % b
-
-def float_floor(a: float, b: float) -> float:
-    return a // b
-
 def int_modulo(i: int, j: int) -> int:
     return i % j
 
 def int_floor(i: int, j: int) -> int:
     return i // j - 7 // -2 + MANY // 1000 + MANY * 3
 
-def mixed_modulo(i: int, a: float) -> float:
-    return i % a + a // i
-
-def largest(a: float, b: float, c: float) -> float:
-    return max(a, b, c)
-
-def larger(a: float, b: float) -> float:
-    return max(a, b)
-
-def smaller(a: float, b: float) -> float:
-    return min(a, b)
-
 def whole_extremes(i: int, j: int) -> int:
     return max(i, j, 0) * 100 + min(i, j) + abs(i)
-
-def mixed_extremes(i: int, a: float) -> float:
-    return max(i, a) + min(a, 1)
 
 def conversions(a: float, i: int) -> float:
     a = min(max(a, -1e9), 1e9)
@@ -67,9 +43,6 @@ def functions(a: float, b: float) -> float:
 def finite(a: float) -> bool:
     return isfinite(a) and not (isnan(a) or isinf(a))
 
-def chained(a: float, b: float, i: int) -> bool:
-    return a < b <= 1.0 or not 0 <= i < 2 and a == b or a != a
-
 def conditions(a: float, i: int) -> float:
     if a and not i:
         return 1.0
@@ -78,12 +51,6 @@ def conditions(a: float, i: int) -> float:
     else:
         pass
     return 3.0 if a else 4
-
-def choices(a: float, b: float) -> float:
-    return (1.0 if a < b else 2.0) * (b if a > 0.0 else (a if b > 0.0 else 0.5)) + HALF
-
-def compared(a: float, b: float) -> bool:
-    return (a < b) == (b < 1.0)
 
 def inferred(a: float, i: int) -> float:
     n = 1
@@ -217,5 +184,5 @@ def nothing(unused: float, w: "float[:]"):
     w[0] = -w[0]
 '''
 #: Of these: what stands before all functions, and those that random expressions call.
-HEAD = SNIPPETS[: SNIPPETS.index("def association")]
+HEAD = SNIPPETS[: SNIPPETS.index("def signs")]
 CALLED = SNIPPETS[SNIPPETS.index("def push") : SNIPPETS.index("def order")]

@@ -258,7 +258,8 @@ def fault_of(status, out, err, folder=None):
 
 #: Words of refusals that name the remedy in place of what is allowed.
 _SAYS_HOW = (
-    r"no such key|not TOML|must|give one|leave|unknown|take a|take s|cuts the belt|too short"
+    r"no such key|not TOML|is not valid: not well-formed|must|give one|leave|unknown|take a|take s"
+    r"|cuts the belt|too short"
     r"|needed is|is given to an integer from|expected an|known (are|is)|known: |nearest: "
     r"|a connection (starts|ends) at|only those wit|did you mean"
     r"|is shorter|already sets|needs|beside|both given"

@@ -72,7 +72,6 @@ def test_any_plan_is_read_or_refused(place, case):
     check(status, out, err)
 
 
-@pytest.mark.slow
 @drawn(20)
 @given(tables=systems())
 def test_any_system_gets_a_sensible_answer(place, tables):
@@ -83,7 +82,6 @@ def test_any_system_gets_a_sensible_answer(place, tables):
     check(*called("couple", path, "-o", folder / "out", figures=False), folder / "out")
 
 
-@pytest.mark.slow
 @drawn(20)
 @given(case=packages())
 def test_any_package_gets_a_sensible_answer(place, case):

@@ -105,35 +105,3 @@ def test_what_is_read_only_is_constant():
     assert "double stickslip_peek(const double *w, int64_t i);" in header
     assert "static const int64_t MANY = INT64_C(5000000000);" in header
     assert "#ifndef STICKSLIP_KERNEL_H" in header
-
-
-def test_it_reads_like_c_written_by_hand():
-    text = '''
-KNOTS = (0.5, 1.0)
-
-def total(w: "float[:]", first: int) -> float:
-    """Sum of some."""
-    found = 0.0
-    for i in range(2):
-        found += KNOTS[i] * (w[first + i] - 1)
-    return found
-'''
-    assert (
-        c_source(text)
-        == """\
-#include "kernel.h"
-
-#include <math.h>
-
-static const double KNOTS[] = {0.5, 1.0};
-
-/* Sum of some. */
-double stickslip_total(const double *w, int64_t first) {
-    double found = 0.0;
-    for (int64_t i = 0; i < 2; i++) {
-        found += KNOTS[i] * (w[first + i] - 1.0);
-    }
-    return found;
-}
-"""
-    )
