@@ -1,62 +1,36 @@
 """The FMU under a master beside the model alone: the same motion, whatever the macro step."""
 
+import random
+
 import numpy as np
 import pytest
+from effect_cases import any_rig, creeping, falling, sheared
 from stickslip import Parameters, simulate
 
 from cosim.coupling import CoupledSystem, FmuParticipant, GaussSeidel, run
 
 CASES = {
     "reference": {},
-    "planar friction": {
-        "lateral_friction": {"ratio": 1.0},
-        "initial": {"x": 0.01, "y": 0.02, "phi": 0.1},
-        "surface": {"run_up_time": 2.0},
-    },
     "slab": {"rig": {"surface": "slab", "slab_radius": 0.4}, "lateral_friction": {"ratio": 1.0}},
     "one degree of freedom": {"rig": {"degrees_of_freedom": ["x"], "inertia": "ring"}},
     "no springs": {"springs": {"stiffness": 0.0}},
     "backwards": {"surface": {"speed": -0.15}},
-    "at rest": {"surface": {"speed": 0.0}},
-    "creeping in stick": {
-        "friction": {"stick_creep": 3e-3},
-        "lateral_friction": {"ratio": 0.7},
-        "surface": {"speed": 0.03},
-        "initial": {"vx": 0.03, "y": 0.002},
-    },
-    "falling over a speed": {
-        "friction": {"transition_speed": 3e-3, "transition_exponent": 1.5},
-        "static_strengthening": {"rate": 0.03},
-    },
-    "bristles": {
-        "friction": {"transition_speed": 5e-3, "presliding_distance": 5e-5},
-        "static_strengthening": {"rate": 0.03},
-        "surface": {"speed": 0.05, "run_up_time": 0.5},
-    },
+    "at rest, stiff": {"springs": {"stiffness": 9999.0}, "surface": {"speed": 0.0}},
     "friction by a table": {
         "friction": {"table_speed": [0.0, 0.02, 0.1, 0.4], "table_mu": [0.26, 0.2, 0.16, 0.24]},
         "lateral_friction": {"ratio": 1.0},
         "initial": {"vx": 0.15, "y": 0.002},
     },
-    "heat that diffuses, and a contact that runs in": {
-        "static_strengthening": {"power": 0.05},
-        "thermal_weakening": {"per_joule": 0.1, "diffusion": 1.0, "static_relative": 1.0},
-        "run_in": {"change": -0.2, "stretching": 0.7, "static_absolute": 1.0},
-        "initial": {"vx": 0.15},
-    },
     "not as drawn": {
         "lateral_friction": {"ratio": 1.0},
         "rig": {"spring_natural_length": 0.17},
-        "imperfections": {
-            "seed": 5,
-            "mass": 0.01,
-            "spring_stiffness": 0.02,
-            "anchor_position": 1e-3,
-            "start_position": 1e-3,
-            "start_angle_deg": 1.0,
-        },
+        "imperfections": {"seed": 5, "mass": 0.01, "spring_stiffness": 0.02}
+        | {"anchor_position": 1e-3, "start_position": 1e-3, "start_angle_deg": 1.0},
     },
-    "stiff": {"springs": {"stiffness": 9999.0}, "surface": {"speed": 0.0}},
+}
+RIGS = {name: Parameters.model_validate(tables) for name, tables in CASES.items()} | {
+    contact.__name__: any_rig(contact, random.Random(contact.__name__))
+    for contact in (creeping, falling, sheared)
 }
 TIMES = ("x", "y", "phi", "heat", "sliding_distance", "surface_travel")
 
@@ -79,10 +53,10 @@ def in_fmu(fmu, parameters, stop, macro_step, record_every=1):
     return result
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("rig", RIGS)
 @pytest.mark.parametrize("macro_step", [0.01, 0.25])
-def test_the_fmu_moves_as_the_model_alone(fmu, case, macro_step):
-    parameters = Parameters.model_validate(CASES[case])
+def test_the_fmu_moves_as_the_model_alone(fmu, rig, macro_step):
+    parameters = RIGS[rig]
     alone = simulate(parameters, duration=5.0, output_interval=macro_step)
     coupled = in_fmu(fmu, parameters, 5.0, macro_step)
     for name in TIMES:

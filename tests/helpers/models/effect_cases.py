@@ -36,30 +36,42 @@ def draw_table(effect: str, draw: random.Random) -> dict[str, float]:
     return values
 
 
-def with_stick_creep(parameters: Parameters, creep: float) -> Parameters:
-    """The same, its sticks creeping, m/s."""
-    friction = parameters.friction.model_copy(update={"stick_creep": creep})
-    return parameters.model_copy(update={"friction": friction})
-
-
-def with_transition(parameters: Parameters, speed: float, exponent: float = 1.0) -> Parameters:
-    """The same, its friction falling from mu_s to mu_k over a speed, m/s."""
-    law = {"transition_speed": speed, "transition_exponent": exponent}
+def with_friction(parameters: Parameters, **law: float) -> Parameters:
+    """The same, some numbers of its friction others."""
     friction = parameters.friction.model_copy(update=law)
     return parameters.model_copy(update={"friction": friction})
 
 
-def with_bristles(
-    parameters: Parameters,
-    distance: float,
-    speed: float = 3e-3,
-    exponent: float = 1.0,
-    damping: float = 0.4,
-) -> Parameters:
-    """The same, its contact sheared by a distance (m) before it slides."""
-    law = {"presliding_distance": distance, "bristle_damping": damping}
-    friction = with_transition(parameters, speed, exponent).friction.model_copy(update=law)
-    return parameters.model_copy(update={"friction": friction})
+def creeping(rig: Parameters, draw: random.Random) -> Parameters:
+    """The same, its sticks creeping."""
+    return with_friction(rig, stick_creep=draw.choice([1e-5, 1e-3, 2e-2]))
+
+
+def falling(rig: Parameters, draw: random.Random) -> Parameters:
+    """The same, its friction falling from mu_s to mu_k over a speed; some creep in stick, too."""
+    return with_friction(
+        rig,
+        transition_speed=draw.choice([1e-4, 2e-3, 2e-2]),
+        transition_exponent=draw.choice([1.0, draw.uniform(0.7, 3.0)]),
+        stick_creep=draw.choice([0.0, 1e-3]),
+    )
+
+
+def sheared(rig: Parameters, draw: random.Random) -> Parameters:
+    """The same, its contact sheared by a distance before it slides."""
+    return with_friction(
+        rig,
+        presliding_distance=draw.choice([1e-5, 5e-5, 2e-4]),
+        bristle_damping=draw.uniform(0.1, 1.0),
+        transition_speed=10.0 ** draw.uniform(-3.0, -2.0),
+        transition_exponent=draw.choice([1.0, draw.uniform(0.7, 3.0)]),
+    )
+
+
+def any_rig(contact, draw: random.Random, most: int = 3) -> Parameters:
+    """A random rig of such a contact, with so many effects beside it at most."""
+    beside = [each for each in BESIDE_CREEP if contact is not sheared or each != "stick_stiffness"]
+    return contact(draw_parameters(tuple(draw.sample(beside, draw.randint(0, most))), draw), draw)
 
 
 def draw_parameters(effects: tuple[str, ...], draw: random.Random, **changes) -> Parameters:

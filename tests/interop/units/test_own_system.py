@@ -67,19 +67,6 @@ def test_a_toml_file_of_the_pair_gives_the_same_numbers(ssp, in_turn, tmp_path):
         np.testing.assert_array_equal(again[name], values, err_msg=name)
 
 
-def test_power_that_crosses_is_in_the_ledger(ssp, tmp_path):
-    arguments = ["--set", f"coupling.macro_step={STEP}", "--set", f"run.stop={STOP}"]
-    assert main(["couple", str(ssp), *arguments, "-o", str(tmp_path)]) == 0
-    (energy,) = json.loads((tmp_path / "summary.json").read_text())["ledger"]["energies"]
-    with_heat = result_of(ssp)["mechanics.heat"][-1]
-    assert energy["handed"] == pytest.approx(with_heat, rel=1e-12)
-    assert energy["taken"] == pytest.approx(with_heat, rel=1e-12)
-    assert abs(energy["most_in_transit"]) < 1e-12
-    outputs = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))["outputs"]
-    # as the unit's description has it; rounding beside it is 0 on the page
-    assert outputs["mechanics.x"]["nominal"] == 0.1
-
-
 def test_no_heat_is_lost_between_substeps(ssp, tmp_path):
     """Ten substeps of the block in each step, power handed over: that of all of them is given."""
     lines = [f"coupling.macro_step = {10 * STEP}", f"run.stop = {STOP}"]

@@ -1,6 +1,5 @@
 """What is said beside the results: notes, more with -v, less with -q; and the numbers as JSON."""
 
-import io
 import json
 import logging
 from pathlib import Path
@@ -13,7 +12,6 @@ from cosim.cli import main
 from cosim.cli.arguments import parser
 from cosim.cli.bar import Bar
 from cosim.cli.console import note, saying
-from cosim.cli.runs import run_io
 
 SHORT = "[run]\nduration = 0.5\n"
 
@@ -99,30 +97,6 @@ def test_quiet_does_not_say_what_compiles_and_python_does(case, not_compiled, ca
     simulate(Parameters(), 0.01)
     (record,) = caplog.records
     assert record.levelname == "WARNING" and record.getMessage() == COMPILING
-
-
-def test_what_remains_is_not_estimated_from_the_time_before_the_first_step(monkeypatch):
-    """A minute of making ready, then a second of the run in a second."""
-    now, bars = [0.0], []
-
-    class OnTerminal(Bar):
-        def __init__(self, **given):
-            super().__init__(**given, disable=False, file=io.StringIO())
-            self._time = lambda: now[0]
-            bars.append(self)
-
-    monkeypatch.setattr(run_io, "Bar", OnTerminal)
-    monkeypatch.setattr(run_io.time, "time", lambda: now[0])
-    with run_io.progress_over(30.0) as show:
-        now[0] = 60.0
-        show(0.01)
-        now[0] = 61.0
-        show(1.01)
-        told = bars[0].format_dict
-        rate = (told["n"] - told["initial"]) / told["elapsed"]
-        assert (told["total"] - told["n"]) / rate == pytest.approx(28.99)
-        # as the bar itself has it: 28.99 s, in whole seconds
-        assert "[00:01<00:28]" in bars[0].__str__()
 
 
 class TestJson:

@@ -13,7 +13,7 @@ import platformdirs
 import pytest
 from stickslip.generation.platforms import this_platform
 
-from cosim.fmu import build, libraries, native, python_unit, pythonfmu_library
+from cosim.fmu import libraries, native, python_unit, pythonfmu_library
 from cosim.fmu.build import FMI3, PYTHON, FmuBuildError, build_fmu, ensure_fmu, own_folder
 
 STANDARD_LIBRARY_USED = {
@@ -153,14 +153,6 @@ def test_the_slave_needs_the_standard_library_only(built_in_python):
     assert imported - own - {"pythonfmu"} <= STANDARD_LIBRARY_USED
 
 
-def test_the_module_names_carry_the_content_s_hash(built_in_python):
-    content = built_hash(built_in_python)
-    assert content == python_unit.content_hash()
-    with zipfile.ZipFile(built_in_python) as archive:
-        assert f"resources/stickslip3dof_{content}.py" in archive.namelist()
-        assert f"resources/stickslip_{content}/packing.py" in archive.namelist()
-
-
 def test_a_host_s_old_python_is_asked_for_a_newer_one_before_anything_else(monkeypatch):
     """What runs first is understood by any Python 3, and the first that it does is to ask."""
     ast.parse(python_unit.DOOR, feature_version=(3, 4))
@@ -234,13 +226,3 @@ def test_what_a_killed_build_leaves_the_next_process_clears(tmp_path, what):
     clear = "from stickslip.scratch import scratch_folder; scratch_folder('next').cleanup()"
     subprocess.run([sys.executable, "-c", clear], env=environment, check=True, timeout=60)
     assert list(scratch.iterdir()) == []
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="what is left stays there")
-def test_what_a_killed_build_left_beside_the_unit_the_next_build_clears(tmp_path, monkeypatch):
-    half = "from cosim.files import write_bytes; os.replace = die; write_bytes(b'', here / 'a.fmu')"
-    subprocess.run([sys.executable, "-c", DIE + half, str(tmp_path)], check=False, timeout=60)
-    assert len(list(tmp_path.iterdir())) == 1
-    monkeypatch.setattr(build, "_maker", lambda *what: lambda directory, platforms: directory)
-    build.build_fmu(tmp_path)
-    assert list(tmp_path.iterdir()) == []

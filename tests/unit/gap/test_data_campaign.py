@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from gap_campaigns import KNOWN, NOISE, motion, noisy, write_campaign
+from gap_campaigns import NOISE, motion, noisy, write_campaign
 from stickslip import Parameters
 
 from cosim.gap import CampaignError, read_campaign
@@ -203,14 +203,7 @@ def test_of_a_run_of_hours_the_beginning_is_looked_at_and_that_is_said(campaign,
     assert len(cut) == (kept < vibrations) and all("first 472 s" in one for one in cut)
 
 
-@pytest.mark.parametrize("name", ["e1", "e2", "e3", "e4", "e5"])
-def test_example_campaigns_are_read(name, shared):
-    read = read_campaign(shared(f"data/blind_examples/{name}"))
-    assert [run.hold_out for run in read.runs].count(True) == 2
-    assert all(np.isfinite(run.track[channel]).all() for run in read.runs for channel in "xy")
-    assert KNOWN["stiffness"] == read.runs[0].stiffness
-
-
+@pytest.mark.slow
 def test_measured_friction_of_paper_is_read(shared):
     read = read_campaign(shared("data/paper_friction"))
     assert read.noise_estimated == ("x",) and len(read.held_out_runs) == 2

@@ -50,22 +50,6 @@ def test_noise_with_jitter_and_lost_rows(slow, seed, jitter, lost, size):
     assert found == pytest.approx(size, rel=tolerance(600))
 
 
-@pytest.mark.parametrize("name", ["e1", "e2", "e3", "e4", "e5"])
-def test_noise_of_the_examples(name, shared, tmp_path):
-    example = shared(f"data/blind_examples/{name}")
-    text = (example / "campaign.toml").read_text(encoding="utf-8")
-    start, end = text.index("[noise]"), text.index("[[run]]")
-    folder = tmp_path / name
-    folder.mkdir()
-    for file in example.glob("*.csv"):
-        (folder / file.name).symlink_to(file)
-    (folder / "campaign.toml").write_text(text[:start] + text[end:], encoding="utf-8")
-    read = read_campaign(folder)
-    assert read.noise_estimated == ("x", "y")
-    # 2e-4 says the file that was left out; six runs of 2000 samples
-    assert read.noise == pytest.approx({"x": 2e-4, "y": 2e-4}, rel=0.03)
-
-
 @pytest.mark.parametrize("steps", [6, 14, 20])
 def test_coarsely_rounded_samples_have_a_noise(steps):
     """Where most samples repeat, uneven times leave 1e-18 of their differences, and no more."""

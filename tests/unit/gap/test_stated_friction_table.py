@@ -2,19 +2,17 @@
 
 import numpy as np
 import pytest
-from gap_campaigns import KNOWN, NOISE, RIG, noisy, write_campaign
-from stickslip import Parameters, simulate
+from gap_campaigns import NOISE, noisy, write_campaign
 
 from cosim.gap import CampaignError, read_campaign
-from cosim.gap.find import find_gap
 
-#: Friction that falls from 0.22 at rest by a quarter; and that of another day, a tenth larger.
+#: Friction that falls from 0.22 at rest by a quarter.
 SPEED, MU = (0.0, 0.05, 0.1, 0.2, 0.4), (0.22, 0.205, 0.193, 0.178, 0.165)
 SPEEDS = (0.06, 0.15, 0.10)
 CSV = "v,mu\n" + "".join(f"{v:g},{mu:g}\n" for v, mu in zip(SPEED, MU, strict=True))
 
 
-def written(folder, csv=CSV, motions=None, **tables):
+def written(folder, csv=CSV, **tables):
     """A campaign on disk whose [friction] names a table beside it."""
     folder.mkdir(exist_ok=True)
     (folder / "mu_v.csv").write_text(csv, encoding="utf-8")
@@ -22,23 +20,12 @@ def written(folder, csv=CSV, motions=None, **tables):
     runs = [
         {
             "surface_speed": speed,
-            "columns": motions[number] if motions else {"t": time, "x": noisy(0.0 * time, number)},
+            "columns": {"t": time, "x": noisy(0.0 * time, number)},
         }
         for number, speed in enumerate(SPEEDS)
     ]
     more = {"friction": {"table": "mu_v.csv"}, "noise": {"x": NOISE}} | tables
     return write_campaign(folder, runs, **more)
-
-
-def moved(speed, duration=8.0):
-    """Friction as in the table, but a tenth larger."""
-    parameters = Parameters(
-        rig={"mass": KNOWN["mass"], **RIG},
-        springs={"stiffness": KNOWN["stiffness"]},
-        friction={"mu_s": 0.33, "table_speed": SPEED, "table_mu": tuple(1.1 * mu for mu in MU)},
-        surface={"speed": speed},
-    )
-    return simulate(parameters, duration, 0.01)
 
 
 def test_a_table_is_read_from_where_the_campaign_is(tmp_path, monkeypatch):
@@ -51,19 +38,6 @@ def test_a_table_is_read_from_where_the_campaign_is(tmp_path, monkeypatch):
     assert own.typical == pytest.approx(np.mean(SPEEDS))
     np.testing.assert_allclose(own.parts * own.level, MU)
     assert any("mu_v.csv, 5 points" in remark for remark in campaign.remarks)
-
-
-@pytest.mark.slow
-def test_nothing_is_missing_beside_the_table(tmp_path):
-    """Its level is fitted; without it friction falls with the speed."""
-    motions = []
-    for number, speed in enumerate(SPEEDS):
-        done = moved(speed)
-        motions.append({"t": done.time, "x": noisy(done["x"], number)})
-    beside = find_gap(read_campaign(written(tmp_path / "beside", motions=motions)))
-    assert (beside.verdict, beside.effects) == ("none", ())
-    without = written(tmp_path / "without", motions=motions, friction={})
-    assert find_gap(read_campaign(without)).effects == ("velocity_weakening",)
 
 
 OVER_BOTH = "v,T_degC,mu\n" + "".join(

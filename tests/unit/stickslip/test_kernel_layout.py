@@ -33,13 +33,6 @@ def test_two_numbers_of_one_name_are_refused():
         tables.constants(twice)
 
 
-def test_an_effect_more_moves_no_other_number():
-    """So the motion's arrays stay what they were; only parameters as given move, as in the FMU."""
-    fewer, all_of_them = tables.constants(EFFECTS[:-1]), tables.constants(EFFECTS)
-    moved = {name for name in fewer if fewer[name] != all_of_them[name]}
-    assert {name for name in moved if not name.startswith("V_")} <= {"P_SIZE", "DRAW_SEED"}
-
-
 def test_every_parameter_of_an_effect_reaches_the_vector():
     """Changing any of them, its effect on, changes ``p``."""
     for effect in EFFECTS:

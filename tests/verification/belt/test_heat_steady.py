@@ -115,20 +115,6 @@ def test_two_ways_to_the_steady_state_meet():
     assert np.all(errors[1:] < 0.6 * errors[:-1])
 
 
-@pytest.mark.parametrize(("length", "speed"), [(1.0, 0.82), (0.3, 0.5)])
-def test_long_steps_follow_the_transient(length, speed):
-    """20 s in a hundred steps of the contact's frame, against small steps of the model."""
-    parameters = ThermalParameters(belt=Belt(length=length, cell_length=2e-3))
-    model = BeltIceModel(parameters)
-    for _ in range(2000):
-        model.step(0.01, 4.03 * speed * 0.01, speed * 0.01)
-    state = SteadySliding(parameters, speed, 4.03).run(20.0)
-    assert (state.entry, state.exit, state.ice_face, state.mean_interface) == pytest.approx(
-        rises(model), rel=3e-3
-    )
-    assert state.belt_share_so_far == pytest.approx(model.outputs()["belt_share"], abs=1e-3)
-
-
 @pytest.mark.parametrize("railing", [0.0, 0.2])
 def test_a_belt_that_keeps_its_heat_has_no_steady_state(railing):
     belt = Belt(air_heat_transfer=0.0, railing_length=railing)

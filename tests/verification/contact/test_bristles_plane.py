@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from effect_cases import with_bristles
+from effect_cases import with_friction
 from scipy.integrate import solve_ivp
 from stickslip import Parameters
 from stickslip.arrays import RunArrays
@@ -17,10 +17,11 @@ from stickslip.kernel.bristles.law import (
 from stickslip.kernel.friction.force import friction_in_slip
 
 GRAVITY = 9.81
+BRISTLES = {"transition_speed": 3e-3, "presliding_distance": 5e-5}
 
 
 def rig(kappa=1.0, **friction):
-    law = {"mu_s": 0.3, "mu_k": 0.2, "transition_speed": 3e-3, "presliding_distance": 5e-5}
+    law = {"mu_s": 0.3, "mu_k": 0.2} | BRISTLES
     return Parameters(friction=law | friction, lateral_friction={"ratio": kappa})
 
 
@@ -124,7 +125,7 @@ def test_the_plane_s_motion_is_that_of_a_stiff_solver():
         "surface": {"speed": 0.05},
         "initial": {"x": 0.004, "y": 0.003, "phi": 0.1, "vx": 0.05},
     }
-    p, u = with_bristles(Parameters(**tables), 5e-5).pack(), np.zeros(layout.U_SIZE)
+    p, u = with_friction(Parameters(**tables), **BRISTLES).pack(), np.zeros(layout.U_SIZE)
     u[layout.U_SPEED], u[layout.U_TEMPERATURE] = 0.05, -8.0
     kernel, w = CATALOGUE.compiled, np.zeros(layout.W_SIZE)
     w[layout.W_STATE + layout.BRISTLES] = 1.0

@@ -12,10 +12,11 @@ import pytest
 from effect_cases import (
     BESIDE_CREEP,
     IDS,
+    any_rig,
+    creeping,
     draw_parameters,
-    with_bristles,
-    with_stick_creep,
-    with_transition,
+    falling,
+    sheared,
 )
 from kernel_steps import largest_step_difference, memory_of
 from stickslip import Initial, LateralFriction, Parameters, Rig, Surface, simulate
@@ -42,26 +43,11 @@ def test_an_effect(effect):
         assert_same_steps(draw_parameters((effect,), draw), draw)
 
 
-def test_a_stick_that_creeps():
-    draw = random.Random("creep")
+@pytest.mark.parametrize("contact", [creeping, falling, sheared])
+def test_any_contact(contact):
+    draw = random.Random(contact.__name__)
     for _ in range(2 * SETS):
-        on = tuple(draw.sample(BESIDE_CREEP, 2))
-        assert_same_steps(with_stick_creep(draw_parameters(on, draw), 5e-3), draw)
-
-
-def test_friction_that_falls_over_a_speed():
-    draw = random.Random("transition")
-    for _ in range(2 * SETS):
-        on = tuple(draw.sample(BESIDE_CREEP, 2))
-        drawn = draw_parameters(on, draw)
-        assert_same_steps(with_transition(drawn, 5e-3, draw.choice([1.0, 1.7])), draw)
-
-
-def test_a_contact_with_bristles():
-    draw = random.Random("bristles")
-    for _ in range(2 * SETS):
-        on = tuple(draw.sample([e for e in BESIDE_CREEP if e != "stick_stiffness"], 2))
-        assert_same_steps(with_bristles(draw_parameters(on, draw), 5e-5, 5e-3), draw)
+        assert_same_steps(any_rig(contact, draw), draw)
 
 
 def test_all_effects_at_once():

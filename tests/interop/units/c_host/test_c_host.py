@@ -82,10 +82,6 @@ def test_the_motion_is_that_of_the_kernel_to_the_last_bit(run, output):
     assert run(256, output=output, **PLANAR) == simulated(256, True, output).tolist()
 
 
-def test_the_motion_is_that_of_the_compiled_kernel(run):
-    np.testing.assert_allclose(run(2560, **PLANAR), simulated(2560, False), rtol=0, atol=1e-10)
-
-
 def test_a_hundred_instances_are_each_as_alone(run):
     alone = run(200)[-1]
     assert run(200, instances=100) == [alone] * 100

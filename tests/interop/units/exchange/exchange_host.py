@@ -1,15 +1,8 @@
-"""Hosts for model exchange: fmpy's CVode, and one of the plainest kind; cases for them."""
+"""Model exchange in fmpy, by CVode, and cases for it."""
 
-import ctypes
-from contextlib import contextmanager
-
-import fmpy
 import numpy as np
 from fmpy import simulate_fmu
-from fmpy.fmi2 import FMU2Model
 from stickslip import Parameters
-
-from cosim.coupling.fmu.log import FmuLog
 
 SPEED = 0.15
 SLOW = {"surface": {"speed": 0.03}, "initial": {"vx": 0.03}}
@@ -84,76 +77,3 @@ CREEPING = {
     },
     "plane": {**PLANE, "surface": {"speed": 0.05}, "initial": {"y": 0.005, "phi": 0.05}},
 }
-
-
-class Host:
-    """An instance for model exchange, and a host of the plainest kind."""
-
-    def __init__(self, fmu, directory, log, **starts):
-        self.description = fmpy.read_model_description(str(fmu))
-        self.variables = {each.name: each for each in self.description.modelVariables}
-        self.log = log
-        self.unit = FMU2Model(
-            guid=self.description.guid,
-            unzipDirectory=str(fmpy.extract(str(fmu), unzipdir=str(directory))),
-            modelIdentifier=self.description.modelExchange.modelIdentifier,
-        )
-        self.unit.instantiate(callbacks=log.callbacks, loggingOn=True)
-        self.states = self.description.numberOfContinuousStates
-        for name, value in starts.items():
-            self.put(name, value)
-
-    def initialise(self, start=0.0):
-        self.unit.setupExperiment(startTime=start)
-        self.unit.enterInitializationMode()
-        self.unit.exitInitializationMode()
-
-    def begin(self, start=0.0):
-        self.initialise(start)
-        told = self.unit.newDiscreteStates()
-        self.unit.enterContinuousTimeMode()
-        return told
-
-    def put(self, name, value):
-        each = self.variables[name]
-        if each.type == "Real":
-            self.unit.setReal([each.valueReference], [value])
-        else:
-            self.unit.setInteger([each.valueReference], [int(value)])
-
-    def get(self, name):
-        each = self.variables[name]
-        read = self.unit.getReal if each.type == "Real" else self.unit.getInteger
-        return read([each.valueReference])[0]
-
-    def numbers(self, call, count):
-        kept = (ctypes.c_double * count)()
-        call(kept, count)
-        return np.array(kept)
-
-    def x(self):
-        return self.numbers(self.unit.getContinuousStates, self.states)
-
-    def be_at(self, time, x):
-        self.unit.setTime(time)
-        self.unit.setContinuousStates((ctypes.c_double * self.states)(*x), self.states)
-
-    def rates(self, time, x):
-        self.be_at(time, x)
-        return self.numbers(self.unit.getDerivatives, self.states)
-
-    def everything(self):
-        return [
-            self.get(name).hex() for name, each in self.variables.items() if each.type == "Real"
-        ]
-
-
-@contextmanager
-def hosted(fmu, directory, tables=None, **starts):
-    log = FmuLog()
-    host = Host(fmu, directory, log, **{**values(tables or {}), **starts})
-    try:
-        yield host
-    finally:
-        host.unit.freeInstance()
-        log.close()

@@ -1,17 +1,13 @@
 """Model exchange: states, rates, inputs and parameters, and what is refused."""
 
+from ctypes import byref, c_double, c_uint
+
 import fmpy
 import numpy as np
 import pytest
-from exchange_host import (
-    SPEED,
-    changes,
-    hosted,
-    values,
-)
+from exchange_host import SPEED, changes, values
 from fmpy import simulate_fmu
-from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import fmi2Error
+from native_unit import MODEL_EXCHANGE, EventInfo, Unit
 from stickslip import Parameters
 
 from cosim.fmu.exchange import states, variables
@@ -37,46 +33,107 @@ def test_description(fmu):
     assert len(declared) == len(variables())
 
 
-def test_rates_are_those_of_the_variables(host):
-    host.begin()
+COUNT = len(states())
+
+
+class Host:
+    """An instance in event mode, and a host of the plainest kind."""
+
+    def __init__(self, block, start=0.0, **starts):
+        self.block, self.done = block, block.done
+        block.begin(start, **starts)
+
+    def update(self):
+        """What there is to be told of the next event."""
+        info = EventInfo()
+        self.done("NewDiscreteStates", byref(info))
+        return info
+
+    def numbers(self, function):
+        kept = (c_double * COUNT)()
+        self.done(function, kept, COUNT)
+        return np.array(kept)
+
+    def x(self):
+        return self.numbers("GetContinuousStates")
+
+    def rates(self, time, x):
+        self.done("SetTime", time)
+        self.done("SetContinuousStates", (c_double * COUNT)(*x), COUNT)
+        return self.numbers("GetDerivatives")
+
+    def along(self, unknowns, knowns, seed):
+        """The directional derivative of some variables."""
+        places, found = self.block.unit.references, (c_double * len(unknowns))()
+        of, to = ((c_uint * len(each))(*map(places.get, each)) for each in (unknowns, knowns))
+        seed = (c_double * len(seed))(*seed)
+        given = (of, len(unknowns), to, len(knowns), seed, found)
+        self.done("GetDirectionalDerivative", *given)
+        return list(found)
+
+
+@pytest.fixture
+def host(fmu, tmp_path):
+    """Makes one, which is freed at the end of the test."""
+    unit, made = Unit(fmu, tmp_path), []
+    unit.references = {v.name: at for at, v in enumerate(variables()) if not v.is_boolean}
+
+    def make(tables=None, start=0.0, **starts):
+        made.append(unit.instance(kind=MODEL_EXCHANGE))
+        return Host(made[-1], start, **{**values(tables or {}), **starts})
+
+    yield make
+    for each in made:
+        each.__exit__()
+
+
+@pytest.fixture
+def running(host):
+    """In continuous-time mode."""
+    one = host()
+    one.update()
+    one.done("EnterContinuousTimeMode")
+    return one
+
+
+def test_rates_are_those_of_the_variables(running):
+    get = running.block.get
     for name in ("x", "omega", "heat", "slip_time", "thermal_weakening.recent_heat"):
         place = [each.name for each in states()].index(name)
-        assert host.get(name) == host.x()[place]
-        assert host.get(f"der({name})") == host.rates(0.0, host.x())[place]
-    assert host.get("heat_flow") == host.get("der(heat)")
+        assert get(name) == [running.x()[place]]
+        assert get(f"der({name})") == [running.rates(0.0, running.x())[place]]
+    assert get("heat_flow") == get("der(heat)")
 
 
-def test_start_time_is_no_part_of_the_motion(fmu, tmp_path):
-    tables = {"surface": {"run_up_time": 0.5}}
+def test_start_time_is_no_part_of_the_motion(host):
     told = []
     for start in (0.0, 100.0):
-        with hosted(fmu, tmp_path, tables) as host:
-            told.append((host.begin(start)[5] - start, *host.rates(start + 0.25, host.x())))
+        one = host({"surface": {"run_up_time": 0.5}}, start)
+        event = one.update().next - start
+        one.done("EnterContinuousTimeMode")
+        told.append((event, *one.rates(start + 0.25, one.x())))
     assert told[0] == told[1] and told[0][0] == 0.5
 
 
-def test_directional_derivatives_are_those_of_the_springs(host):
+def test_directional_derivatives_are_those_of_the_springs(running):
     """On a line in slip: springs for x, friction for nothing, and each force its mass."""
-    host.begin()
     knowns = ["x", "vx", "external_force_x"]
     unknowns = ["der(vx)", "der(x)", "x", "mode", "der(external_work)"]
-    places = [[host.variables[name].valueReference for name in of] for of in (unknowns, knowns)]
-    parameters = Parameters()
-    ask = host.unit.getDirectionalDerivative
-    mass, vx = parameters.rig.mass, host.get("vx")
-    step = 1e-4
-    x = host.x()
-    stiffness = [host.rates(0.0, x + sign * step * np.eye(len(x))[0])[3] for sign in (1, -1)]
-    host.be_at(0.0, x)
-    before = host.everything()
-    along_x = ask(*places, [1.0, 0.0, 0.0])
+    mass, (vx,) = Parameters().rig.mass, running.block.get("vx")
+    step, x = 1e-4, running.x()
+    stiffness = [running.rates(0.0, x + sign * step * np.eye(COUNT)[0])[3] for sign in (1, -1)]
+    running.rates(0.0, x)
+    before = running.block.everything()
+    along_x = running.along(unknowns, knowns, [1.0, 0.0, 0.0])
     assert along_x[0] == pytest.approx((stiffness[0] - stiffness[1]) / (2 * step), rel=1e-5)
     assert along_x[1:] == pytest.approx([0.0, 1.0, 0.0, 0.0], abs=1e-9)
-    assert ask(*places, [0.0, 2.0, 0.0])[:3] == pytest.approx([0.0, 2.0, 0.0], abs=1e-8)
-    along_force = ask(*places, [0.0, 0.0, 1.0])
+    along_v = running.along(unknowns, knowns, [0.0, 2.0, 0.0])
+    assert along_v[:3] == pytest.approx([0.0, 2.0, 0.0], abs=1e-8)
+    along_force = running.along(unknowns, knowns, [0.0, 0.0, 1.0])
     assert along_force == pytest.approx([1.0 / mass, 0.0, 0.0, 0.0, vx], abs=1e-8)
-    assert host.everything() == before
-    refused(ask, *places[:1], [host.variables["rig.mass"].valueReference], [1.0])
+    assert running.block.everything() == before
+    with pytest.raises(AssertionError, match="with respect to states and inputs"):
+        running.along(unknowns, ["rig.mass"], [1.0])
 
 
 # --- inputs and parameters ---
@@ -104,29 +161,13 @@ def test_a_force_that_grows_with_time_breaks_the_block_away(fmu):
     assert modes[0] == 1 and times[0] == pytest.approx(1.0, abs=1e-9)
 
 
-def test_a_tunable_parameter_changes_in_event_mode_only(host):
-    host.begin()
-    refused(host.put, "friction.mu_s", 0.01)
-    assert "enter event mode" in host.log.take_errors()
-    host.unit.reset()
-    host.put("surface_speed", SPEED)
-    host.put("initial.vx", SPEED)
-    host.put("surface.run_up_time", 0.0)
-    host.initialise()
-    host.unit.newDiscreteStates()
-    assert host.get("mode") == 0
-    host.put("friction.mu_s", 1e-9)
-    host.put("friction.mu_k", 1e-9)
-    host.put("external_force_x", 1.0)
-    host.unit.newDiscreteStates()
-    assert (host.get("mode"), host.get("slip_count")) == (1, 1)
-
-
-# --- refusals ---
-
-
-def refused(call, *arguments):
-    """The call must return fmi2Error."""
-    with pytest.raises(FMICallException) as caught:
-        call(*arguments)
-    assert caught.value.status == fmi2Error
+def test_a_tunable_parameter_changes_in_event_mode_only(host, running):
+    refused = running.block.set_arguments("friction.mu_s", 0.01)
+    assert "enter event mode" in running.block.reason(*refused)
+    one = host(None, surface_speed=SPEED, **{"initial.vx": SPEED, "surface.run_up_time": 0.0})
+    one.update()
+    assert one.block.get("mode") == [0]
+    for name, value in (("friction.mu_s", 1e-9), ("friction.mu_k", 1e-9), ("external_force_x", 1)):
+        one.block.set(name, value)
+    one.update()
+    assert one.block.get("mode", "slip_count") == [1, 1]

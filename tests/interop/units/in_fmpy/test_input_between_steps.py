@@ -79,15 +79,6 @@ def test_the_motion_converges_to_that_of_the_ripple_inside(block, exact, given, 
     assert errors[-1] < finest
 
 
-@pytest.mark.parametrize("hold", [0, 1])
-def test_the_unit_in_python_takes_them_the_same_way(block, python_fmu, tmp_path, hold):
-    x, slips, _ = driven(block, 0.02, hold=hold)
-    with instance(python_fmu, tmp_path) as python:
-        again, slips_again, _ = driven(python, 0.02, hold=hold)
-    assert slips == slips_again
-    np.testing.assert_array_equal(x, again)
-
-
 def test_outputs_have_first_derivatives(fmu, tmp_path):
     """For who interpolates them between the steps: exact of what the model integrates."""
     with instance(fmu, tmp_path) as block:
