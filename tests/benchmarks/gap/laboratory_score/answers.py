@@ -38,11 +38,6 @@ class Truth:
     scatter: float | None = None
 
     @property
-    def is_fault(self) -> bool:
-        """Whether all that is hidden is in the camera."""
-        return bool(self.effects) and all(name.startswith(FAULT) for name in self.effects)
-
-    @property
     def size(self) -> float | None:
         """Noise units of the smallest hidden thing; None where none is stated."""
         sizes = [each["size"]["size"] for each in self.hidden if each.get("size")]

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-from .answers import FAULT, Row
+from .answers import Row
 
 NAMING = ("named", "class", "partial")  # verdicts that give a name
 
@@ -73,22 +73,6 @@ def is_right(row: Row) -> bool:
     if row.truth.effects or row.truth.members:
         return found in (Outcome.NAMED, Outcome.CLASS)
     return found is not Outcome.WRONG and verdict(row) in row.truth.verdicts
-
-
-def names_physics(row: Row) -> bool:
-    """Whether an effect of the block is given a name that no stated class shares with a fault."""
-    groups = [frozenset(group) for group in (row.found or {}).get("classes") or ()]
-    for name in given(row):
-        alike = frozenset((name,)).union(*(group for group in groups if name in group))
-        if not any(each.startswith(FAULT) for each in alike):
-            return True
-    return False
-
-
-def names_fault(row: Row) -> bool:
-    """Whether faults of the measurement alone are given a name."""
-    names = given(row)
-    return bool(names) and all(name.startswith(FAULT) for name in names)
 
 
 def probability(row: Row) -> float | None:
