@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib.util
+import os
 import shutil
 import subprocess
 import sys
@@ -40,6 +41,31 @@ def host_in(folder: Path, *options: str) -> Path:
     program, headers = folder / "host", f"-I{native_folder() / 'headers'}"
     compiled("-O1", "-g", *options, headers, HOST, "-o", program, "-ldl", "-lpthread")
     return program
+
+
+class Host:
+    """The host with a library: what it prints, of an output by its name, with values by theirs."""
+
+    def __init__(self, command, library, guid, places, **environment):
+        self.command, self.library, self.guid, self.places = command, library, guid, places
+        self.environment = {"PATH": os.environ["PATH"]} | environment
+
+    def under(self, *tool):
+        """The same host inside another program."""
+        return Host([*tool, *self.command], self.library, self.guid, self.places)
+
+    def __call__(self, output, steps, size, instances=1, threads=1, **values) -> list[float]:
+        numbers = [steps, size, self.places[output], instances, threads]
+        numbers += [f"{self.places[name]}={value!r}" for name, value in values.items()]
+        done = subprocess.run(
+            list(map(str, [*self.command, self.library, self.guid, *numbers])),
+            capture_output=True,
+            text=True,
+            timeout=120,
+            env=self.environment,
+        )
+        assert done.returncode == 0, done.stderr
+        return [float.fromhex(line) for line in done.stdout.split()]
 
 
 def library(text: str, folder: Path) -> Library:

@@ -15,7 +15,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from c_library import HOST
+from c_library import HOST, Host
 from native_unit import references
 from plain_start import PLAIN
 from stickslip import Parameters, simulate
@@ -58,8 +58,7 @@ def environment(tmp_path_factory):
     (prefix / "dosdevices" / "c:").symlink_to("../drive_c")
     (prefix / "dosdevices" / "z:").symlink_to("/")
     (prefix / ".update-timestamp").write_text("disable\n")
-    own = {"WINEPREFIX": str(prefix), "WINEBOOTSTRAPMODE": "1", "WINEDEBUG": "-all"}
-    return {"PATH": os.environ["PATH"]} | own
+    return {"WINEPREFIX": str(prefix), "WINEBOOTSTRAPMODE": "1", "WINEDEBUG": "-all"}
 
 
 def compiled(made, *arguments):
@@ -76,26 +75,10 @@ def host(wine, environment, tmp_path_factory):
     headers = f"-I{native.native_folder() / 'headers'}"
     compiled(program, "-Wall", "-Wextra", "-Werror", headers, HOST, "-lpthread")
 
-    def run(library, made_by, resources, places):
-        """Called with what the host wants to know."""
-
-        def called(output, steps, step, instances=1, threads=1, **values):
-            numbers = [steps, step, places[output], instances, threads]
-            numbers += [f"{places[name]}={value!r}" for name, value in values.items()]
-            done = subprocess.run(
-                list(map(str, [wine, program, library, made_by.guid(), *numbers])),
-                capture_output=True,
-                text=True,
-                check=False,
-                timeout=120,
-                env=environment | {"RESOURCES": f"file:///Z:{resources}"},
-            )
-            assert done.returncode == 0, done.stderr
-            return [float.fromhex(line) for line in done.stdout.split()]
-
-        return called
-
-    return run
+    return lambda library, made_by, resources, places: Host(
+        [wine, program], library, made_by.guid(), places,
+        **environment, RESOURCES=f"file:///Z:{resources}",
+    )  # fmt: skip
 
 
 def by_mingw(name, made_by, folder):

@@ -1,6 +1,5 @@
 """The native BeltIceThermal: its sources, its resources, and a host without Python."""
 
-import os
 import struct
 import subprocess
 import sys
@@ -10,7 +9,7 @@ from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_uint, c_void_p
 
 import pytest
 from c_instance import ERROR, OK
-from c_library import SANITIZERS, compiled, compiler, host_in
+from c_library import SANITIZERS, Host, compiled, compiler, host_in
 from heat_instance import H
 from native_unit import MODEL_EXCHANGE, Unit, references
 
@@ -173,18 +172,10 @@ def test_a_host_in_c_finds_no_fault(native, place, tmp_path):
     sources = sorted((tmp_path / "sources").glob("*.c"))
     library = tmp_path / "unit.so"
     compiled(*options, "-fPIC", "-shared", *sources, "-o", library, "-lm")
-    host = host_in(tmp_path, *SANITIZERS)
-    places = references(reduced())
+    host = Host(
+        [host_in(tmp_path, *SANITIZERS)], library, native_unit.guid(), references(reduced()),
+        RESOURCES=place.decode(),
+    )  # fmt: skip
     values = {"heat_flow": 20.0, "surface_speed": 0.5, "ambient.temperature_degC": -0.05}
-    guid = native_unit.guid()
-    command = [host, library, guid, 300, H, places["melted_mass"], 2, 2]
-    command += [f"{places[name]}={value!r}" for name, value in values.items()]
-    done = subprocess.run(
-        list(map(str, command)),
-        capture_output=True,
-        text=True,
-        env=os.environ | {"RESOURCES": place.decode()},
-    )
-    assert done.returncode == 0, done.stderr
-    melted = {float.fromhex(line) for line in done.stdout.split()}
+    melted = {*host("melted_mass", 300, H, 2, 2, **values)}
     assert len(melted) == 1 and melted.pop() > 1e-5
