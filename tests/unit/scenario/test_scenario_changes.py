@@ -7,7 +7,7 @@ from command_line import refusal
 
 from cosim.cli import main
 from cosim.scenario import ScenarioError, read_scenario
-from cosim.scenario.changes import changed_tables, changes_of
+from cosim.scenario.changes import changed_tables, changes_named, changes_of
 
 #: Every command that takes a scenario, with what else it needs.
 COMMANDS = {
@@ -61,6 +61,12 @@ def test_tables_are_changed_and_not_those_that_were_given():
         "coupling": {"of": {"a.port": 1e-9}},
     }
     assert tables == {"name": "a", "rig": {"mass": 1.0}, "run": 3}
+
+
+def test_keywords_are_keys_or_tables_of_them():
+    given = {"run_in_change": 0.1, "rig": {"mass": 1.2}, "run": {}, "name": "a"}
+    named = {"run_in.change": 0.1, "rig.mass": 1.2, "run": {}, "name": "a"}
+    assert changes_named(given, ["run", "run_in", "rig"]) == named
 
 
 def test_a_change_comes_before_the_defaults(tmp_path):

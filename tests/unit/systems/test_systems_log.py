@@ -68,6 +68,12 @@ def test_messages_are_in_a_file_and_two_lines_say_so(system, tmp_path, capsys):
     assert 'href="messages.log"' in (folder / "report.html").read_text()
 
 
+def test_a_text_is_set_as_it_is(system, tmp_path):
+    told = ("at = 0.25\n", 'at = 2.0\ntext = "as it is"\n')
+    assert main(["couple", system(LOGS, told=told), "-o", str(tmp_path / "out")]) == 0
+    assert ("", "loud", "warning", "texts", "as it is") in rows(tmp_path / "out")
+
+
 def test_verbose_shows_them_and_asks_for_more(system, tmp_path, capsys):
     assert main(["couple", system(LOGS), "-v", "--json", "-o", str(tmp_path / "out")]) == 0
     said = capsys.readouterr()

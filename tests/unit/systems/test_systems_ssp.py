@@ -255,6 +255,11 @@ def test_a_value_is_converted_to_the_unit_of_its_variable(write):
     )
     done = run(write(ssd, (("m", ""), ("", ""))))
     assert done.result["a.y"][-1] == pytest.approx(1.5, rel=1e-12)
+    entry = '<ssm:MappingEntry source="u" target="u" suppressUnitConversion="true"/>'
+    mapping = f'<ssm:ParameterMapping {SPACES} version="1.0">{entry}</ssm:ParameterMapping>'
+    mapped = f"</ssd:ParameterValues><ssd:ParameterMapping>{mapping}</ssd:ParameterMapping>"
+    done = run(write(ssd.replace("</ssd:ParameterValues>", mapped), (("m", ""), ("", ""))))
+    assert done.result["a.y"][-1] == pytest.approx(1500.0, rel=1e-12)
 
 
 def test_a_value_that_is_none_in_the_unit_of_its_variable_is_refused(write):
