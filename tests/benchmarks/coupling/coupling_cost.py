@@ -1,6 +1,6 @@
 """Error of the coupled case against what it costs, for every scheme and step control.
 
-    python tests/benchmarks coupling_cost [--json FILE] [--figure FILE]
+    python tests/benchmarks coupling_cost [--json FILE]
 
 A block of 40 kg slides at 3 m/s on the belt at -20 degC, friction falls by 4.8 % a kelvin (ice on
 rock: McCarthy et al., 2017), and the interface warms by 11 K in two seconds: heat acts back on the
@@ -24,7 +24,6 @@ from __future__ import annotations
 
 import math
 import time
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -176,49 +175,8 @@ def order_of(rows, port):
     return float(np.polyfit(np.log(steps), np.log(found), 1)[0])
 
 
-def draw(table, file):
-    """Error against cost, a panel for each port."""
-    from matplotlib.figure import Figure as Picture
-
-    picture = Picture(figsize=(11, 5.6), layout="constrained")
-    panels = picture.subplots(1, 2)
-    labels = {
-        "thermal.interface_temperature": "largest error of the interface temperature / K",
-        "mechanics.x": "largest error of the block's place x / m",
-    }
-    colours = {"Jacobi": "#8c8c8c", "Gauss-Seidel": "#0072b2", "iterated": "#d55e00"}
-    marks = {"held": "o", "linear": "s", "quadratic": "^"}
-    for panel, (port, label) in zip(panels, labels.items(), strict=True):
-        for name, rows in table.items():
-            kind, inputs, *rest = name.split(", ")
-            by = rest[0] if rest else ""
-            panel.loglog(
-                [found.made for _, found, _ in rows],
-                [max(off[port], 1e-12) for *_, off in rows],
-                marker=marks[inputs],
-                color="#009e73" if by.startswith("by") and kind == "iterated" else colours[kind],
-                linestyle={"by defect": ":", "by doubling": "--", "Aitken": "-."}.get(by, "-"),
-                markerfacecolor="none" if by.startswith("by") or by == "Aitken" else None,
-                linewidth=1.2,
-                markersize=5,
-                label=name,
-            )
-        panel.set_xlabel("steps made by the heat model, repeated ones included")
-        panel.set_ylabel(label)
-        panel.grid(True, which="major", alpha=0.3)
-    handles, names = panels[0].get_legend_handles_labels()
-    picture.legend(handles, names, loc="outside lower center", ncols=3, fontsize=8, frameon=False)
-    picture.suptitle(
-        "Sliding ice whose friction falls as the interface warms, 1.92 s: error against cost",
-        fontsize=11,
-    )
-    picture.savefig(file, dpi=130)
-
-
 def main():
-    parser = arguments(__doc__)
-    parser.add_argument("--figure", type=Path, metavar="FILE")
-    told = parser.parse_args()
+    told = arguments(__doc__).parse_args()
     case = scenario()
     reference = coupled(case, FIXED["iterated, linear, quasi-Newton"], REFERENCE)
     assert not isinstance(reference, str), reference
@@ -240,8 +198,6 @@ def main():
         orders = [order_of(table[name], port) for port in COMPARED]
         print(f"{name}: order {orders[0]:.2f} of the temperature, {orders[1]:.2f} of x")
         assert all(map(math.isfinite, orders))
-    if told.figure:
-        draw(table, told.figure)
     write(told.json, "coupling_cost", figures)
 
 

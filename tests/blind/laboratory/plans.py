@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .apparatus import CONTACTS, GRAVITY, Record, apparatus
+from .apparatus import GRAVITY, Record, apparatus
 from .laws import Reference
 
 RIGS = ("guided", "bench", "planar")
@@ -231,7 +231,3 @@ def assemble(
         duration=float(np.round(rng.uniform(*last))),
         runs=tuple(runs),
     )
-
-
-def draw_contact_name(rng: np.random.Generator) -> str:
-    return str(rng.choice(list(CONTACTS)))

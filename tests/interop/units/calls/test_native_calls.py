@@ -66,10 +66,6 @@ def test_without_an_instance_a_call_is_an_error(unit, function):
 # --- calls that are refused in the run ---
 
 
-def reals(*values):
-    return (c_double * len(values))(*values)
-
-
 def one(reference):
     return byref(c_uint(reference))
 
