@@ -78,8 +78,6 @@ def call(*arguments):
     return lambda block: arguments
 
 
-def read(function, name, room):
-    return lambda block: (function, one(block.unit.references[name]), 1, byref(room))
 
 
 def too_short(block):
