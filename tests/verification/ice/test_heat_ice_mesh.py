@@ -83,86 +83,90 @@ def test_unreadable(tmp_path, capsys, name, content, says):
     assert not any(capsys.readouterr()), "nothing but the error is said"
 
 
-def test_no_volume_cells(tmp_path, cube):
-    path = write(tmp_path / "s.vtu", cube[0], cube[1][:, :3], "triangle")
-    refused(path, r"has no volume cells \(triangle\), allowed are tetrahedra")
-
-
-def test_other_volume_cells(tmp_path):
-    corners = np.array(np.meshgrid([0, 0.1], [0, 0.1], [0, 0.1])).reshape(3, -1).T
-    path = write(tmp_path / "s.vtu", corners, np.array([[0, 1, 3, 2, 4, 5, 7, 6]]), "hexahedron")
-    refused(path, r"has other volume cells \(hexahedron\)")
-
-
-def test_not_a_number(tmp_path, cube):
-    points = cube[0].copy()
+def not_a_number(points, cells):
     points[5, 1] = np.nan
-    refused(write(tmp_path / "s.vtu", points, cube[1]), "without three finite coordinates")
+    return points, cells
 
 
-def test_two_pieces(tmp_path, cube):
-    points, cells = cube
+def two_pieces(points, cells):
     beside = points + [0.2, 0.0, 0.0]
-    both = np.concatenate((points, beside)), np.concatenate((cells, cells + len(points)))
-    refused(write(tmp_path / "s.vtu", *both), "falls into 2 pieces that share no facet")
+    return np.concatenate((points, beside)), np.concatenate((cells, cells + len(points)))
 
 
-def test_an_element_without_volume(tmp_path, cube):
-    points, cells = cube[0].copy(), cube[1]
-    inner = np.flatnonzero(np.all(np.abs(points - [0, 0, 0.05]) < 0.03, axis=1))[0]
+def inner_node(points):
+    return np.flatnonzero(np.all(np.abs(points - [0, 0, 0.05]) < 0.03, axis=1))[0]
+
+
+def without_volume(points, cells):
+    inner = inner_node(points)
     mates = cells[(cells == inner).any(axis=1)][0]
-    others = mates[mates != inner]
-    points[inner] = points[others].mean(axis=0)
-    refused(write(tmp_path / "s.vtu", points, cells), "have no volume")
+    points[inner] = points[mates[mates != inner]].mean(axis=0)
+    return points, cells
 
 
-def test_folded(tmp_path, cube):
-    points = cube[0].copy()
-    inner = np.flatnonzero(np.all(np.abs(points - [0, 0, 0.05]) < 0.03, axis=1))[0]
-    points[inner] += [0.05, 0.0, 0.0]
-    refused(write(tmp_path / "s.vtu", points, cube[1]), "tetrahedra overlap: the mesh is folded")
+def folded(points, cells):
+    points[inner_node(points)] += [0.05, 0.0, 0.0]
+    return points, cells
 
 
-def test_a_facet_of_three(tmp_path, cube):
-    points, cells = cube
+def a_facet_of_three(points, cells):
     facets, number, _ = facets_of(cells)
-    shared = facets[np.bincount(number) == 2][0]
-    more = np.concatenate((points, [[0.0, 0.0, 0.033]]))
-    third = np.append(shared, len(points))[None, :]
-    refused(
-        write(tmp_path / "s.vtu", more, np.concatenate((cells, third))),
-        "1 facets belong to more than two tetrahedra",
-    )
+    third = np.append(facets[np.bincount(number) == 2][0], len(points))[None, :]
+    return np.concatenate((points, [[0.0, 0.0, 0.033]])), np.concatenate((cells, third))
 
 
-def test_a_missing_element_inside(tmp_path):
+def hollow(points, cells):
     points, cells = box((5, 5, 5), EXTENT)
     centres = points[cells].mean(axis=1) - [0.0, 0.0, 0.05]
-    kept = np.delete(cells, np.argmin(np.linalg.norm(centres, axis=1)), axis=0)
-    refused(write(tmp_path / "s.vtu", points, kept), "1 hollows inside, allowed is solid ice")
+    return points, np.delete(cells, np.argmin(np.linalg.norm(centres, axis=1)), axis=0)
 
 
-def test_elements_that_touch_along_an_edge(tmp_path, cube):
+def touching_along_an_edge(points, cells):
+    x, y, z = points[cells].mean(axis=1).T
+    corner = (x < -0.0134) & (y < -0.0101) | (x > 0.0134) & (y > 0.0101)
+    middle = (np.abs(x) < 0.0133) & (np.abs(y) < 0.0099)
+    return points, cells[(z > 0.034) | ((z < 0.033) & (corner | middle))]
+
+
+def above_the_belt(points, cells):
+    return points + [0, 0, 0.01], cells
+
+
+def round_below(points, cells):
+    low = points[:, 2] == 0.0
+    points[low, 2] += 0.3 * np.hypot(*(points[low, :2] - points[low][0, :2]).T)
+    return points, cells
+
+
+@pytest.mark.parametrize(
+    ("spoil", "says"),
+    [
+        (not_a_number, "without three finite coordinates"),
+        (two_pieces, "falls into 2 pieces that share no facet"),
+        (without_volume, "have no volume"),
+        (folded, "tetrahedra overlap: the mesh is folded"),
+        (a_facet_of_three, "1 facets belong to more than two tetrahedra"),
+        (hollow, "1 hollows inside, allowed is solid ice"),
+        (touching_along_an_edge, "surface is not closed"),
+        (above_the_belt, "its lowest node is at z = 0.01 m, allowed is a base at z = 0"),
+        (round_below, "no flat base at z = 0"),
+    ],
+)
+def test_a_spoilt_sample(tmp_path, cube, spoil, says):
     points, cells = cube
-    kept = cells[points[cells].mean(axis=1)[:, 2] > 0.034]
-    lower = cells[points[cells].mean(axis=1)[:, 2] < 0.033]
-    column = lower[np.all(points[lower].mean(axis=1)[:, :2] < [-0.0134, -0.0101], axis=1)]
-    other = lower[np.all(points[lower].mean(axis=1)[:, :2] > [0.0134, 0.0101], axis=1)]
-    middle = np.all(np.abs(points[lower].mean(axis=1)[:, :2]) < [0.0133, 0.0099], axis=1)
-    both = np.concatenate((kept, column, other, lower[middle]))
-    refused(write(tmp_path / "s.vtu", points, both), "surface is not closed")
+    refused(write(tmp_path / "s.vtu", *spoil(points.copy(), cells)), says)
 
 
-def test_no_base(tmp_path, cube):
-    points, cells = cube
-    refused(
-        write(tmp_path / "s.vtu", points + [0, 0, 0.01], cells),
-        "its lowest node is at z = 0.01 m, allowed is a base at z = 0",
-    )
-    round_below = points.copy()
-    low = round_below[:, 2] == 0.0
-    round_below[low, 2] += 0.3 * np.hypot(*(round_below[low, :2] - round_below[low][0, :2]).T)
-    refused(write(tmp_path / "t.vtu", round_below, cells), "no flat base at z = 0")
+@pytest.mark.parametrize(
+    ("cells", "kind", "says"),
+    [
+        ([[0, 1, 3]], "triangle", r"has no volume cells \(triangle\), allowed are tetrahedra"),
+        ([[0, 1, 3, 2, 4, 5, 7, 6]], "hexahedron", r"has other volume cells \(hexahedron\)"),
+    ],
+)
+def test_other_cells(tmp_path, cells, kind, says):
+    corners = np.array(np.meshgrid([0, 0.1], [0, 0.1], [0, 0.1])).reshape(3, -1).T
+    refused(write(tmp_path / "s.vtu", corners, np.array(cells), kind), says)
 
 
 @pytest.mark.parametrize("mesh", [box((3, 2, 2), EXTENT), cylinder(4, 3)])

@@ -1,16 +1,12 @@
 """Samples inside the integrator's steps: as exact as the tolerance asks, and without influence."""
 
-import random
-
 import numpy as np
 import pytest
-from effect_cases import IDS, draw_parameters
 from kernel_steps import memory_of
 from stickslip import Parameters, Solver, simulate
-from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import advance, layout, outputs
 from stickslip.kernel.interpolant import copy_instant, interpolate, set_interpolant
-from stickslip.kernel.runge_kutta import begin_step, state_scale, take_step
+from stickslip.kernel.runge_kutta import begin_step, take_step
 
 PLANAR = {
     "lateral_friction": {"ratio": 1.0},
@@ -63,55 +59,6 @@ def test_order_of_the_interpolant():
     errors = [error_inside(memory, h) for h in steps]
     slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
     assert slope == pytest.approx(8.0, abs=0.5)
-
-
-@pytest.mark.parametrize("effect", [None, *IDS])
-def test_samples_are_as_exact_as_the_tolerance_asks(effect):
-    """In units of the error test, the error of a moment in a step against eight short steps.
-
-    A step that passes may err by 1; the interpolant errs by 3 in most, and is taken up to some 10
-    by its own estimate, which here and there is a factor 2 too good. Elsewhere the sample comes by
-    several steps that pass the test one by one: that is where a slip begins so abruptly that the
-    test itself errs.
-    """
-    draw = random.Random(f"inside {effect}")
-    kernel = CATALOGUE.compiled
-    for _ in range(3):
-        memory = memory_of(draw_parameters((effect,) if effect else (), draw))
-        p, u, z = (np.array(part) for part in (memory.p, memory.u, memory.z))
-        w, e = (np.array(part) for part in fresh())
-        for _ in range(200):
-            if kernel.internal_step(p, u, z, w, e, 0.0) != layout.DONE:
-                break
-            if z[layout.NEXT + layout.TIME] > z[layout.HERE + layout.TIME]:
-                kernel.set_interpolant(p, u, z, w)
-                check_inside(kernel, p, u, z, w)
-            kernel.copy_instant(z, layout.NEXT, layout.HERE)
-
-
-def check_inside(kernel, p, u, z, w):
-    exact, scratch = z.copy(), w.copy()
-    time, steps = z[layout.HERE + layout.TIME] + 0.37 * w[layout.W_SPAN], 8
-    kernel.look_inside(p, u, z, w, time)
-    kernel.copy_instant(exact, layout.HERE, layout.SHOWN)
-    for _ in range(steps):
-        kernel.begin_step(p, u, exact, scratch, layout.SHOWN)
-        kernel.take_step(
-            p,
-            u,
-            exact,
-            scratch,
-            layout.SHOWN,
-            layout.BETWEEN,
-            (time - z[layout.HERE + layout.TIME]) / steps,
-        )
-        kernel.copy_instant(exact, layout.BETWEEN, layout.SHOWN)
-    units = [
-        abs(z[layout.SHOWN + i] - exact[layout.SHOWN + i])
-        / state_scale(p, u, i, exact[layout.SHOWN + i])
-        for i in range(1, 1 + layout.STATES)
-    ]
-    assert max(units) < (25.0 if z[layout.Z_SMOOTH] else 250.0)
 
 
 def test_a_state_taken_inside_a_step_continues_bit_for_bit():

@@ -78,8 +78,6 @@ def call(*arguments):
     return lambda block: arguments
 
 
-
-
 def too_short(block):
     return "SerializeFMUstate", block.save(), create_string_buffer(100), 100
 
