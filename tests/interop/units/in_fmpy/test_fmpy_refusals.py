@@ -1,4 +1,4 @@
-"""What the units refuse in fmpy.
+"""What the units refuse in fmpy: numbers, calls for what there is not, and calls out of turn.
 
 fmi2Error with a message, the process lives on, a state or a reset recovers.
 """
@@ -12,7 +12,7 @@ import time
 import traceback
 
 import pytest
-from fmpy_instance import refused
+from fmpy_instance import instance, refused
 
 
 @pytest.mark.parametrize(
@@ -43,29 +43,42 @@ def test_a_step_that_cannot_be_is_an_error(block, time, size, message):
     block.slave.freeFMUState(state)
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "said"),
-    [
-        *(
-            ("surface_speed", value, f"surface_speed = {value}: must be a finite number")
-            for value in (math.nan, math.inf, -math.inf)
-        ),
-        (
-            "interface_temperature",
-            -300.0,
-            "interface_temperature = -300: must lie in [-273.15, inf]",
-        ),
-        ("rig.mass", 2.0, "rig.mass is fixed and cannot be set after initialisation"),
-        ("x", 1.0, "x is an output and cannot be set"),
-    ],
-)
-def test_what_cannot_be_set_in_the_run_is_refused(block, name, value, said):
+#: Calls of a unit in its run, by their names or by those of variables, and why they are refused.
+SENSELESS = [
+    ("enterInitializationMode", (), "not allowed while the instance is stepping"),
+    ("exitInitializationMode", (), "not allowed while the instance is stepping"),
+    ("setupExperiment", (), "not allowed while the instance is stepping"),
+    ("getReal", ([4711],), "value reference 4711: there is no such variable"),
+    ("getReal", ([2**32 - 1],), "value reference 4294967295: there is no such variable"),
+    ("setReal", ([4711], [1.0]), "value reference 4711: there is no such variable"),
+    ("getInteger", ([0],), "surface_speed is a real number, not an integer"),
+    ("getBoolean", ([0],), "surface_speed is a real number, not a Boolean"),
+    ("setBoolean", ([0], [True]), "surface_speed is a real number, not a Boolean"),
+    ("setInteger", ([0], [1]), "surface_speed is a real number, not an integer"),
+    ("getString", ([0],), "fmi2GetString: no variable is a text"),
+    ("setString", ([0], ["x"]), "fmi2SetString: no variable is a text"),
+    ("set", ("surface_speed", math.nan), "surface_speed = nan: must be a finite number"),
+    ("set", ("surface_speed", -math.inf), "surface_speed = -inf: must be a finite number"),
+    ("set", ("interface_temperature", -300.0), "= -300: must lie in [-273.15, inf]"),
+    ("set", ("rig.mass", 2.0), "rig.mass is fixed and cannot be set after initialisation"),
+    ("set", ("x", 1.0), "x is an output and cannot be set"),
+]
+
+
+@pytest.mark.parametrize(("call", "arguments", "says"), SENSELESS)
+def test_a_call_that_makes_no_sense_is_refused(block, call, arguments, says):
     block.initialise()
     block.march(0, 10, 0.01)
-    before = block.get(name)
-    assert block.refuses(block.set, name, value) == said
-    assert block.get(name) == before
-    refused(block.slave.doStep, 0.1, 0.01)
+    state, before = block.slave.getFMUState(), block.everything()
+    said = block.refuses(getattr(block, call, None) or getattr(block.slave, call), *arguments)
+    assert said.endswith(says) and "\n" not in said
+    assert block.everything() == before
+    if not call.startswith("get"):  # to have asked harms nothing
+        refused(block.slave.doStep, 0.1, 0.01)
+        assert "failed before" in block.log.take_errors()
+        block.slave.setFMUState(state)
+    block.slave.doStep(0.1, 0.01)
+    block.slave.freeFMUState(state)
 
 
 def test_a_damaged_state_is_refused(block):
@@ -99,33 +112,22 @@ def test_what_initialisation_refuses_is_told_at_its_end_in_one_line(block):
 
 
 @pytest.mark.parametrize(
-    ("name", "value", "range"),
+    ("name", "value", "allowed"),
     [
-        ("rig.mass", 0.0, "(0, inf]"),
-        ("rig.mass", -1.0, "(0, inf]"),
-        ("rig.free_y", 2, "[0, 1]"),
-        ("temperature_dependence.reference_degC", -1e308, "[-273.15, 0]"),
-        ("friction.table_temperature_degC[2]", -1e308, "[-273.15, 1000]"),
-        ("rig.attachment_angles_deg[1]", 1e308, "[-360, 360]"),
+        ("rig.mass", 0.0, "must lie in (0, inf]"),
+        ("rig.free_y", 2, "must lie in [0, 1]"),
+        ("temperature_dependence.reference_degC", -1e308, "must lie in [-273.15, 0]"),
+        ("friction.table_temperature_degC[2]", -1e308, "must lie in [-273.15, 1000]"),
+        ("rig.attachment_angles_deg[1]", 1e308, "must lie in [-360, 360]"),
+        # squares and quotients of it would be infinite
+        ("rig.mass", 1e308, "must be 0, or of a size from 1e-100 to 1e+100"),
+        ("rig.mass", 5e-324, "must be 0, or of a size from 1e-100 to 1e+100"),
+        ("initial.x", -1e308, "must be 0, or of a size from 1e-100 to 1e+100"),
     ],
 )
-def test_a_parameter_out_of_range_is_refused(block, name, value, range):
-    assert block.refuses(block.set, name, value) == f"{name} = {value:g}: must lie in {range}"
-
-
-@pytest.mark.parametrize(
-    ("name", "value"),
-    [
-        ("rig.mass", 1e308),
-        ("rig.mass", 5e-324),
-        ("initial.x", -1e308),
-        ("surface_pattern.phase_deg", 1e308),
-    ],
-)
-def test_what_nobody_can_compute_with_is_refused(block, name, value):
-    """Squares and quotients of it would be infinite."""
+def test_a_parameter_out_of_range_is_refused(block, name, value, allowed):
     said = block.refuses(block.initialise, **{name: value})
-    assert said == f"{name} = {value:g}: must be 0, or of a size from 1e-100 to 1e+100"
+    assert said.partition("; ")[0] == f"{name} = {value:g}: {allowed}"
 
 
 def test_ctrl_c_inside_a_step_is_an_error_and_the_state_is_that_before(python_block, ctrl_c):
@@ -148,3 +150,57 @@ def test_ctrl_c_inside_a_step_is_an_error_and_the_state_is_that_before(python_bl
     refused(block.slave.doStep, 0.1, 1e3)
     assert "KeyboardInterrupt" in block.log.take_errors()
     assert block.get("x") == x
+
+
+# --- calls out of turn ---
+
+
+def test_an_input_just_below_its_bound_is_at_it(unit, tmp_path):
+    """A host that takes differences about 0 asks for a film that is thinner than none."""
+    with instance(unit, tmp_path) as block:
+        block.initialise(film_thickness=-1e-8)
+        assert block.get("film_thickness") == 0.0
+
+
+def test_the_experiment_is_set_up_once_and_makes_sense(block):
+    block.slave.setupExperiment()
+    said = block.refuses(block.slave.setupExperiment)
+    assert said == "the experiment has been set up before"
+    for arguments, says in (
+        ({"startTime": math.nan}, "start time is nan; must be a finite number of seconds"),
+        ({"startTime": 5.0, "stopTime": 4.0}, "stop time is 4 s; must not be before the start"),
+        ({"tolerance": -1.0}, "tolerance is -1; must be a finite number of at least 0"),
+    ):
+        block.slave.reset()
+        assert block.refuses(block.slave.setupExperiment, **arguments).startswith(says)
+
+
+def test_no_step_goes_past_the_stop_time(block):
+    block.slave.setupExperiment(stopTime=0.3)
+    block.slave.enterInitializationMode()
+    block.slave.exitInitializationMode()
+    block.march(0, 3, 0.1)  # 0.2 + 0.1 is more than 0.3, by rounding
+    state = block.slave.getFMUState()
+    for _ in range(2):
+        said = block.refuses(block.slave.doStep, 0.3, 1e-3)
+        assert said == "step to t = 0.301 s goes past the stop time that was set up, 0.3 s"
+        block.slave.setFMUState(state)
+    block.slave.freeFMUState(state)
+
+
+def test_no_step_after_the_end_and_none_before_the_beginning(block):
+    refused(block.slave.doStep, 0.0, 0.01)
+    said = block.log.take_errors()
+    assert said == "fmi2DoStep: not allowed while the instance is instantiated"
+    block.slave.reset()
+    block.initialise()
+    block.slave.terminate()
+    assert block.get("x") == 0.0
+    refused(block.slave.doStep, 0.0, 0.01)
+    said = block.log.take_errors()
+    assert said == "fmi2DoStep: not allowed while the instance is terminated"
+
+
+def test_an_output_is_there_from_the_initialisation_on(block):
+    said = block.refuses(block.get, "x")
+    assert said == "fmi2GetReal: not allowed while the instance is instantiated"
