@@ -1,12 +1,16 @@
 """Samples inside the integrator's steps: as exact as the tolerance asks, and without influence."""
 
+import random
+
 import numpy as np
 import pytest
+from effect_cases import IDS, draw_parameters
 from kernel_steps import memory_of
 from stickslip import Parameters, Solver, simulate
+from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import advance, layout, outputs
-from stickslip.kernel.interpolant import copy_instant, interpolate, set_interpolant
-from stickslip.kernel.runge_kutta import begin_step, take_step
+from stickslip.kernel.interpolant import copy_instant
+from stickslip.kernel.runge_kutta import state_scale
 
 PLANAR = {
     "lateral_friction": {"ratio": 1.0},
@@ -32,23 +36,32 @@ def in_slip(parameters: Parameters, time: float):
     return memory
 
 
+def as_arrays(memory) -> list[np.ndarray]:
+    return [np.array(part) for part in (memory.p, memory.u, memory.z, *fresh())]
+
+
+def in_short_steps(p, u, z, w, span: float, steps: int) -> np.ndarray:
+    """The instant a ``span`` after HERE, by so many steps of the integrator."""
+    kernel, z, w = CATALOGUE.compiled, z.copy(), w.copy()
+    kernel.copy_instant(z, layout.HERE, layout.SHOWN)
+    for _ in range(steps):
+        kernel.begin_step(p, u, z, w, layout.SHOWN)
+        kernel.take_step(p, u, z, w, layout.SHOWN, layout.BETWEEN, span / steps)
+        kernel.copy_instant(z, layout.BETWEEN, layout.SHOWN)
+    return z[layout.SHOWN :][: layout.INSTANT]
+
+
 def error_inside(memory, h: float) -> float:
     """Largest error of x in a step of size h from HERE, against sixteen steps to the moment."""
-    p, u, z = memory.p, memory.u, list(memory.z)
-    w, _ = fresh()
-    begin_step(p, u, z, w, layout.HERE)
-    take_step(p, u, z, w, layout.HERE, layout.NEXT, h)
-    set_interpolant(p, u, z, w)
+    (p, u, z, w, _), kernel = as_arrays(memory), CATALOGUE.compiled
+    kernel.begin_step(p, u, z, w, layout.HERE)
+    kernel.take_step(p, u, z, w, layout.HERE, layout.NEXT, h)
+    kernel.set_interpolant(p, u, z, w)
     largest = 0.0
     for part in (0.2, 0.4, 0.6, 0.8):
-        interpolate(p, u, z, w, layout.SHOWN, z[layout.HERE + layout.TIME] + part * h)
-        shown = z[layout.SHOWN + layout.X]
-        copy_instant(z, layout.HERE, layout.SHOWN)
-        for _ in range(16):
-            begin_step(p, u, z, w, layout.SHOWN)
-            take_step(p, u, z, w, layout.SHOWN, layout.BETWEEN, part * h / 16.0)
-            copy_instant(z, layout.BETWEEN, layout.SHOWN)
-        largest = max(largest, abs(shown - z[layout.SHOWN + layout.X]))
+        kernel.interpolate(p, u, z, w, layout.SHOWN, z[layout.HERE + layout.TIME] + part * h)
+        exact = in_short_steps(p, u, z, w, part * h, 16)
+        largest = max(largest, abs(z[layout.SHOWN + layout.X] - exact[layout.X]))
     return largest
 
 
@@ -59,6 +72,32 @@ def test_order_of_the_interpolant():
     errors = [error_inside(memory, h) for h in steps]
     slope = np.polyfit(np.log(steps), np.log(errors), 1)[0]
     assert slope == pytest.approx(8.0, abs=0.5)
+
+
+@pytest.mark.parametrize("effect", [None, *IDS])
+def test_samples_are_as_exact_as_the_tolerance_asks(effect):
+    """In units of the error test, the error of a moment in a step against eight short steps.
+
+    A step that passes may err by 1; the interpolant errs by 3 in most, and is taken up to some 10
+    by its own estimate, which here and there is a factor 2 too good. Elsewhere the sample comes by
+    several steps that pass the test one by one: that is where a slip begins so abruptly that the
+    test itself errs.
+    """
+    draw, kernel = random.Random(f"inside {effect}"), CATALOGUE.compiled
+    for _ in range(3):
+        p, u, z, w, e = as_arrays(memory_of(draw_parameters((effect,) if effect else (), draw)))
+        for _ in range(200):
+            if kernel.internal_step(p, u, z, w, e, 0.0) != layout.DONE:
+                break
+            if z[layout.NEXT + layout.TIME] > z[layout.HERE + layout.TIME]:
+                kernel.set_interpolant(p, u, z, w)
+                span = 0.37 * w[layout.W_SPAN]
+                exact = in_short_steps(p, u, z, w, span, 8)
+                kernel.look_inside(p, u, z, w, z[layout.HERE + layout.TIME] + span)
+                for i in range(1, 1 + layout.STATES):
+                    off = abs(z[layout.SHOWN + i] - exact[i]) / state_scale(p, u, i, exact[i])
+                    assert off < (25.0 if z[layout.Z_SMOOTH] else 250.0)
+            kernel.copy_instant(z, layout.NEXT, layout.HERE)
 
 
 def test_a_state_taken_inside_a_step_continues_bit_for_bit():
