@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from stickslip import EFFECTS, Parameters, simulate, units
+from stickslip import EFFECTS, Parameters, effects, simulate, units
 from stickslip.effects.effect import AXES
 from stickslip.parameters import EffectTables
 
@@ -70,3 +70,10 @@ def test_off_is_the_plain_model(effect):
     off = simulate(Parameters(**(start | {effect.id: others})), 2.0)
     for name in ("x", "y", "phi", "heat"):
         np.testing.assert_allclose(off[name], plain[name], rtol=0, atol=1e-12)
+
+
+def test_a_file_without_an_effect_and_an_effect_twice():
+    with pytest.raises(ValueError, match=r"^effects/periodic.py declares no Effect named EFFECT$"):
+        effects.declared(["periodic"])
+    with pytest.raises(ValueError, match=r"^effect run_in: declared twice"):
+        effects.declared(["friction.run_in", "friction.run_in"])

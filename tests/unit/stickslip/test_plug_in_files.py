@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import pytest
+from stickslip.generation.terms import terms_source
 from stickslip.plugins.errors import PluginError
 from stickslip.plugins.load import TABLES, effect_in, source_of
 
@@ -13,6 +14,56 @@ from cosim.scenario import Scenario
 
 GOOD = text_of("brush")
 TERM = "    return 1.0 - fall * speed * speed / (speed * speed + onset * onset)\n"
+#: With a function that terms share, a derived number and a state.
+MORE = '''
+from math import exp
+
+from stickslip.effects.effect import Case, Effect, State
+from stickslip.quantity import Table, quantity
+
+SHARE = 0.5
+
+
+class Brush(Table):
+    """Bristles bend."""
+
+    much: float = quantity(0.0, "1", "how much", typical=(0.1, 1.0))
+    over: float = quantity(1.0, "m/s", "over which speed", tried=(0.1, 1.0))
+
+
+def half(value: float) -> float:
+    """A share of it."""
+    return SHARE * value
+
+
+def over_two(over: float) -> float:
+    """m/s"""
+    return half(over)
+
+
+def dry_factor(speed: float, much: float, over_two: float) -> float:
+    """mu_k in proportion."""
+    left = exp(-speed / over_two)
+    return 1.0 + half(much) * max(left, 0.0)
+
+
+def bend_rate(speed: float, bend: float, over: float) -> float:
+    """Rate of the bend."""
+    return speed - bend * over
+
+
+EFFECT = Effect(
+    id="brush",
+    table=Brush,
+    switch=("much",),
+    enters="friction",
+    source="nowhere",
+    terms=(dry_factor,),
+    derived=(over_two,),
+    states=(State("bend", bend_rate),),
+    case=Case({"much": 0.1}),
+)
+'''
 
 
 @pytest.fixture
@@ -120,6 +171,58 @@ def test_a_term_s_numbers_are_declared(said):
 def test_what_is_wrong_with_a_file_is_said(said, old, new, what):
     assert old in GOOD
     text = GOOD.replace(old, new, 1)
+    assert what in said(text)
+
+
+def test_a_sound_one_becomes_text(tmp_path):
+    (tmp_path / "brush.py").write_text(MORE, encoding="utf-8")
+    text = terms_source([effect_in(source_of(tmp_path / "brush.py"))])
+    assert "def brush_dry_factor(" in text and "0.5 * value" in text
+    assert "from math import exp" in text
+    assert text.count("def brush_half(") == 1  # which a term and a derived number call
+    assert "p[P_BRUSH_OVER_TWO] = brush_over_two(v[V_BRUSH_OVER])" in text
+
+
+SIGNATURE = "dry_factor(speed: float, much: float, over_two: float)"
+#: What is replaced, two by two, and what is said.
+DECLARED = [
+    ('("much",)', '"much"', "switch is no tuple"),
+    ('("much",)', "()", "no switch"),
+    ('("much",)', '("mush",)', "switch 'mush' is no parameter; there are"),
+    ("    case=", '    core={"mush": "M"},\n    case=', "core 'mush' is no param"),
+    ("    case=", '    axis="colour",\n    case=', "axis 'colour' is none; there are"),
+    ("(dry_factor,)", "dry_factor", "terms is no tuple"),
+    ('quantity(0.0, "1"', 'quantity(0.0, ""', "much has no unit"),
+    ('quantity(0.0, "1", "how much", typical=(0.1, 1.0))', "0.0", "much has no unit"),
+    (", typical=(0.1, 1.0)", "", "much has neither a typical range nor a tried"),
+    ("bend_rate)", 'bend_rate, start="ovre")', "bend starts from 'ovre', which is no parameter; t"),
+    ("dry_factor", "dry_facter", "no place 'dry_facter' in the kernel; there are"),
+    ("r(speed:", "r(sped:", "exp(-speed", "exp(-sped", "dry_factor takes 'sped'"),
+    ("e(speed:", "e(sped:", "return speed", "return sped", "bend_rate takes 'sped'"),
+    ("over_two(over:", "over_two(sped:", "half(over)", "half(sped)", "over_two takes 'sped'"),
+    ("\nSHARE", "from random import Random\nSHARE", "half(over)", "Random(1)", "uses `Random`"),
+    ("\nSHARE", "SCALES = (1.0, 2.0)\nSHARE", "left = exp(", "left = SCALES.index(", "`SCALES`"),
+    ("\nSHARE", "from stickslip.effects.friction.run_in import kinetic_factor\nSHARE",
+     "(dry_factor,)", "(kinetic_factor,)", "'kinetic_factor' is no function at the top of this"),
+    *((SIGNATURE, f"contact_drag({word}: float)", "exp(-speed / over_two)", f"exp(-{word})",
+       "half(much) * ", "", "(dry_factor,)", "(contact_drag,)",
+       f"contact_drag takes '{word}': contact_drag knows nothing of the motion")
+      for word in ("temperature", "travel", "bend")),
+    # neither a parameter, nor a derived number, nor a state: the word would be taken instead
+    *(("    over: float = q", f"    {word}: float = q", f"{word}: the kernel's own words")
+      for word in ("speed", "hold", "time", "mu", "flooded", "extension", "travel")),
+    ("def over_two(", "def mu(", "(over_two,)", "(mu,)", "mu: the kernel's own words"),
+    ('State("bend"', 'State("travel"', "travel: the kernel's own words"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("case", DECLARED, ids=lambda case: case[-1])
+def test_what_is_wrong_with_a_declaration_is_said(said, case):
+    *changes, what = case
+    text = MORE
+    for old, new in zip(changes[::2], changes[1::2], strict=True):
+        assert old in text
+        text = text.replace(old, new)
     assert what in said(text)
 
 
