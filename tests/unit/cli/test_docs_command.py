@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+from command_line import refusal
 
 from cosim.cli import main
 from cosim.cli.authoring import docs
@@ -53,16 +54,14 @@ def test_a_checkout_builds_it_once(nowhere, capsys):
 
 
 def test_where_it_can_be_neither_found_nor_built_one_line_says_what_to_do(nowhere, capsys):
-    assert main(["docs"]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+    line = refusal(capsys, "docs")
     assert "neither installed nor in a checkout" in line
 
 
 def test_what_building_lacks_is_named_with_the_remedy(nowhere, capsys, monkeypatch):
     checkout()
     monkeypatch.setattr(docs, "find_spec", lambda name: None if name == "furo" else name)
-    assert main(["docs"]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+    line = refusal(capsys, "docs")
     assert "needs furo: pip install" in line and '[docs]"' in line
 
 

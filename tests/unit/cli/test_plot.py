@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from command_line import refusal
 
 from cosim.cli import main
 
@@ -35,19 +36,11 @@ def test_all_of_them_without_a_name(result):
     assert {"top_view.png", "motion.png", "heat.png"} <= {p.name for p in result.glob("*.png")}
 
 
-def refusal(capsys, *arguments):
-    capsys.readouterr()
-    assert main(["plot", *arguments]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    return line
-
-
 def test_refusals(result, capsys):
-    assert "no figure of this run is named 'moton'; nearest: 'motion'" in refusal(
-        capsys, "out", "moton"
-    )
-    assert "holds no result.nc" in refusal(capsys, ".")
+    line = refusal(capsys, "plot", "out", "moton")
+    assert "no figure of this run is named 'moton'; nearest: 'motion'" in line
+    assert "holds no result.nc" in refusal(capsys, "plot", ".")
     (result / "heat.png").write_text("my own")
-    assert "out/heat.png: is no result of an earlier run" in refusal(capsys, "out", "heat")
+    assert "out/heat.png: is no result of an earlier run" in refusal(capsys, "plot", "out", "heat")
     assert (result / "heat.png").read_text() == "my own"
     assert main(["plot", "out", "heat", "--force"]) == 0

@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from command_line import refusal
 
 from cosim.cli import main
 from cosim.cli.plug_ins import check_resumed, digests
@@ -17,8 +18,7 @@ def brush(tmp_path):
 
 def test_a_new_file_does_not_replace_one(brush, capsys):
     brush.write_text("mine", encoding="utf-8")
-    assert main(["effect", "new", str(brush)]) == 2
-    assert "brush.py" in capsys.readouterr().err and brush.read_text() == "mine"
+    assert "brush.py" in refusal(capsys, "effect", "new", brush) and brush.read_text() == "mine"
     assert main(["effect", "new", str(brush), "--force"]) == 0
     assert "EFFECT = Effect(" in brush.read_text()
 
@@ -28,11 +28,8 @@ def test_a_new_file_does_not_replace_one(brush, capsys):
 )
 def test_a_name_that_no_effect_can_have(name, tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    try:
-        assert main(["effect", "new", name]) == 2
-    except SystemExit as stop:  # argparse
-        assert stop.code == 2
-    assert "allowed is" in capsys.readouterr().err and not list(tmp_path.iterdir())
+    assert "allowed is" in refusal(capsys, "effect", "new", name)
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.fixture
@@ -49,11 +46,9 @@ def left(tmp_path):
 
 
 def test_a_folder_of_results_alone_runs_no_code(left, capsys):
-    assert main(["plot", str(left)]) == 2
-    assert main(["compare", str(left), str(left)]) == 2
-    capsys.readouterr()
-    assert main(["run", "--resume", str(left)]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+    refusal(capsys, "plot", left)
+    refusal(capsys, "compare", left, left)
+    line = refusal(capsys, "run", "--resume", left)
     assert f"--effects {left.parent / 'brush.py'}" in line and "if you trust them" in line
 
 
@@ -62,27 +57,23 @@ def test_a_run_goes_on_with_the_effects_that_it_was_begun_with(left, capsys):
     other.write_text("1 / 0\n", encoding="utf-8")
     go_on = ["run", f"--resume={left}", "--effects"]
     check_resumed(left, [str(code)])  # allows it
-    assert main([*go_on, str(code), str(other)]) == 2
-    assert f"{other} is not one of its effects" in capsys.readouterr().err
+    assert f"{other} is not one of its effects" in refusal(capsys, *go_on, code, other)
     code.write_text("1 / 0\n", encoding="utf-8")
-    assert main([*go_on, str(code)]) == 2
-    assert f"{code} has changed since that began" in capsys.readouterr().err
+    assert f"{code} has changed since that began" in refusal(capsys, *go_on, code)
     code.unlink()
-    assert main([*go_on, str(code)]) == 2
-    assert f"{code} has changed since that began" in capsys.readouterr().err
+    assert f"{code} has changed since that began" in refusal(capsys, *go_on, code)
 
 
 def test_effects_without_a_digest_are_not_run(left, capsys):
     for text in ("{}", "[", '{"effects": []}', '{"effects": {"/other.py": ""}}'):
         (left / UNFINISHED / "run.json").write_text(text, encoding="utf-8")
-        assert main(["run", "--resume", str(left)]) == 2
-        (line,) = capsys.readouterr().err.splitlines()
+        line = refusal(capsys, "run", "--resume", left)
         assert "begin anew" in line or "--effects /other.py" in line
 
 
 def test_effects_are_named_beside_resume_only(capsys):
-    assert main(["run", "reference", "--effects", "brush.py"]) == 2
-    assert "--effects: is for --resume" in capsys.readouterr().err
+    line = refusal(capsys, "run", "reference", "--effects", "brush.py")
+    assert "--effects: is for --resume" in line
 
 
 @pytest.mark.parametrize(
@@ -90,14 +81,12 @@ def test_effects_are_named_beside_resume_only(capsys):
     [("simulate", "no such file"), ("gap", "is too long"), ("plan", "too long")],
 )
 def test_a_name_that_is_too_long_for_a_file(command, what, capsys):
-    assert main([command, 300 * "a"]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+    line = refusal(capsys, command, 300 * "a")
     assert what in line and "allowed is" in line
 
 
 def test_effects_cannot_be_set(capsys):
-    assert main(["simulate", "reference", "--set", 'effects=["brush.py"]']) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+    line = refusal(capsys, "simulate", "reference", "--set", 'effects=["brush.py"]')
     assert "--set effects=" in line and "STICKSLIP_EFFECTS" in line
 
 
@@ -107,11 +96,10 @@ def test_the_catalogue_goes_on_with_it(brush, capsys):
     assert entry["id"] == "brush" and entry["parameters"][0]["key"] == "brush.fall"
 
 
-def test_what_is_wrong_with_a_file_is_bad_input(brush, capfd):
+def test_what_is_wrong_with_a_file_is_bad_input(brush, capsys):
     brush.write_text(brush.read_text().replace("1.0 - fall", "np.cos(fall)"), encoding="utf-8")
     scenario = brush.with_name("case.toml")
     scenario.write_text('effects = ["brush.py"]\n[brush]\nfall = 0.3\n', encoding="utf-8")
-    assert main(["simulate", str(scenario), "-o", str(brush.parent / "out")]) == 2
-    (line,) = capfd.readouterr().err.splitlines()
-    assert line.startswith(f"error: {scenario}: effects: {brush}, line ") and "`np`" in line
+    line = refusal(capsys, "simulate", scenario, "-o", brush.parent / "out")
+    assert line.startswith(f"{scenario}: effects: {brush}, line ") and "`np`" in line
     assert not (brush.parent / "out").exists()

@@ -5,6 +5,7 @@ import logging
 from pathlib import Path
 
 import pytest
+from command_line import refusal
 from stickslip import Parameters, compiled, machine_code, simulate
 from stickslip.catalogue import CATALOGUE
 
@@ -114,8 +115,9 @@ class TestJson:
     def test_a_file_of_somebody_else_stays(self, case, capsys, tmp_path):
         for content in ("mine", "[]", "{}", '[{"name": 1}]'):
             (tmp_path / "numbers.json").write_text(content)
-            assert main(["simulate", case, "--json", "numbers.json"]) == 2
-            assert "is there and no result of this command" in capsys.readouterr().err
+            assert "is there and no result of this command" in refusal(
+                capsys, "simulate", case, "--json", "numbers.json"
+            )
             assert (tmp_path / "numbers.json").read_text() == content
 
     @pytest.mark.parametrize(

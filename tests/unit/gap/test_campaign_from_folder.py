@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from command_line import refusal
 
 from cosim.cli import main
 from cosim.gap import CampaignError, read_campaign
@@ -111,10 +112,9 @@ def test_what_no_name_says_is_given_or_asked_for(tmp_path, capsys):
     assert "mass = 0.87  # kg, as given" in text and "# surface_speed =   # m/s" in text
     with pytest.raises(CampaignError, match="stiffness: is missing"):
         read_campaign(tmp_path)
-    assert main(["campaign", str(tmp_path)]) == 2
-    assert "--force to overwrite" in capsys.readouterr().err
-    assert main(["campaign", str(tmp_path), "--set", "weight=1"]) == 2
-    assert main(["campaign", str(tmp_path / "none")]) == 2
+    assert "--force to overwrite" in refusal(capsys, "campaign", tmp_path)
+    refusal(capsys, "campaign", tmp_path, "--set", "weight=1")
+    refusal(capsys, "campaign", tmp_path / "none")
 
 
 def test_columns_of_other_names_are_said_beforehand(tmp_path):

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import tomli_w
+from command_line import refusal
 from plan_campaigns import made, named
 from stickslip import EFFECTS
 
@@ -212,11 +213,8 @@ def test_the_command_leaves_its_files(tmp_path, capsys):
 
 def test_bad_input_is_one_line(tmp_path, capsys):
     folder = written(tmp_path, [{"rate": 1.0}])
-    assert main(["plan", str(folder), "-o", str(tmp_path / "out")]) == 2
-    said = capsys.readouterr().err.splitlines()
-    assert len(said) == 1 and "run 1: rate = 1 Hz" in said[0]
-    assert main(["plan"]) == 2
-    assert "no campaign given" in capsys.readouterr().err
+    assert "run 1: rate = 1 Hz" in refusal(capsys, "plan", folder, "-o", tmp_path / "out")
+    assert "no campaign given" in refusal(capsys, "plan")
 
 
 def test_the_example_can_be_planned(tmp_path, capsys):

@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from command_line import refusal
 from stickslip import EFFECTS
 from stickslip.catalogue import CATALOGUE
 
@@ -66,5 +67,4 @@ def test_what_was_drawn_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, dra
 
 
 def test_unknown_effect(capsys):
-    assert main(["effects", "velocity_weakning"]) == 2
-    assert "nearest known: velocity_weakening" in capsys.readouterr().err
+    assert "nearest known: velocity_weakening" in refusal(capsys, "effects", "velocity_weakning")

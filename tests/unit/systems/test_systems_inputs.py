@@ -4,6 +4,7 @@ no unit here is given, by its name."""
 import numpy as np
 import pytest
 from c_units import made
+from command_line import refusal
 from lag_unit import lag_unit
 
 from cosim.cli import main
@@ -65,8 +66,7 @@ def test_a_variable_of_a_unit_is_set_by_name(one, tmp_path, capsys):
     ],
 )
 def test_what_cannot_be_set_is_refused_in_a_line(one, setting, said, tmp_path, capsys):
-    assert main(["couple", str(one()), "--set", setting, "-o", str(tmp_path / "out")]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+    line = refusal(capsys, "couple", one(), "--set", setting, "-o", tmp_path / "out")
     assert said in line
 
 
@@ -116,8 +116,7 @@ def test_an_input_over_time_comes_from_a_table(one):
 )
 def test_a_table_that_cannot_be_is_refused_in_a_line(one, more, table, said, tmp_path, capsys):
     path = one('input_file = "drive.csv"' + more, table)
-    assert main(["couple", str(path), "-o", str(tmp_path / "out")]) == 2
-    (line,) = capsys.readouterr().err.splitlines()
+    line = refusal(capsys, "couple", path, "-o", tmp_path / "out")
     assert said in line and "drive.csv" in line
 
 

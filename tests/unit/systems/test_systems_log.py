@@ -6,6 +6,7 @@ import sys
 
 import pytest
 from c_units import made
+from command_line import refusal
 
 from cosim.cli import main
 
@@ -129,6 +130,5 @@ def test_a_log_of_somebody_else_is_left_alone(system, tmp_path, capsys):
     folder = tmp_path / "out"
     folder.mkdir()
     (folder / "messages.log").write_text("of somebody else")
-    assert main(["couple", system(0), "-o", str(folder)]) == 2
-    assert "messages.log" in capsys.readouterr().err
+    assert "messages.log" in refusal(capsys, "couple", system(0), "-o", folder)
     assert (folder / "messages.log").read_text() == "of somebody else"

@@ -9,6 +9,7 @@ import time
 import numpy as np
 import pytest
 import xarray as xr
+from command_line import refusal
 from lag_unit import lag_unit
 
 import cosim.files
@@ -169,9 +170,7 @@ def test_what_makes_no_sense_is_refused_in_one_line(chain, capsys, old, new, mes
     path = chain(change=(old, new))
     with pytest.raises((SystemFault, FmuError, CouplingError), match=message):
         result_of(path)
-    assert main(["couple", str(path), "-o", str(path.parent / "out")]) == 2
-    said = capsys.readouterr().err
-    assert said.startswith("error: ") and said.count("\n") == 1
+    refusal(capsys, "couple", path, "-o", path.parent / "out")
 
 
 def test_the_command_leaves_what_run_leaves(chain, tmp_path, capsys):
@@ -219,8 +218,7 @@ def test_a_unit_that_fails_leaves_what_there_was(chain, tmp_path, capsys):
     ],
 )
 def test_a_setting_that_cannot_be_is_refused(chain, capsys, setting, message):
-    assert main(["couple", str(chain()), "--set", setting]) == 2
-    assert message in capsys.readouterr().err
+    assert message in refusal(capsys, "couple", chain(), "--set", setting)
 
 
 @pytest.mark.parametrize(
@@ -236,9 +234,7 @@ def test_the_run_of_another_command_is_not_gone_on_with(tmp_path, capsys, comman
     folder = RunFolder.begun(tmp_path, asked, {})
     folder.checkpoint.touch()
     folder.release()
-    assert main([command, "--resume", str(tmp_path)]) == 2
-    told = capsys.readouterr().err
-    assert said in told and told.count("\n") == 1
+    assert said in refusal(capsys, command, "--resume", tmp_path)
 
 
 @pytest.mark.parametrize("named", [False, True])
