@@ -39,16 +39,9 @@ def cluster():
                 host="127.0.0.1",
             )
         )
-        command = [
-            sys.executable,
-            "-m",
-            "distributed.cli.dask_worker",
-            "--no-nanny",
-            "--nthreads",
-            "1",
-            "--no-dashboard",
-            scheduler.scheduler_address,
-        ]
+        options = "--no-nanny --nthreads 1 --no-dashboard".split()
+        command = [sys.executable, "-m", "distributed.cli.dask_worker", *options]
+        command.append(scheduler.scheduler_address)
         workers = [
             stack.enter_context(subprocess.Popen(command, stderr=subprocess.DEVNULL))
             for _ in range(2)

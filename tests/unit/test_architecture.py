@@ -5,14 +5,13 @@ All imports count, also those inside functions: one that is put off is known all
 
 import ast
 import json
-import subprocess
-import sys
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
+from command_line import python
 from stickslip.generation.source import kernel_source
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -289,13 +288,7 @@ def loaded():
     lines = ["import json, sys", "seen = {}"]
     for statement in COMPUTES:
         lines += [statement, f"seen[{statement!r}] = [n for n in sys.modules if '.' not in n]"]
-    done = subprocess.run(
-        [sys.executable, "-c", "\n".join([*lines, "print(json.dumps(seen))"])],
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return json.loads(done.stdout)
+    return json.loads(python("\n".join([*lines, "print(json.dumps(seen))"])))
 
 
 @pytest.mark.parametrize("statement", COMPUTES)

@@ -23,6 +23,14 @@ def stickslip(folder, *arguments):
     )
 
 
+def python(program, *arguments, **more):
+    """What a program in Python prints, which ends well in a process of its own."""
+    words = [sys.executable, "-P", "-c", program, *map(str, arguments)]
+    done = subprocess.run(words, capture_output=True, text=True, **more)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
 def stickslip_here(folder, *arguments):
     """The same of this process."""
     words, out, err = [str(word) for word in arguments], io.StringIO(), io.StringIO()

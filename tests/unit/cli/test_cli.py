@@ -7,7 +7,7 @@ import sys
 from importlib.metadata import version
 
 import pytest
-from command_line import refusal
+from command_line import python, refusal
 
 from cosim.cli import main, warnings_in_one_line
 from cosim.cli.arguments import COMMANDS, Parser, command_module, parser
@@ -173,10 +173,7 @@ def test_help_imports_nothing_that_computes():
         "    print(name, *sorted(heavy & set(sys.modules)))"
     )
     names = ["", *sorted(set(COMMANDS) - HEAVY_HELP)]
-    done = subprocess.run(
-        [sys.executable, "-c", program, *names], capture_output=True, text=True, check=True
-    )
-    assert [line.rstrip() for line in done.stdout.splitlines()] == names
+    assert [line.rstrip() for line in python(program, *names).splitlines()] == names
 
 
 @pytest.mark.parametrize(("given", "used"), [({}, "1"), ({"OPENBLAS_NUM_THREADS": "3"}, "3")])

@@ -4,12 +4,12 @@ import json
 import os
 import shutil
 import signal
-import subprocess
 import sys
 from dataclasses import asdict
 
 import numpy as np
 import pytest
+from command_line import python
 from saved_pendulums import ORDER, pendulums
 
 from cosim.coupling import GaussSeidel, run
@@ -266,13 +266,7 @@ print(seen[0], seen[len(seen) // 10], seen[-1])
 
 def test_memory_is_flat_over_an_hour(tmp_path):
     """36 000 steps of 11 columns, 3 MB on disk; what Python itself moves is below 1 MB."""
-    done = subprocess.run(
-        [sys.executable, "-c", LONG, str(tmp_path)],
-        capture_output=True,
-        text=True,
-        check=True,
-        env=os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)},
-    )
-    _, early, late = map(int, done.stdout.split())
+    paths = {"PYTHONPATH": os.pathsep.join(sys.path)}
+    _, early, late = map(int, python(LONG, tmp_path, env=os.environ | paths).split())
     assert late - early < 1024  # kB
     assert (tmp_path / "unfinished" / "record.npy").stat().st_size > 3e6

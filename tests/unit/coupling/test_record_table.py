@@ -8,6 +8,7 @@ import time
 
 import numpy as np
 import pytest
+from command_line import python
 
 from cosim.coupling.record import GrowingTable, Place
 from cosim.files import OutputError
@@ -185,10 +186,7 @@ print(len(table), table.rows()[-1, 0])
 @pytest.mark.skipif(sys.platform == "win32", reason="needs a limit of the operating system")
 def test_no_room_is_said_and_what_is_there_stays_readable(tmp_path):
     path = tmp_path / "t.npy"
-    done = subprocess.run(
-        [sys.executable, "-c", FULL, str(path)], capture_output=True, text=True, check=True
-    )
-    said, rows = done.stdout.splitlines()
+    said, rows = python(FULL, path).splitlines()
     assert said == f"{path}: cannot be written: File too large"
     assert rows == "12 11.0"  # 128 bytes and 12 rows of 800 fit into 10000
     assert loaded(path).shape == (12, 100) and loaded(path)[-1, 0] == 11.0

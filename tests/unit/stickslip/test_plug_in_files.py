@@ -1,10 +1,10 @@
 """An effect from outside is a file: what is wrong with it is said in one line, with its place."""
 
 import os
-import subprocess
 import sys
 
 import pytest
+from command_line import python
 from stickslip.generation.terms import terms_source
 from stickslip.plugins.errors import PluginError
 from stickslip.plugins.load import TABLES, effect_in, source_of
@@ -254,23 +254,6 @@ def catalogue_ids():
     return {effect.id for effect in EFFECTS}
 
 
-@pytest.fixture(scope="module")
-def alone(tmp_path_factory):
-    """A Python program and its arguments -> what it prints, in a process of its own."""
-    folder = tmp_path_factory.mktemp("alone")
-    (folder / "brush.py").write_text(GOOD, encoding="utf-8")
-
-    def run(program, *arguments, **variables):
-        done = subprocess.run(
-            [sys.executable, "-c", program, *map(str, arguments)],
-            capture_output=True, text=True, cwd=folder, env=os.environ | variables,
-        )  # fmt: skip
-        assert done.returncode == 0, done.stderr
-        return done.stdout.split()
-
-    return run
-
-
 def test_a_unit_that_no_unit_has(said):
     text = GOOD.replace('"m/s"', '"furlong"')
     assert "onset is in 'furlong'" in said(text) and "m/s2" in said(text)
@@ -283,11 +266,11 @@ print(scenario.catalogue.effects[-1].id, scenario.grease.fall)
 """
 
 
-def test_scenarios_have_an_installed_one_by_themselves(alone, tmp_path):
+def test_scenarios_have_an_installed_one_by_themselves(tmp_path):
     (tmp_path / "grease.py").write_text(text_of("grease"), encoding="utf-8")
     info = tmp_path / "grease-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: grease\nVersion: 1.0\n")
     (info / "entry_points.txt").write_text("[stickslip.effects]\ngrease = grease:EFFECT\n")
     path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
-    assert alone(INSTALLED, PYTHONPATH=path) == ["grease", "0.0"]
+    assert python(INSTALLED, env=os.environ | {"PYTHONPATH": path}) == "grease 0.0\n"

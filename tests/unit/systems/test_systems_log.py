@@ -6,7 +6,7 @@ import sys
 
 import pytest
 from c_units import made
-from command_line import refusal
+from command_line import python, refusal
 
 from cosim.cli import main
 
@@ -121,9 +121,8 @@ def test_a_system_runs_without_the_models_of_this_package(system, tmp_path):
         "heavy = {'stickslip.compiled', 'skfem', 'meshio', 'scipy.optimize'};"
         "print(sorted(heavy & set(sys.modules)), code)"
     )
-    command = [sys.executable, "-P", "-c", program, "couple", system(0), "--json"]
-    done = subprocess.run([*command, "-o", str(tmp_path / "out")], capture_output=True, text=True)
-    assert done.stdout.splitlines()[-1] == "[] 0", done.stderr
+    told = python(program, "couple", system(0), "--json", "-o", tmp_path / "out")
+    assert told.splitlines()[-1] == "[] 0"
 
 
 def test_a_log_of_somebody_else_is_left_alone(system, tmp_path, capsys):

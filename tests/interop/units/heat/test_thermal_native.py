@@ -1,7 +1,6 @@
 """The native BeltIceThermal: its sources, its resources, and a host without Python."""
 
 import struct
-import subprocess
 import sys
 import urllib.parse
 import zipfile
@@ -10,6 +9,7 @@ from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_uint, c_void_p
 import pytest
 from c_instance import ERROR, OK
 from c_library import SANITIZERS, Host, compiled, compiler, host_in
+from command_line import python
 from heat_instance import H
 from native_unit import MODEL_EXCHANGE, Unit, references
 
@@ -28,16 +28,7 @@ sys.modules.update(dict.fromkeys(sys.argv[1:]))
 from cosim.fmu.thermal import native_unit
 print(len(native_unit.sources()), native_unit.guid())
 """
-    told = [
-        subprocess.run(
-            [sys.executable, "-P", "-c", program, *blocked],
-            check=True,
-            capture_output=True,
-            text=True,
-            cwd=tmp_path,
-        ).stdout.split()
-        for blocked in (missing, ())
-    ]
+    told = [python(program, *blocked, cwd=tmp_path).split() for blocked in (missing, ())]
     assert told[0] == told[1] and int(told[0][0]) > 20
 
 

@@ -1,10 +1,10 @@
 """Hosts around the units: fmpy's simulation, one without numpy, one that wants to be warned."""
 
 import os
-import subprocess
 import sys
 
 import fmpy
+from command_line import python
 from fmpy_instance import SLIDING
 
 from cosim.scenario.defaults import stated
@@ -35,11 +35,10 @@ with Unit(unit, folder).instance(resources=(folder / "resources").as_uri().encod
 def test_a_host_without_numpy_runs_it(unit, tmp_path, block):
     folder = fmpy.extract(unit, unzipdir=tmp_path / "bare")
     helpers = os.pathsep.join(each for each in sys.path if "helpers" in each)
-    command = [sys.executable, "-c", BARE, helpers, str(unit), folder]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    said = python(BARE, helpers, unit, folder)
     block.initialise(**stated())
     block.march(0, 100, 0.01)
-    assert (done.stdout.strip(), done.stderr) == (repr(block.get("x")), "")
+    assert said.strip() == repr(block.get("x"))
 
 
 def test_a_surface_that_the_creep_keeps_up_with_is_warned_of_once(unit):

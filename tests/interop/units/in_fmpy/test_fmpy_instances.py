@@ -1,12 +1,11 @@
 """States and instances in fmpy: a run goes on from a state, and no instance knows of another."""
 
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import fmpy_slave
 import pytest
+from command_line import python
 from fmpy_instance import SPEED, instance
 
 from cosim.fmu import python_unit
@@ -28,10 +27,8 @@ def test_a_serialised_state_continues_in_another_process(unit, block, tmp_path):
         "    print(*other.everything())\n"
     )
     helpers = (Path(__file__).parent, Path(fmpy_slave.__file__).parent)
-    places = (os.pathsep.join(map(str, helpers)), str(unit), str(tmp_path))
-    command = [sys.executable, "-c", program, *places]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert done.stdout.split() == block.everything()
+    said = python(program, os.pathsep.join(map(str, helpers)), unit, tmp_path)
+    assert said.split() == block.everything()
 
 
 def test_two_instances_do_not_know_each_other(unit, tmp_path):
