@@ -90,6 +90,14 @@ def test_the_ledger_is_closed_at_every_point_of_the_speed_ramp(block):
         assert abs(block.get("energy_residual")) < 1e-10
 
 
+def test_the_ledger_has_the_work_of_forces_from_outside(block):
+    block.initialise(**{"lateral_friction.ratio": 1.0, "initial.x": 0.01})
+    for push in ("force_x", "force_y", "moment"):
+        block.set(f"external_{push}", {"moment": 0.05}.get(push, 0.8))
+    block.march(0, 100, 0.01)
+    assert abs(block.get("energy_residual")) < 1e-10 < 1e-3 < abs(block.get("external_work"))
+
+
 @pytest.mark.parametrize("hold", [0, 1])
 def test_the_units_move_alike_to_the_last_bit(fmu, python_fmu, tmp_path, hold):
     seen = []
