@@ -366,28 +366,45 @@ class _Fitting:
         return self._fitted(named, [], is_shown=False).ladder[-1].gap
 
     def rivals(self, parts: Sequence[Part], named: Named) -> _Rivals:
-        """Of a lone finding along x what the rows would nearly have in its place, simulated."""
-        if len(parts) != 1 or not (parts[0].in_kernel and parts[0].finding.added):
+        """Of a lone finding along x what the rows would nearly have in its place, simulated.
+
+        What no effect stands for is no more than the model without it.
+        """
+        if len(parts) != 1 or not parts[0].finding.added:
             return {}
         (finding,) = named.findings
         rivals = {name: self._in_place(named, name) for name in rivals_of(finding)}
         if not rivals:
             return {}
         without = self._fitted(named, [], is_shown=False)
-        own = without.gained(parts[0]) - price_of(finding.name)
-        return {name: (rival, without.gained(rival) - price_of(name) - own)
+        own = without.gained(parts[0]) - price_of(finding.name) if parts[0].in_kernel else 0.0
+        return {name: (rival, self._more(rival, finding.others[name], without, named) - own)
                 for name, rival in rivals.items() if rival.in_kernel}  # fmt: skip
+
+    def _more(self, rival: Part, rows: float, without: Models, named: Named) -> float:
+        """What simulated runs gain by a rival; by any form of its law, where rows hardly tell it.
+
+        rows : ln of how much more probable it is by them than the finding
+        """
+        forms = [rival]
+        if rows > -ALIKE:
+            forms += [self.part(named, rival.finding, law) for law in rival.rivals(self.campaign)
+                      if law.effect == rival.effect]  # fmt: skip
+        return max(map(without.gained, forms)) - price_of(rival.finding.name)
 
     def overruled(self, parts: Sequence[Part], named: Named, rivals: _Rivals) -> Rejected | None:
         """A lone finding that simulated runs put so far behind a rival that the rows must err.
 
-        Runs that no fit has seen must come out better with the rival, too.
+        Runs that no fit has seen must come out better with the rival, too; and be explained by it
+        in place of what no effect stands for.
         """
         for rival, more in rivals.values():
             if more > SURE:
                 with_it, own = (self._fitted(named, some) for some in ([rival], parts))
-                if judged(with_it.ladder[-1].gap) < judged(own.ladder[-1].gap):
-                    gained = self._fitted(named, [], is_shown=False).gained(parts[0])
+                is_better = judged(with_it.ladder[-1].gap) < judged(own.ladder[-1].gap)
+                if is_better and (parts[0].in_kernel or explains(with_it.ladder)):
+                    without = self._fitted(named, [], is_shown=False)
+                    gained = without.gained(parts[0]) if parts[0].in_kernel else None
                     return Rejected(parts[0].finding.name, parts[0].finding.gain, gained)
         return None
 

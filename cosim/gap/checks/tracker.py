@@ -102,26 +102,29 @@ def _stretches(run: MeasuredRun) -> list[slice]:
 
 
 def _of_steps(runs: Sequence[MeasuredRun]) -> list[Doubt]:
-    """One for all runs where a step q, of which more than half are written, is felt.
+    """One for all the runs that are written in steps q which are felt.
 
     What rounding leaves is of variance q^2 / 12 (Bennett 1948) beside the noise: it is felt where
     that is more than what chance makes of the noise's variance.
     """
-    found = [(run, *lattice(run.motion.x)) for run in runs]
-    steps = [step for _, step, _ in found if step > 0.0]
-    if 2 * len(steps) <= len(runs):
+    found = [(run, step, share) for run in runs
+             for step, share in [lattice(run.motion.x)] if step > 0.0]  # fmt: skip
+    if not found:
         return []
-    step = float(np.median(steps))
-    share = float(np.mean([share for *_, share in found if share > 0.0]))
-    samples = sum(int(np.isfinite(run.motion.x).sum()) for run in runs)
-    noise = math.sqrt(float(np.mean([run.noise["x"] ** 2 for run in runs])))
+    stepped = [run for run, *_ in found]
+    step = float(np.median([step for _, step, _ in found]))
+    share = float(np.mean([share for *_, share in found]))
+    samples = sum(int(np.isfinite(run.motion.x).sum()) for run in stepped)
+    noise = math.sqrt(float(np.mean([run.noise["x"] ** 2 for run in stepped])))
     if felt(step, noise, samples) > LEVEL:
         return []
+    names = tuple(run.name for run in stepped)
+    where = "all runs" if len(names) == len(runs) else ", ".join(names)
     text = (
-        f"all runs: {100.0 * share:.0f} % of x are multiples of {1e3 * step:.3g} mm, a step that "
+        f"{where}: {100.0 * share:.0f} % of x are multiples of {1e3 * step:.3g} mm, a step that "
         f"is felt beside noise of {1e3 * noise:.3g} mm"
     )
-    return [Doubt("steps", text, tuple(run.name for run in runs))]
+    return [Doubt("steps", text, names)]
 
 
 def felt(step: float, noise: float, samples: int) -> float:

@@ -194,14 +194,19 @@ def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told
 
 
 @pytest.mark.parametrize(
-    ("more", "held_out", "gone"),
-    [(499.0, 1.0, False), (501.0, 1.0, True), (501.0, 1.06, False)],
-)
+    ("more", "own", "held_out", "gone"),
+    [(499.0, 1.05, 1.0, False), (501.0, 1.05, 1.0, True), (501.0, 1.05, 1.06, False),
+     (501.0, 2.0, 1.29, True), (501.0, 2.0, 1.31, True),
+     (501.0, None, 1.29, True), (501.0, None, 1.31, False)],
+)  # fmt: skip
 def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(
-    monkeypatch, more, held_out, gone
+    monkeypatch, more, own, held_out, gone
 ):
-    part, rival = (Part(finding(name, 30.0), None, (), (), {}) for name in ("run_in", "film_drag"))
-    gaps = {(): 2.0, ("run_in",): 1.05, ("film_drag",): held_out}
+    """own : gap with what the rows have; None where no effect stands for it"""
+    part, rival = (Part(finding(name, 30.0), None, (), (), settings)
+                   for name, settings in (("run_in", {"on": 1.0} if own else {}),
+                                          ("film_drag", {"on": 1.0})))  # fmt: skip
+    gaps = {(): 2.0, ("run_in",): own or 2.0, ("film_drag",): held_out}
     monkeypatch.setattr(
         find._Fitting, "_fitted", lambda self, named, parts, **_: SimpleNamespace(
             gained=lambda part: 20.0, ladder=[

@@ -295,6 +295,15 @@ def test_steps_are_found(step, decimals):
     assert doubt.check == "steps" and not doubt.severe
 
 
+def test_steps_of_some_runs_are_told_with_their_names():
+    runs = [run_of(0.1, number) for number in range(3)]
+    runs[1] = run_of(0.1, 1, filtered=lambda x: 4e-3 * np.round(x / 4e-3))
+    runs = [replace(run, name=f"run0{number}") for number, run in enumerate(runs)]
+    (doubt,) = doubts_of_noise(campaign_of(runs), runs)
+    assert (doubt.check, doubt.runs) == ("steps", ("run01",))
+    assert doubt.text.startswith("run01: 100 % of x are multiples of 4 mm")
+
+
 @pytest.mark.parametrize("decimals", [1e-9, 1e-6, 1e-5])
 def test_decimals_of_a_file_are_no_steps(decimals):
     for seed in range(20):
