@@ -47,8 +47,9 @@ from cosim.gap.weak_form.track import thinned
 from cosim.gap.windows.run_model import LOADING
 
 AGEING = "static_strengthening"
-#: Steps of the bar: checks, search, and the models that are fitted.
-STEPS = 6
+#: Parts of the bar, and where it stands after checks and where the search begins. Nobody knows how
+#: many models will be fitted: each step of one takes a share of what is left.
+PARTS, BEGINNING, SHARE = 100, (2, 5), 0.2
 
 Progress = Callable[[int, int], object]
 #: Name -> what it would put into the model, and ln of how much more probable simulated runs are
@@ -62,8 +63,7 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     Nothing is drawn: the same campaign gives the same answer. Effects are searched for only where
     nothing of the data is in such doubt that none would be named.
 
-    jobs : runs that are simulated at a time; progress : called with the number of steps done and
-    of all
+    jobs : runs that are simulated at a time; progress : called with the parts done and of all
     """
     step = _Steps(progress)
     doubts = doubts_of(campaign)
@@ -468,11 +468,13 @@ def _physics(campaign: Campaign) -> set[str]:
 
 class _Steps:
     def __init__(self, progress: Progress | None):
-        self.progress, self.done = progress or (lambda done, total: None), 0
+        self.progress, self.made, self.done = progress or (lambda done, total: None), 0, 0
 
     def __call__(self) -> None:
-        self.done = min(self.done + 1, STEPS - 1)
-        self.progress(self.done, STEPS)
+        further = self.done + round(SHARE * (PARTS - self.done))
+        self.done = BEGINNING[self.made] if self.made < len(BEGINNING) else further
+        self.made += 1
+        self.progress(self.done, PARTS)
 
     def end(self) -> None:
-        self.progress(STEPS, STEPS)
+        self.progress(PARTS, PARTS)

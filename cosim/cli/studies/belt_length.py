@@ -49,7 +49,7 @@ from cosim.studies.belt_length.show.files import (
     write_page,
 )
 from cosim.studies.belt_length.show.wording import two_digits
-from cosim.studies.belt_length.study import BOUNDS, check_case, check_options
+from cosim.studies.belt_length.study import BOUNDS, check_case, check_options, steps
 
 EXAMPLE = "stickslip belt-length --length 1 2 4 --speed 0.15 0.82 -o results/belt"
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
@@ -214,9 +214,9 @@ def execute(arguments: Namespace) -> int:
     own = wanted[0] if arguments.scenario else None
     study.grid = empty_map(arguments.map, own) if arguments.map else None
     try:
-        with Bar(total=len(wanted) + arguments.map**2, unit="case") as bar:
+        with Bar(total=steps(study, wanted, own is not None), unit="run") as bar:
             if own is not None:
-                answer_all(study, wanted, arguments.jobs, lambda count: None)
+                answer_all(study, wanted, arguments.jobs, bar.update)
             work_off(study, wanted, arguments.jobs, bar.update)
             if study.grid is not None:
                 fill_map(study.grid, wanted[0], arguments.jobs, bar.update)

@@ -7,7 +7,7 @@ many of them the belt that is there is long enough.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from importlib import import_module
 from pathlib import Path
@@ -151,6 +151,7 @@ def how_long(
     samples: int = 128,
     jobs: int = 1,
     lengths: Sequence[float] = (),
+    progress: Callable[[int], object] = lambda count: None,
 ) -> Answer:
     """How long the belt must be that meets the ice less than a limit above the air.
 
@@ -164,6 +165,7 @@ def how_long(
     samples : runs of the model for the doubt, a power of two from 32; 0 for none
     jobs : processes
     lengths : of further belts, m, on which the sampled rigs are to be known
+    progress : called with the number of runs for the doubt that are done since it was
 
     Returns an `Answer`. Raises StudyError in one line for a scenario without a belt, or whose belt
     never slides; ParameterError for what has no room on its belt; NoSteadyState where nothing
@@ -194,7 +196,7 @@ def how_long(
         return replace(plain, reason=NOT_ASKED)
     low, high = _range(case, cold or LONGEST, [case.length, *lengths])
     try:
-        rigs = Rigs(case, samples, (low, high), _FLOOR * limit, jobs)
+        rigs = Rigs(case, samples, (low, high), _FLOOR * limit, jobs, progress)
     except Melts:
         return replace(plain, reason="the air is as warm as melting ice")
     melts = rigs.melting(case.length)

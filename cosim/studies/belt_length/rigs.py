@@ -8,6 +8,7 @@ measured on runs that they have not seen. On one belt, or with the length as one
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,8 @@ Array = NDArray[np.float64]
 #: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
 FEWEST_SAMPLES = 32
 _TESTED = 0.25
+#: Runs of the model between two words of how far it is.
+_AT_ONCE = 8
 #: Rigs among which a share of them is counted.
 DRAWN = 2048
 #: Largest share of the rigs that may melt their ice: rises are as if none did, which is too much
@@ -54,6 +57,7 @@ class Rigs:
     samples: runs of the model for the polynomials, a power of two from FEWEST_SAMPLES. lengths:
     (shortest, longest), m; left out, the case's own. floor: rises below it (K) are taken for it, so
     that where a belt never comes round logarithms have an end; with lengths only. jobs: processes.
+    progress: called with the number of runs that are done since it was.
     Raises `Melts` where the air is as warm as melting ice.
     """
 
@@ -64,17 +68,18 @@ class Rigs:
         lengths: tuple[float, float] | None = None,
         floor: float = 0.0,
         jobs: int = 1,
+        progress: Callable[[int], object] = lambda count: None,
     ) -> None:
         self.unknowns = unknowns_of(case)
         #: Of those that the polynomials are laid over; the linear ones enter afterwards.
         self._columns = [i for i, one in enumerate(self.unknowns) if not (one.linear or one.fixed)]
         self._lengths, self._floor = lengths, floor
         self._melts_at = case.rig.ice.melting_point_degC - case.ambient_degC
-        tested = round(_TESTED * samples)
-        self.evaluations = samples + tested
+        self.evaluations = runs_for(samples)
+        tested = self.evaluations - samples
         draws = qmc.Sobol(len(self._columns) + (lengths is not None), rng=1)
         points = self._levelled(np.concatenate((draws.random(samples), draws.random(tested))))
-        parts = _answered([self._meant(case, point) for point in points], jobs)
+        parts = _answered([self._meant(case, point) for point in points], jobs, progress)
         if lengths is not None:
             parts[..., :SAMPLE] = np.maximum(parts[..., :SAMPLE], floor)
         # a rise falls by orders of magnitude with the length, and is needed at the limit; what the
@@ -156,20 +161,29 @@ class Rigs:
         return float(np.mean((found - true) ** 2) / np.var(spread))
 
 
+def runs_for(samples: int) -> int:
+    """Runs of the model for polynomials through so many, tests included."""
+    return samples + round(_TESTED * samples)
+
+
 def values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
     """Key -> values (n,) at shares (n, unknowns) of the ranges."""
     return {one.key: one.at(shares[:, i]) for i, one in enumerate(unknowns)}
 
 
-def _answered(meant: list[tuple[Case, dict[str, float]]], jobs: int) -> Array:
+def _answered(
+    meant: list[tuple[Case, dict[str, float]]], jobs: int, progress: Callable[[int], object]
+) -> Array:
     """`answers` to each: (n, 3, 5), in as many processes."""
     # neighbours share blocks of ice, whose modes take time
     order = np.lexsort(
         [[one[key] for _, one in meant] for key in ("contact_area", "ice_conductivity")]
     )
-    shares = np.array_split(order, jobs)
+    shares, found = np.array_split(order, max(jobs, len(meant) // _AT_ONCE)), []
     with processes(jobs) as mapped:
-        found = [*mapped(_each, [([meant[i] for i in share],) for share in shares])]
+        for some in mapped(_each, [([meant[i] for i in share],) for share in shares]):
+            found.append(some)
+            progress(len(some))
     parts = np.empty((len(meant), 3, len(COLUMNS)))
     parts[order] = np.concatenate(found)
     return parts

@@ -22,7 +22,7 @@ from .drift import drift, wait
 from .lengths import shortest_belts
 from .required_length import Answer, how_long
 from .result import Options, Row, Study
-from .rigs import FEWEST_SAMPLES
+from .rigs import FEWEST_SAMPLES, runs_for
 from .uncertainty import uncertainty
 
 Progress = Callable[[int], object]
@@ -168,6 +168,16 @@ def _row(case: Case, options: Options, answer: Answer | None) -> Row:
     )
 
 
+def steps(study: Study, wanted: list[Case], is_own: bool) -> int:
+    """Of the bar: runs of the model for what is in doubt, cases, places on the map.
+
+    is_own: the doubt is that of an own rig's drives, not of each case.
+    """
+    doubts = len({case.with_length(1.0) for case in wanted}) if is_own else len(wanted)
+    places = 0 if study.grid is None else study.grid.drift.size
+    return doubts * runs_for(study.options.samples) + len(wanted) + places
+
+
 def work_off(study: Study, wanted: list[Case], jobs: int, progress: Progress) -> None:
     """Fill the study's rows, in order; whatever interrupts it, the rows until then stay.
 
@@ -178,7 +188,7 @@ def work_off(study: Study, wanted: list[Case], jobs: int, progress: Progress) ->
     with processes(min(jobs, len(calls))) as mapped:
         for row in mapped(_row, calls):
             study.rows.append(row)
-            progress(1)
+            progress(1 if answers else 1 + runs_for(study.options.samples))
     study.complete = True
 
 
@@ -189,6 +199,15 @@ def answer_all(study: Study, wanted: list[Case], jobs: int, progress: Progress) 
         drives.setdefault(case.with_length(1.0), []).append(case)
     limit, samples = study.options.limit, study.options.samples
     for belts in drives.values():
+        left = runs_for(samples)
+
+        def done(count: int) -> None:
+            nonlocal left
+            left -= count
+            progress(count)
+
         lengths = [case.length for case in belts]
-        study.answers.append(how_long(belts[0], limit, samples=samples, jobs=jobs, lengths=lengths))
-        progress(1)
+        study.answers.append(
+            how_long(belts[0], limit, samples=samples, jobs=jobs, lengths=lengths, progress=done)
+        )
+        progress(left)  # those that were not needed

@@ -5,13 +5,14 @@ import sys
 from types import SimpleNamespace
 
 import gap_answers as answers
+import numpy as np
 import pytest
 from command_line import refusal
 from gap_campaigns import write_campaign
 
 from cosim.cli import main
 from cosim.cli.measurements import gap as gap_command
-from cosim.gap import read_campaign
+from cosim.gap import find, read_campaign
 from cosim.gap.result import Doubt
 from cosim.gap.show import figures
 
@@ -102,6 +103,16 @@ def test_the_bar_has_a_known_end(gap, monkeypatch):
     with gap_command.Bar(disable=False) as bar:
         assert gap_command._find(gap.campaign, 0, 1, bar) is gap
         assert (bar.n, bar.total) == (5, 9)
+
+
+def test_the_bar_moves_with_every_step_of_a_model_and_ends_once():
+    seen = []
+    step = find._Steps(lambda done, total: seen.append(done / total))
+    for _ in range(12):
+        step()
+    step.end()
+    assert seen[0] < 0.05 and seen[-2] < 1.0 == seen[-1]
+    assert all(np.diff(seen) > 0.0)
 
 
 def test_runs_of_figures_alone_have_their_own_way(tmp_path, monkeypatch):
