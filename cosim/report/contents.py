@@ -28,6 +28,8 @@ Tables = dict[str, dict[str, dict[str, Any]]]
 Array = NDArray[np.float64]
 
 SLIP = 1.0
+#: Two heat transfers to the air that differ by less than this part are the same.
+SAME_AIR = 0.01
 ATTRIBUTE = "assessment"
 STABILITY_UNITS = {
     "growth": "1",
@@ -115,13 +117,37 @@ def thermal_of(dataset: Data) -> ThermalParameters:
     radius, mass = (value_of(dataset, "rig", key) for key in ("contact_radius", "mass"))
     if radius is not None:
         tables["contact"] = {"radius": radius, "load": GRAVITY * mass} | tables.get("contact", {})
-    found = ThermalParameters.model_validate(tables)
-    keys = (("surface", "speed"), ("friction", "mu_k"), ("run", "duration"))
-    speed, mu, run = (value_of(dataset, *key) for key in keys)
+    return _in_its_air(dataset, ThermalParameters.model_validate(tables))
+
+
+def still_air_film(dataset: Data) -> float | None:
+    """Heat transfer of a belt that moves as fast as in the run through still air, W/(m2 K).
+
+    On each face, as `stickslip belt-length` takes it. None where that is not known: of no speed,
+    or of one that leaves laminar air.
+    """
+    from thermal.belt.air import NotLaminar
+
+    speed = value_of(dataset, "surface", "speed")
+    if not speed:
+        return None
+    thermal = thermal_of(dataset)
+    belt = thermal.belt.model_copy(update={"still_air_speed": abs(speed)})
+    try:
+        moved = _in_its_air(dataset, thermal.model_copy(update={"belt": belt})).belt
+        return moved.film if moved.still_air_speed == 0.0 else None
+    except NotLaminar:
+        return None
+
+
+def _in_its_air(dataset: Data, thermal: ThermalParameters) -> ThermalParameters:
+    """With the heat transfer of still air, where that is asked for, as a number."""
+    keys = (("surface", "speed"), ("friction", "mu_k"), ("run", "duration"), ("rig", "mass"))
+    speed, mu, run, mass = (value_of(dataset, *key) for key in keys)
     if None in (speed, mu, run, mass):
-        return found
+        return thermal
     moving = run - 0.5 * min(ramp_end(dataset), run)
-    return found.in_still_air(mu * mass * GRAVITY, abs(speed), moving)
+    return thermal.in_still_air(mu * mass * GRAVITY, abs(speed), moving)
 
 
 def parameter_values(dataset: Data) -> dict[str, dict[str, Any]]:

@@ -25,7 +25,7 @@ from stickslip.kernel.layout import (
 
 from cosim.report.columns import Data
 
-from .contents import SLIP, mechanics_of, ramp_end, thermal_of, value_of
+from .contents import SLIP, mechanics_of, ramp_end, still_air_film, thermal_of, value_of
 from .quantities import Quantity, ratio
 
 TEMPERATURES = (
@@ -157,7 +157,8 @@ def end_of_sliding(dataset: Data) -> dict[str, Quantity | str]:
     if not power > 0.0:
         return {}
     try:
-        end = in_the_end(thermal_of(dataset), speed, power / speed, ramp)
+        thermal = thermal_of(dataset)
+        end = in_the_end(thermal, speed, power / speed, ramp)
     except NoSteadyState as error:
         return {"reason": f"no end: {error}"}
     if end.rise is None:
@@ -169,6 +170,9 @@ def end_of_sliding(dataset: Data) -> dict[str, Quantity | str]:
         "interface_degC": Quantity(ambient_degC(dataset) + end.rise, "degC"),
         "reached": Quantity(end.reached, "s"),
         "within": Quantity(end.within, "1"),
+        "air_heat_transfer": Quantity(thermal.belt.film, "W/(m2.K)"),
+        "still_air_heat_transfer": Quantity(still_air_film(dataset), "W/(m2.K)"),
+        "speed": Quantity(speed, "m/s"),
     }
 
 

@@ -15,7 +15,7 @@ from cosim.report.contents import REGIME_UNITS
 from cosim.scenario.keys import taken_line
 
 from .bounds import bounds_sentences
-from .contents import Views, material_of, stored_tables
+from .contents import SAME_AIR, Views, material_of, stored_tables
 from .coupling import doubts, effort_rows, step_rows
 from .files import write_json
 from .heat_numbers import ambient_degC
@@ -207,7 +207,27 @@ def ending_rows(ends: Mapping[str, Any]) -> list[tuple[str, ...]]:
         ),
         ("its rise over the air", told(ends["interface_rise"], "K")),
         (near, reached),
+        *_air_rows(ends),
     ]
+
+
+def _air_rows(ends: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    """The heat transfer to the air, and why `stickslip belt-length` takes another."""
+    taken, still = ends["air_heat_transfer"], ends["still_air_heat_transfer"]
+    rows: list[tuple[str, ...]] = [
+        ("heat transfer to the air, each face of the belt", _of_air(taken))
+    ]
+    if still is None or abs(taken / still - 1.0) < SAME_AIR:
+        return rows
+    why = (
+        "that of still air, which `belt-length` takes unless belt.air_heat_transfer is given;"
+        f" belt.still_air_speed = {ends['speed']:g} makes this run take it, too"
+    )
+    return [*rows, (why, _of_air(still))]
+
+
+def _of_air(film: float) -> str:
+    return told(film, "W/(m2.K)", count=2)
 
 
 def beyond(numbers: Mapping[str, Any]) -> list[str]:

@@ -14,7 +14,7 @@ from cosim.report import write_results
 from cosim.report.figures import plates_of
 from cosim.report.page import number
 from cosim.report.quantities import told
-from cosim.report.results import number_tables
+from cosim.report.results import ending_rows, number_tables
 from cosim.report.run_answer import headline, tiles
 from cosim.report.run_summary import summary
 
@@ -188,6 +188,19 @@ def test_the_page_says_how_warm_it_gets_in_the_end():
     rows = [row for table in number_tables(summary(dataset)) for row in table.rows]
     assert ("its rise over the air", told(ends["interface_rise"], "K")) in rows
     assert any(words == "from then on within 5 % of that rise" for words, _ in rows)
+
+
+def test_the_page_says_why_the_belt_length_takes_another_heat_transfer_to_the_air():
+    ends = summary(coupled_dataset())["in_the_end"]
+    same = ends | {"still_air_heat_transfer": ends["air_heat_transfer"]}
+    assert [value for _, value in ending_rows(same)[3:]] == [told_air(same["air_heat_transfer"])]
+    (_, taken), (why, still) = ending_rows(ends | {"still_air_heat_transfer": 5.4518})[3:]
+    assert (taken, still) == (told_air(ends["air_heat_transfer"]), "5.5 W/(m² K)")
+    assert f"belt.still_air_speed = {ends['speed']:g} makes this run take it" in why
+
+
+def told_air(film):
+    return told(film, "W/(m2.K)", count=2)
 
 
 def test_every_page_has_the_dark_look_of_the_shared_style_and_none_of_its_own():

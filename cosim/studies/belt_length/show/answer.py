@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+from cosim.report.contents import SAME_AIR
+
 from ..case import Case
 from ..lengths import LONGEST, metres
 from ..required_length import NOT_ASKED, Answer, Question
@@ -11,29 +13,30 @@ from .wording import outside, percent, span, why_outside
 
 #: Part of the variance that polynomials may miss without a word; beyond the other they say nothing.
 _MISSED, _WORTHLESS = 0.1, 1.0
-#: Two heat transfers to the air that differ by less than this part are the same.
-_SAME = 0.01
 
 
 def answered(answer: Answer) -> list[str]:
     """The answer for one drive, the shortest first, in the words of ice."""
     case, run, interface, limit = answer.case, answer.run, answer.interface, answer.limit
-    cold = f"comes round less than {limit:g} K above the air"
     needed = _needed(run, case)
     belt = needed if needed.startswith(("no ", "any ")) else f"a belt of {needed}"
-    ever = f"no belt up to {LONGEST:g} m"
-    if run.for_ever is not None:
-        ever = f"a belt of {metres(run.for_ever)}"
     return [
-        f"At {case.speed:g} m/s {belt} {cold} after {case.protocol.in_words()}{_interval(run)}.",
+        f"At {case.speed:g} m/s {belt} comes round less than {limit:g} K above the air after"
+        f" {case.protocol.in_words()}, {_for_ever(run)}{_interval(run, ' after the runs')}.",
         f"The belt of {case.length:g} m meets the ice {_on_own(run)}.",
-        f"For ever, {ever} {cold}.",
         f"The interface warms by less than {limit:g} K at constant speed on"
         f" {_needed(interface, case)}{_interval(interface)}; on {case.length:g} m it gets"
         f" {_on_own(interface)}.",
-        *_how_sure(answer),
         _film(case),
+        *_how_sure(answer),
     ]
+
+
+def _for_ever(question: Question) -> str:
+    """What a belt needs that never rests, behind what one needs for the runs."""
+    if question.for_ever is None:
+        return f"for ever none up to {LONGEST:g} m"
+    return f"for ever one of {metres(question.for_ever)}"
 
 
 def _film(case: Case) -> str:
@@ -41,15 +44,16 @@ def _film(case: Case) -> str:
     gives = f"The belt of {case.length:g} m gives {case.film:.2g} W/m2K to the air on each face"
     if case.h is not None:
         return f"{gives}, as given."
-    runs, same = case.rig.belt.film, "`stickslip run` takes the same"
-    if abs(runs / case.film - 1.0) >= _SAME:
-        same = (
-            f"`stickslip run` takes {runs:.2g} W/m2K, which is what belt.air_heat_transfer is"
-            " unless a scenario gives it, or belt.still_air_speed, which makes both the same"
-        )
+    air = f"a belt at {case.speed:g} m/s through still air"
+    takes = f"{gives}, as {air} does that is as warm as it is after the runs"
+    ever = f"{case.lasting.film:.2g} W/m2K as warm as for ever"
+    runs = case.rig.belt.film
+    if abs(runs / case.film - 1.0) < SAME_AIR:
+        return f"{takes}, {ever}. `stickslip run` takes the same."
     return (
-        f"{gives}, as a belt at {case.speed:g} m/s through still air does that is as warm as it is"
-        f" after the runs, {case.lasting.film:.2g} W/m2K as warm as for ever. {same}."
+        f"{takes}, {ever}. `stickslip run` takes {runs:.2g} W/m2K, by belt.air_heat_transfer (15"
+        " where a scenario does not say) or belt.still_air_speed: `--set belt.still_air_speed="
+        f"{case.speed:g}` makes it take the same, `--h {runs:.3g}` this study."
     )
 
 
@@ -62,13 +66,14 @@ def _needed(question: Question, case: Case) -> str:
     return f"{room}{length}" if question.shortest <= case.shortest else length
 
 
-def _interval(question: Question) -> str:
+def _interval(question: Question, when: str = "") -> str:
     """The same over what is not known; nothing where there is no doubt."""
     if not (question.low and question.median and question.high):
         return ""
     return (
-        f" as the rig is given; over what is not known of it on {question.low.in_words} in 5 % of"
-        f" the rigs, on {question.median.in_words} in half and on {question.high.in_words} in 95 %"
+        f", as the rig is given; over what is not known of it{when} on {question.low.in_words} in"
+        f" 5 % of the rigs, on {question.median.in_words} in half and on {question.high.in_words}"
+        " in 95 %"
     )
 
 

@@ -12,7 +12,7 @@ from cosim.report.material import page_of_material
 from cosim.report.page import Picture, render
 
 from ..lengths import LONGEST, length_text
-from ..required_length import Answer
+from ..required_length import Answer, Question
 from ..result import Row, Study
 from ..unknowns import unknowns_of
 from .verdict import verdict
@@ -93,7 +93,8 @@ def headline(study: Study) -> str:
     limit, shortest = study.options.limit, min(row.case.length for row in study.rows)
     rows = [row for row in study.rows if row.case.length == shortest]
     rises = [row.drift.run for row in rows]
-    warm = f"it meets the block {span(rises)} K above the air, where {limit:g} K is the limit"
+    when = f"after {rows[0].case.protocol.in_words()}"
+    warm = f"{when} it meets the block {span(rises)} K above the air, {limit:g} K are allowed"
     speeds = ", ".join(f"{speed:g}" for speed in sorted({row.case.speed for row in rows}))
     enough = sum(rise <= limit for rise in rises)
     word = {0: "is too short", len(rows): "suffices"}.get(enough, f"suffices in {enough} cases")
@@ -101,16 +102,21 @@ def headline(study: Study) -> str:
 
 
 def _of_own_rig(answer: Answer) -> str:
-    run = answer.run
+    run, when = answer.run, f"after {answer.case.protocol.in_words()}"
     asked = f"comes round less than {answer.limit:g} K above the air at {answer.case.speed:g} m/s"
     if run.shortest is None:
-        return f"No belt up to {LONGEST:g} m {asked}."
-    told = f"A belt of {length_text(run.shortest)} m {asked}, if the rig is as given"
+        return f"No belt up to {LONGEST:g} m {asked} {when}."
+    told = f"A belt of {length_text(run.shortest)} m {asked} {when}, {_ever(run)} for ever"
+    told += ", if the rig is as given"
     if not (run.median and run.high):
         return f"{told}."
     half, most = (level.in_words.removesuffix(" m") for level in (run.median, run.high))
     sure = f"to be sure of half of the rigs that it may be takes {half} m, of 95 % {most} m"
-    return f"{told}; {sure}."
+    return f"{told}; {sure} for the runs."
+
+
+def _ever(run: Question) -> str:
+    return f"none up to {LONGEST:g} m" if run.for_ever is None else f"{length_text(run.for_ever)} m"
 
 
 def tiles(study: Study) -> list[tuple[str, str]]:
@@ -118,7 +124,10 @@ def tiles(study: Study) -> list[tuple[str, str]]:
     if study.answers:
         return _tiles_of_own_rig(study.answers[0])
     speeds = sorted({row.case.speed for row in study.rows})
-    told = [(f"shortest belt at {speed:g} m/s", _longest(study.rows, speed)) for speed in speeds]
+    told = [
+        (f"shortest belt for the runs at {speed:g} m/s", _longest(study.rows, speed))
+        for speed in speeds
+    ]
     worst = study.worst
     where = f"rise on {worst.case.length:g} m at {worst.case.speed:g} m/s, the largest"
     return [*told[: TILES - 1], (where, f"{two_digits(worst.drift.run)} K")]
@@ -135,9 +144,10 @@ def _longest(rows: Sequence[Row], speed: float) -> str:
 def _tiles_of_own_rig(answer: Answer) -> list[tuple[str, str]]:
     run, case = answer.run, answer.case
     needed = length_text(run.shortest) + " m" * (run.shortest is not None)
-    told = [("shortest belt, as the rig is given", needed)]
+    time = f"shortest belt for {case.protocol.in_words()}"
+    told = [(f"{time}, as the rig is given; {_ever(run)} for ever", needed)]
     told += [
-        (f"enough for {part} of the rigs that it may be", level.in_words)
+        (f"enough in them for {part} of the rigs that it may be", level.in_words)
         for part, level in (("half", run.median), ("95 %", run.high))
         if level is not None
     ]
