@@ -144,7 +144,7 @@ class Models:
         settings = {**settings, BREAK_AWAY: STICK_SCATTER}
         if self._try("scatter", text, (more, settings), self.system.rung(self._added), spread):
             sticks = 100.0 * self.fits[-1].stick_scatter
-            text += f", from stick to stick by {sticks:.2g} %"
+            text += f", from stick to stick by {f'{sticks:.2g}' if sticks > 0.1 else '< 0.1'} %"
             self.ladder[-1] = replace(self.ladder[-1], text=text)
 
     @property

@@ -16,6 +16,7 @@ from cosim import read_scenario
 from cosim.cli.arguments import COMMANDS
 from cosim.fmu.build import NATIVE, THERMAL, ensure_fmu
 from cosim.gap import read_campaign
+from cosim.scenario import packaged_scenarios
 from cosim.systems import read_system
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -136,7 +137,9 @@ def test_the_readme_is_two_screens():
 
 def test_the_packaged_scenarios_that_are_named_are_there():
     (named,) = re.findall(r"Packaged scenarios: ((?:`\w+`(?:, )?)+)", README)
-    for name in re.findall(r"`(\w+)`", named):
+    names = re.findall(r"`(\w+)`", named)
+    assert sorted(names) == packaged_scenarios()
+    for name in names:
         assert read_scenario(name).name == name
 
 

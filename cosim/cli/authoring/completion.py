@@ -22,7 +22,7 @@ def add_arguments(parser: ArgumentParser) -> None:
     parser.add_argument(
         "shell",
         choices=SHELLS,
-        help="whose script is printed (needs the extra stickslip[completion]). bash: write it to "
+        help="whose script is printed (needs `pip install shtab`). bash: write it to "
         "~/.local/share/bash-completion/completions/stickslip; zsh: to _stickslip in a folder of "
         "$fpath; fish: to ~/.config/fish/completions/stickslip.fish",
     )
@@ -34,7 +34,7 @@ def execute(arguments: Namespace) -> int:
         import shtab
     except ImportError:
         raise BadInput(
-            "completion: shtab is not installed, allowed after pip install 'stickslip[completion]'"
+            "completion: shtab is not installed, allowed after pip install shtab"
         ) from None
     from cosim.cli.arguments import parser
     from cosim.scenario import packaged_scenarios

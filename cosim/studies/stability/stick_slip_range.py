@@ -82,26 +82,28 @@ def range_sentence(found: dict[str, Any]) -> str:
     """The answer in a line: "sticks and slips: from rest up to 0.1812 m/s; riding ..."."""
     unit = "" if found["unit"] == "1" else f" {found['unit']}"
     ramp = "" if found["key"] == rig.RAMP else f" of {found['ramp']:g} s"
+    looked = [f"{end:.3g}" for end in found["searched"]]
     told = [
-        f"{TOLD[start]}{ramp if start == RAMP else ''} {_range(windows, unit)}"
+        f"{TOLD[start]}{ramp if start == RAMP else ''} {_range(windows, unit, *looked)}"
         for start, windows in found["stick_slip"].items()
     ]
-    low, high = found["searched"]
     return (
         f"The block sticks and slips {'; '.join(told)} ({found['key']}, here {found['value']:.4g}"
-        f"{unit}; looked for from {low:.3g} to {high:.3g}{unit})."
+        f"{unit}; looked for from {looked[0]} to {looked[1]}{unit})."
     )
 
 
-def _range(windows: list[tuple[float | None, float | None]], unit: str) -> str:
+def _range(
+    windows: list[tuple[float | None, float | None]], unit: str, least: str, most: str
+) -> str:
+    """In words; least, most: what was looked at, beyond which nothing is said."""
     if not windows:
-        return "nowhere"
-    return " and ".join(_window(low, high, unit) for low, high in windows)
+        return f"nowhere from {least} to {most}{unit}"
+    return " and ".join(_window(low, high, unit, least, most) for low, high in windows)
 
 
-def _window(low: float | None, high: float | None, unit: str) -> str:
-    if low is None:
-        return "everywhere" if high is None else f"up to {high:.4g}{unit}"
+def _window(low: float | None, high: float | None, unit: str, least: str, most: str) -> str:
     if high is None:
-        return f"from {low:.4g}{unit} on"
-    return f"from {low:.4g} to {high:.4g}{unit}"
+        begin = least if low is None else f"{low:.4g}"
+        return f"from {begin} to at least {most}{unit}"
+    return f"up to {high:.4g}{unit}" if low is None else f"from {low:.4g} to {high:.4g}{unit}"

@@ -68,7 +68,7 @@ def _client(address: str) -> Client:
     except ImportError as error:
         raise SweepError(
             f"dask: {error.name or 'distributed'} is not installed, "
-            "allowed after pip install 'stickslip[dask]'"
+            "allowed after pip install distributed"
         ) from error
     try:
         return Client(address, timeout=CONNECT_SECONDS, set_as_default=False)

@@ -11,6 +11,7 @@ from cosim.report.style import shown
 from cosim.studies.stability import maps
 from cosim.studies.stability.figures import draw_pretension_map, draw_regime_map
 from cosim.studies.stability.maps import PretensionMap
+from cosim.studies.stability.stick_slip_range import range_sentence
 
 PARAMETERS = read_scenario("study").mechanics
 CASE = SimpleNamespace(name="known", parameters=PARAMETERS, interface=None)
@@ -72,3 +73,15 @@ def test_one_sentence_then_a_picture_then_four_figures():
     assert places == sorted(places)
     assert maps.tiles(numbers)[0] == ("growth of a disturbance in a cycle", "1.42 times")
     assert '<td class="start">' in page and "td.start { min-width" in page
+
+
+def test_a_range_says_how_far_was_looked():
+    """A window without an end was once "everywhere"; it is so far as ten times the value."""
+    found = {"key": "surface.speed", "unit": "m/s", "value": 0.15, "ramp": 10.0}
+    windows = {"rest": [(None, None)], "riding": [(0.2, None)], "ramp": []}
+    said = range_sentence(found | {"searched": [0.015, 1.5], "stick_slip": windows})
+    assert said == (
+        "The block sticks and slips from rest from 0.015 to at least 1.5 m/s; riding on the"
+        " surface from 0.2 to at least 1.5 m/s; from a speed ramp of 10 s nowhere from 0.015 to 1.5"
+        " m/s (surface.speed, here 0.15 m/s; looked for from 0.015 to 1.5 m/s)."
+    )
