@@ -211,7 +211,7 @@ def in_full(axis: Axis) -> None:
 
 
 def logarithmic_x(axes: Axes) -> None:
-    """A scale of 1, 2, 5, 10, ... with digits in full."""
+    """A scale of 1, 2, 5, 10, ... with digits in full; of many decades, 1, 10, ..."""
     axes.set_xscale("log")
     _one_two_five(axes.xaxis)
 
@@ -222,8 +222,14 @@ def logarithmic_y(axes: Axes) -> None:
     _one_two_five(axes.yaxis)
 
 
+#: Ratio of the ends of a logarithmic axis on which 2 and 5 would leave no room between numbers.
+MANY_DECADES = 3e3
+
+
 def _one_two_five(axis: Axis) -> None:
-    axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    low, high = axis.get_view_interval()
+    names = (1.0,) if high > MANY_DECADES * low > 0.0 else (1.0, 2.0, 5.0)
+    axis.set_major_locator(LogLocator(subs=names))
     axis.set_major_formatter(StrMethodFormatter("{x:g}"))
     axis.set_minor_formatter(NullFormatter())
 

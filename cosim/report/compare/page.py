@@ -23,6 +23,8 @@ MANY = 10.0
 EQUAL = "equal within rounding"
 #: Curves among the figures at the top.
 CURVES_AT_TOP = 2
+#: Unit -> what no rig tells from nothing: a part of it, or a figure at the top, would say nothing.
+UNFELT = {"m": 1e-7, "m/s": 1e-6, "rad": 1e-6, "rad/s": 1e-5, "N": 1e-6, "N.m": 1e-7, "K": 1e-6}
 #: Digits that a difference is worth.
 OF_DIFFERENCE = 2
 #: Titles of the summary's groups.
@@ -85,8 +87,8 @@ def page(both: Comparison, pictures: Sequence[Picture], command: str = "") -> st
 def sentence(both: Comparison) -> str:
     """Whether the two differ, and by how much, in one sentence."""
     names = f"{both.a.label} and {both.b.label}"
-    different, curves = len(both.different), both.curves
-    if not different and not curves:
+    different, curves = len(both.different), _felt(both)
+    if not different and not both.curves:
         return f"{names} are equal within rounding, in all that both have."
     told = f"{names} differ in {different} of {different + _same(both)} numbers"
     if curves:
@@ -102,8 +104,17 @@ def tiles(both: Comparison) -> list[tuple[str, str]]:
     found = [(f"of {different + _same(both)} numbers differ", str(different))]
     if bool(both.a.scenario) is bool(both.b.scenario):
         found.insert(0, ("different keys", str(len(both.keys))))
-    curves = both.curves[:CURVES_AT_TOP]
+    curves = _felt(both)[:CURVES_AT_TOP]
     return [*found, *((f"{_plain(one.name)}, apart at most", _at_top(one)) for one in curves)]
+
+
+def _felt(both: Comparison) -> list[Apart]:
+    return [one for one in both.curves if abs(one.largest) > _unfelt(one)]
+
+
+def _unfelt(one: Apart) -> float:
+    unit = DEGREES.get(one.unit, one.unit)
+    return max(ROUNDING.get(unit, 0.0), UNFELT.get(unit, 0.0))
 
 
 def _at_top(one: Apart) -> str:
@@ -142,7 +153,7 @@ def _of_one(both: Comparison, side: str) -> list[tuple[str, list[tuple[str, str]
 def curve_cells(one: Apart) -> tuple[str, str, str, str, str]:
     """Name, largest difference, when, root of the mean square, the largest by A's span."""
     unit = DEGREES.get(one.unit, one.unit)
-    nothing = max(ROUNDING.get(unit, 0.0), SAME * abs(one.largest))
+    nothing = max(_unfelt(one), SAME * abs(one.largest))
     return (
         one.name,
         told(one.largest, unit, count=FOUND),

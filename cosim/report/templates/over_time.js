@@ -3,7 +3,7 @@
 "use strict";
 (() => {
   const HEIGHT = 190, PAPER = 0.6, INK = "#222", SOFT = "#5c5c5c", GRID = "#e3e3e3", SHADE = "#f8ead0";
-  const DASH = [5, 4], FONT = '12px system-ui, "DejaVu Sans", sans-serif';
+  const ON_A_SCREEN = 3, DASH = [5, 4], FONT = '12px system-ui, "DejaVu Sans", sans-serif';
   const plots = [];
   let sharing = false;
 
@@ -79,7 +79,7 @@
       if (time < min || time > max) continue;
       const x = plot.valToPos(time, "x", true);
       stroke(INK, [1, 3], x, bbox.top, x, bottom);
-      ctx.textAlign = x > bbox.left + 0.8 * bbox.width ? "right" : "left";
+      ctx.textAlign = x + ctx.measureText(text).width > ctx.canvas.width ? "right" : "left";
       if (named) ctx.fillText(text, x, bbox.top - 4 * dense);
     }
     const now = live.clock.time;
@@ -194,8 +194,9 @@
     const shown = keys(panel, box, isAbove(panel, data));
     const unit = unitOf(panel);
     const values = panel.curves.map((curve) => live.numbers(curve.values));
-    // beside each other there is no lowest panel that could have the title for all
-    const last = data.columns > 1 || number === data.panels.length - 1;
+    // the lowest has the title for all, unless they are side by side or more than a screen is high
+    const many = data.columns > 1 || data.panels.length > ON_A_SCREEN;
+    const last = many || number === data.panels.length - 1;
     const onCursor = (plot) => {
       const at = plot.cursor.idx;
       shown.forEach(({ value }, n) => {

@@ -6,7 +6,9 @@
     const heads = [...table.querySelectorAll("th")].map((head) => head.textContent.trim());
     for (const { cells } of table.tBodies[0].rows) {
       if (cells.length !== heads.length) continue; // some go over several columns
-      for (let n = 1; n < cells.length; n++) cells[n].dataset.head = heads[n];
+      // a name in the first column says what it is; a number does not
+      const first = cells[0].classList.contains("n") ? 0 : 1;
+      for (let n = first; n < cells.length; n++) cells[n].dataset.head = heads[n];
     }
   }
   for (const table of document.querySelectorAll("table")) {

@@ -146,6 +146,8 @@ def sentence(found: FrictionMap) -> str:
         return f"Friction is {_at(first)}, {air}."
     if found.is_flat(ambient):
         told = number(first.friction, AT_TOP)
+        alike = [a for a in found.ambients if found.is_flat(a) and len(found.at(a)) == len(points)]
+        air = f"in air of {', '.join(map(number, alike))}\u00a0°C"
         dry = "" if laws_of(found) else ": the contact is dry"
         return f"Friction is {told} at all {len(points)} speeds {speeds}, {air}{dry}."
     lowest = found.regimes(ambient)["minimum"]

@@ -79,7 +79,7 @@ def _windows(
 
 
 def range_sentence(found: dict[str, Any]) -> str:
-    """The answer in a line: "sticks and slips: from rest up to 0.1812 m/s; riding ..."."""
+    """The answer in a line: "... sticks and slips from rest up to 0.1812 m/s; riding ..."."""
     unit = "" if found["unit"] == "1" else f" {found['unit']}"
     ramp = "" if found["key"] == rig.RAMP else f" of {found['ramp']:g} s"
     looked = [f"{end:.3g}" for end in found["searched"]]
@@ -88,8 +88,8 @@ def range_sentence(found: dict[str, Any]) -> str:
         for start, windows in found["stick_slip"].items()
     ]
     return (
-        f"The block sticks and slips {'; '.join(told)} ({found['key']}, here {found['value']:.4g}"
-        f"{unit}; looked for from {looked[0]} to {looked[1]}{unit})."
+        f"Disturbed a little, the block sticks and slips {'; '.join(told)} ({found['key']}, here"
+        f" {found['value']:.4g}{unit}; looked for from {looked[0]} to {looked[1]}{unit})."
     )
 
 

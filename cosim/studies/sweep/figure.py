@@ -30,6 +30,8 @@ STILL = 1e-3
 MOST_LINES = 7
 HALF, BAND = LIGHT_BLUE, FAINT_BLUE
 COLOURS = matplotlib.colormaps["viridis"]
+#: As far as it is seen on white, and in the dark on black.
+DARKEST, LIGHTEST = 0.1, 0.65
 #: Inches: height of a panel, width of the figure, which is the page's.
 HEIGHT, WIDTH = 1.75, 10.0
 #: Panels side by side where one key is varied.
@@ -193,7 +195,7 @@ def _draw_spread(axes: Axes, places: Array, quantiles: Array, numeric: bool) -> 
 
 
 def _colours(count: int) -> list[Any]:
-    return [BLUE] if count == 1 else [COLOURS(0.9 * i / (count - 1)) for i in range(count)]
+    return [BLUE] if count == 1 else [COLOURS(c) for c in np.linspace(DARKEST, LIGHTEST, count)]
 
 
 def _is_numeric(coordinate: xr.DataArray) -> bool:

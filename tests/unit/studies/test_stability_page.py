@@ -81,7 +81,7 @@ def test_a_range_says_how_far_was_looked():
     windows = {"rest": [(None, None)], "riding": [(0.2, None)], "ramp": []}
     said = range_sentence(found | {"searched": [0.015, 1.5], "stick_slip": windows})
     assert said == (
-        "The block sticks and slips from rest from 0.015 to at least 1.5 m/s; riding on the"
-        " surface from 0.2 to at least 1.5 m/s; from a speed ramp of 10 s nowhere from 0.015 to 1.5"
-        " m/s (surface.speed, here 0.15 m/s; looked for from 0.015 to 1.5 m/s)."
+        "Disturbed a little, the block sticks and slips from rest from 0.015 to at least 1.5 m/s;"
+        " riding on the surface from 0.2 to at least 1.5 m/s; from a speed ramp of 10 s nowhere"
+        " from 0.015 to 1.5 m/s (surface.speed, here 0.15 m/s; looked for from 0.015 to 1.5 m/s)."
     )

@@ -106,17 +106,21 @@ def _of_own_rig(answer: Answer) -> str:
     asked = f"comes round less than {answer.limit:g} K above the air at {answer.case.speed:g} m/s"
     if run.shortest is None:
         return f"No belt up to {LONGEST:g} m {asked} {when}."
-    told = f"A belt of {length_text(run.shortest)} m {asked} {when}, {_ever(run)} for ever"
-    told += ", if the rig is as given"
+    belt = f"A belt of {length_text(run.shortest)} m"
+    if run.shortest <= answer.case.shortest:
+        belt = f"Any belt with room for contact and rollers, from {length_text(run.shortest)} m,"
+    told = f"{belt} {asked} {when}, {_ever(run)} for ever, if the rig is as given"
     if not (run.median and run.high):
         return f"{told}."
     half, most = (level.in_words.removesuffix(" m") for level in (run.median, run.high))
-    sure = f"to be sure of half of the rigs that it may be takes {half} m, of 95 % {most} m"
-    return f"{told}; {sure} for the runs."
+    sure = f"{told}; to be sure of half of the rigs that it may be takes {half} m for the runs"
+    return f"{sure}." if half == most else f"{sure}, of 95 % {most} m."
 
 
 def _ever(run: Question) -> str:
-    return f"none up to {LONGEST:g} m" if run.for_ever is None else f"{length_text(run.for_ever)} m"
+    if run.for_ever is None:
+        return f"none up to {LONGEST:g} m"
+    return f"one of {length_text(run.for_ever)} m"
 
 
 def tiles(study: Study) -> list[tuple[str, str]]:
@@ -145,9 +149,9 @@ def _tiles_of_own_rig(answer: Answer) -> list[tuple[str, str]]:
     run, case = answer.run, answer.case
     needed = length_text(run.shortest) + " m" * (run.shortest is not None)
     time = f"shortest belt for {case.protocol.in_words()}"
-    told = [(f"{time}, as the rig is given; {_ever(run)} for ever", needed)]
+    told = [(f"{time}, as the rig is given; {_ever(run).removeprefix('one of ')} for ever", needed)]
     told += [
-        (f"enough in them for {part} of the rigs that it may be", level.in_words)
+        (f"enough for the runs in {part} of the rigs that it may be", level.in_words)
         for part, level in (("half", run.median), ("95 %", run.high))
         if level is not None
     ]
