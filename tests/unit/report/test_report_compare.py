@@ -2,6 +2,7 @@
 
 import json
 import re
+from types import SimpleNamespace
 
 import pytest
 from command_line import executed
@@ -10,7 +11,8 @@ from cosim.cli.runs import compare as compare_command
 from cosim.cli.runs import simulate as simulate_command
 from cosim.report.compare import Difference, compare, read_result
 from cosim.report.compare.figures import moving
-from cosim.report.compare.page import cells, sentence
+from cosim.report.compare.page import cells, curve_cells, sentence, tiles
+from cosim.report.compare.series import Apart
 
 CASE = """
 name = "{name}"
@@ -163,6 +165,21 @@ def test_no_ratio_is_told_of_what_reads_0(name, unit, a, b, told):
 
 def test_two_rounding_errors_of_an_angle_are_the_same():
     assert Difference("whole_run.max_rotation_deg", "deg", 9.2e-15, 2e-11).same
+
+
+def test_what_no_rig_tells_from_nothing_is_not_at_the_top_and_no_part_of_anything():
+    """The study's path is unstable: y grows from rounding, 220 times what it spans in A."""
+    y = Apart("y", "m", 1.1e-8, 30.0, 1e-9, 5e-11, 5e-11)
+    x = Apart("x", "m", 0.042, 11.0, 0.02, 0.03, 0.03)
+    both = SimpleNamespace(curves=[y, x], different=[], numbers=[], keys={}, a=RUN, b=RUN)
+    assert curve_cells(y)[-1] == "–" and curve_cells(x)[-1] == "140 %"
+    assert tiles(both)[2:] == [("x, apart at most", "42 mm")]
+    assert "; x by up to 42 mm" in sentence(both)
+    both.curves = [y]
+    assert sentence(both) == "one and one differ in 0 of 0 numbers."
+
+
+RUN = SimpleNamespace(label="one", scenario="")
 
 
 def test_the_page_begins_with_whether_they_differ(place):
