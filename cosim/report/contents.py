@@ -28,8 +28,6 @@ Tables = dict[str, dict[str, dict[str, Any]]]
 Array = NDArray[np.float64]
 
 SLIP = 1.0
-#: Two heat transfers to the air that differ by less than this part are the same.
-SAME_AIR = 0.01
 ATTRIBUTE = "assessment"
 STABILITY_UNITS = {
     "growth": "1",

@@ -15,7 +15,7 @@ from cosim.report.contents import REGIME_UNITS
 from cosim.scenario.keys import taken_line
 
 from .bounds import bounds_sentences
-from .contents import SAME_AIR, Views, material_of, stored_tables
+from .contents import Views, material_of, stored_tables
 from .coupling import doubts, effort_rows, step_rows
 from .files import write_json
 from .heat_numbers import ambient_degC
@@ -217,7 +217,7 @@ def _air_rows(ends: Mapping[str, Any]) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = [
         ("heat transfer to the air, each face of the belt", _of_air(taken))
     ]
-    if still is None or abs(taken / still - 1.0) < SAME_AIR:
+    if still is None or _of_air(still) == _of_air(taken):
         return rows
     why = (
         "that of still air, which `belt-length` takes unless belt.air_heat_transfer is given;"

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-from cosim.report.contents import SAME_AIR
-
 from ..case import Case
 from ..lengths import LONGEST, metres
 from ..required_length import NOT_ASKED, Answer, Question
@@ -13,6 +11,8 @@ from .wording import outside, percent, span, why_outside
 
 #: Part of the variance that polynomials may miss without a word; beyond the other they say nothing.
 _MISSED, _WORTHLESS = 0.1, 1.0
+#: Two heat transfers to the air that differ by less than this part are the same.
+_SAME = 0.01
 
 
 def answered(answer: Answer) -> list[str]:
@@ -48,7 +48,7 @@ def _film(case: Case) -> str:
     takes = f"{gives}, as {air} does that is as warm as it is after the runs"
     ever = f"{case.lasting.film:.2g} W/m2K as warm as for ever"
     runs = case.rig.belt.film
-    if abs(runs / case.film - 1.0) < SAME_AIR:
+    if abs(runs / case.film - 1.0) < _SAME:
         return f"{takes}, {ever}. `stickslip run` takes the same."
     return (
         f"{takes}, {ever}. `stickslip run` takes {runs:.2g} W/m2K, by belt.air_heat_transfer (15"
