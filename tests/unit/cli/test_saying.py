@@ -1,5 +1,6 @@
 """What is said beside the results: notes, more with -v, less with -q; and the numbers as JSON."""
 
+import io
 import json
 import logging
 import sys
