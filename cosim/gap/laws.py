@@ -172,7 +172,12 @@ def _film(effect: Effect, context: Context) -> _Law | None:
 def _damping(effect: Effect, context: Context) -> _Law | None:
     if effect.id != "structural_damping":
         return None
-    return lambda at, values: values["coefficient"] * at + values["quadratic"] * at**2
+
+    def law(at: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
+        dry = values["dry_force"] * at / np.hypot(at, values["dry_speed"])
+        return values["coefficient"] * at + values["quadratic"] * at**2 + dry
+
+    return law
 
 
 def _hardening(effect: Effect, context: Context) -> _Law | None:

@@ -206,6 +206,7 @@ def is_coulomb_oscillator(parameters: Parameters) -> bool:
         and not parameters.friction.has_table
         and parameters.structural_damping.coefficient < parameters.critical_damping
         and parameters.structural_damping.quadratic == 0.0
+        and parameters.structural_damping.dry_force == 0.0
     )
 
 

@@ -70,7 +70,7 @@ def add_presliding(p: Floats, u: Floats, w: Floats, c: float) -> None:
     ur = 0.0
     kappa = p[P_LATERAL]
     sweeps = 1
-    if p[P_DAMPING_QUADRATIC] != 0.0:
+    if p[P_DAMPING_QUADRATIC] != 0.0 or p[P_DAMPING_DRY] != 0.0:
         sweeps = QUADRATIC_SWEEPS
     for _ in range(sweeps):
         # damping per speed is another at the velocity that comes of it

@@ -88,13 +88,36 @@ def test_quadratic_damping_takes_its_part_of_every_swing():
     np.testing.assert_allclose(run["damping_heat"], 0.5 * start**2 - stored, rtol=0, atol=1e-11)
 
 
+@pytest.mark.parametrize("within", [1e-2, 1e-3])
+def test_dry_guides_take_the_same_from_every_swing(within):
+    """m x'' + F sign(x') + K x = 0, m = K = 1: each half swing ends 2 F nearer to the middle.
+
+    Where the force turns round within v_0 it lacks v_0^2 / (2 v^2) of itself at the velocity v.
+    """
+    force, start = 0.02, 1.0
+    dry = {"dry_force": force, "dry_speed": within}
+    run = simulate(unit(structural_damping=dry, initial={"x": start}, **FREE), 30.0, 0.01)
+    x, v = run["x"], run["vx"]
+    slowed = -x - force * v / np.hypot(v, within)
+    turns = CubicHermiteSpline(run.time, x, v)(
+        CubicHermiteSpline(run.time, v, slowed).roots(extrapolate=False)
+    )
+    turns = np.abs(turns[np.abs(turns) < start - force])
+    assert len(turns) > 8
+    lost = 2.0 * force * np.arange(1, len(turns) + 1)
+    assert np.max(np.abs(start - lost - turns)) < 10.0 * lost[-1] * within**2 * np.log(1.0 / within)
+    stored = 0.5 * (x**2 + v**2)
+    np.testing.assert_allclose(run["damping_heat"], 0.5 * start**2 - stored, rtol=0, atol=1e-11)
+
+
 @pytest.mark.parametrize("surface", ["belt", "slab"])
-def test_quadratic_damping_of_a_stick_that_creeps_keeps_the_ledger(surface):
+@pytest.mark.parametrize("more", [{"quadratic": 5.0}, {"dry_force": 0.02}])
+def test_damping_of_a_stick_that_creeps_keeps_the_ledger(surface, more):
     run = simulate(
         Parameters(
             rig={"surface": surface, "spring_natural_length": 0.17},
             friction={"stick_creep": 5e-3},
-            structural_damping={"coefficient": 0.1, "quadratic": 5.0},
+            structural_damping={"coefficient": 0.1, **more},
             lateral_friction={"ratio": 1.0},
             surface={"speed": 0.06},
             initial={"vx": 0.06, "y": 0.004, "phi": 0.1},

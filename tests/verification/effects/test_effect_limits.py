@@ -39,6 +39,7 @@ STATED = {
     "spring_hardening.cubic": (1e3, {}, 1),
     "structural_damping.coefficient": (0.4, {}, 1),
     "structural_damping.rotational": (4e-4, {}, 1),
+    "structural_damping.dry_force": (0.04, {}, 1),
     "speed_ripple.amplitude": (0.1, {"frequency": 3.0}, 1),
     "surface_pattern.amplitude": (0.2, {}, 1),
     "surface_scatter.deviation": (0.1, {}, 1),

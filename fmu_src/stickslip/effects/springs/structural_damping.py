@@ -1,7 +1,8 @@
-"""A force against the frame that grows with the velocity v of the block: d v + q |v| v.
+"""A force against the velocity v of the block: d v + q |v| v + F v / (v^2 + v_0^2)^(1/2).
 
 The viscous part is that of materials and slow air, the quadratic one that of fast air (drag of a
-bluff body). A moment r omega stands against the rotation.
+bluff body), the last one dry friction in guides and joints, which turns round within some v_0. A
+moment r omega stands against the rotation.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from ..effect import Case, Effect
 
 
 class StructuralDamping(Table):
-    """A force against the frame that grows with the velocity: viscous, or with its square."""
+    """A force against the velocity in the frame: viscous, with its square, or dry friction."""
 
     coefficient: float = quantity(
         0.0, "N.s/m", "force per velocity of the block", ge=0, typical=(0.05, 2.0)
@@ -29,10 +30,16 @@ class StructuralDamping(Table):
         ge=0,
         typical=(0.1, 10.0),
     )
+    dry_force: float = quantity(
+        0.0, "N", "F, dry friction of guides and joints", ge=0, typical=(0.003, 0.1)
+    )
+    dry_speed: float = quantity(
+        0.01, "m/s", "v_0, velocity within which dry friction turns round", gt=0, tried=(3e-3, 0.1)
+    )
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
-    """Viscous, weak or strong, or with the square of the velocity."""
+    """Viscous, weak or strong, with the square of the velocity, or dry."""
     drag = 0.02 * (4.0 * s.stiffness * s.mass) ** 0.5  # a hundredth of the critical one
     for much in (1.0, 15.0):
         free = FreeParameter("structural_damping.coefficient", much * drag, drag, 0.0, 100.0 * drag)
@@ -40,12 +47,17 @@ def candidates(s: Scales) -> Iterator[Candidate]:
     much = drag / s.speed
     square = FreeParameter("structural_damping.quadratic", 5.0 * much, much, 0.0, 1e3 * much)
     yield Candidate("structural_damping", "quadratic", (square,))
+    force = FreeParameter(
+        "structural_damping.dry_force", drag * s.speed, 0.3 * drag * s.speed, 0.0, s.force
+    )
+    within = FreeParameter("structural_damping.dry_speed", 0.3 * s.speed, 0.5, 1e-3, 1.0, log=True)
+    yield Candidate("structural_damping", "dry", (force, within))
 
 
 EFFECT = Effect(
     id="structural_damping",
     table=StructuralDamping,
-    switch=("coefficient", "rotational", "quadratic"),
+    switch=("coefficient", "rotational", "quadratic", "dry_force"),
     enters="springs",
     axis="velocity",
     source="damping of a real rig",
@@ -54,6 +66,8 @@ EFFECT = Effect(
         "coefficient": "DAMPING",
         "rotational": "DAMPING_ROTATION",
         "quadratic": "DAMPING_QUADRATIC",
+        "dry_force": "DAMPING_DRY",
+        "dry_speed": "DAMPING_DRY_SPEED",
     },
     candidates=candidates,
     case=Case({"coefficient": 0.5}, window=(0.0, 8.0)),

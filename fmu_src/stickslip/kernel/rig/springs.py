@@ -103,10 +103,12 @@ def add_spring_forces(p: Floats, w: Floats, state: int) -> None:
 
 
 def damping_per_speed(p: Floats, vx: float, vy: float) -> float:
-    """Damping force over the speed against the frame, N s/m: d + q |v|."""
-    if p[P_DAMPING_QUADRATIC] == 0.0:
+    """Damping force over the speed in the frame, N s/m: d + q |v| + F / (v^2 + v_0^2)^(1/2)."""
+    if p[P_DAMPING_QUADRATIC] == 0.0 and p[P_DAMPING_DRY] == 0.0:
         return p[P_DAMPING]
-    return p[P_DAMPING] + p[P_DAMPING_QUADRATIC] * sqrt(vx * vx + vy * vy)
+    square = vx * vx + vy * vy
+    d = p[P_DAMPING] + p[P_DAMPING_QUADRATIC] * sqrt(square)
+    return d + p[P_DAMPING_DRY] / sqrt(square + p[P_DAMPING_DRY_SPEED] * p[P_DAMPING_DRY_SPEED])
 
 
 def add_damping(p: Floats, w: Floats, state: int) -> None:
