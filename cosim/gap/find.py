@@ -388,7 +388,8 @@ class _Fitting:
         """
         forms = [rival]
         if rows > -ALIKE:
-            forms += [self.part(named, rival.finding, law) for law in rival.rivals(self.campaign)
+            there = replace(named, rung=named.system.rung(rival.finding.added))
+            forms += [self.part(there, rival.finding, law) for law in rival.rivals(self.campaign)
                       if law.effect == rival.effect]  # fmt: skip
         return max(map(without.gained, forms)) - price_of(rival.finding.name)
 

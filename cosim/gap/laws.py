@@ -175,7 +175,7 @@ def _damping(effect: Effect, context: Context) -> _Law | None:
 
     def law(at: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
         dry = values["dry_force"] * at / np.hypot(at, values["dry_speed"])
-        return values["coefficient"] * at + values["quadratic"] * at**2 + dry
+        return np.asarray(values["coefficient"] * at + values["quadratic"] * at**2 + dry)
 
     return law
 
