@@ -112,7 +112,7 @@ def test_ci_runs_the_line_that_tests():
 
 
 @pytest.mark.parametrize(("command", "printed"), SESSIONS)
-def test_a_session_prints_what_is_shown(command, printed, at_home):
+def test_a_session_prints_what_is_shown(command, printed, elsewhere):
     done = stickslip_here(".", *command.split())
     assert done.returncode == 0, done.stderr
     said = set(timeless((done.stdout + done.stderr).splitlines()))
