@@ -2,31 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 
+from cosim.gap.agreement import Agreed, Fitting, confirmed_findings
 from cosim.gap.checks import blocking, doubts_of
 from cosim.gap.data import Campaign
-from cosim.gap.extended import Part, as_points, part_of
-from cosim.gap.judge import (
-    EXPLAINED,
-    MUCH_MORE,
-    NOTHING_MISSING,
-    SURE,
-    explains,
-    halves,
-    is_asked_for_ageing,
-    judge,
-    judged,
-    leaves,
-    may_be_spurious,
-    much_more,
-    rivals_of,
-    runs_ask,
-    told_by_both,
-)
-from cosim.gap.laws import LawFit
-from cosim.gap.models import Models
+from cosim.gap.extended import Part
+from cosim.gap.judge import explains, judge
 from cosim.gap.naming import Named, Naming
 from cosim.gap.plan.next_run import next_experiment
 from cosim.gap.rates import by_direction, rates_of
@@ -38,23 +21,18 @@ from cosim.gap.report_of_findings import (
     sentence_of,
     where_of,
 )
-from cosim.gap.result import Doubt, Gap, Rejected, Rung, Score
+from cosim.gap.result import Doubt, Gap, Rung
 from cosim.gap.scatter import Scatter
 from cosim.gap.weak_form.camera_faults import FAULTS
-from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
-from cosim.gap.weak_form.ladder import Finding, Ladder, price_of
+from cosim.gap.weak_form.constants import ALIKE
+from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.track import thinned
-from cosim.gap.windows.run_model import LOADING
 
-AGEING = "static_strengthening"
 #: Parts of the bar, and where it stands after checks and where the search begins. Nobody knows how
 #: many models will be fitted: each step of one takes a share of what is left.
 PARTS, BEGINNING, SHARE = 100, (2, 5), 0.2
 
 Progress = Callable[[int, int], object]
-#: Name -> what it would put into the model, and ln of how much more probable simulated runs are
-#: with it than with the finding that it is a rival of.
-_Rivals = Mapping[str, tuple[Part, float]]
 
 
 def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = None) -> Gap:
@@ -69,38 +47,23 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     doubts = doubts_of(campaign)
     campaign = replace(campaign, runs=tuple(thinned(run) for run in campaign.runs))
     step()
-    fitting = _Fitting(campaign, step, jobs)
-    search = _unsearched if blocking(doubts) else _agreed
+    fitting = Fitting(campaign, step, jobs)
+    search = _unsearched if blocking(doubts) else confirmed_findings
     gap = _answer(campaign, search(campaign, fitting), doubts)
     step.end()
     return gap
 
 
-@dataclass(frozen=True)
-class _Agreed:
-    """Findings of the rows that the simulated runs ask for too, and the models with them.
-
-    rejected : what the rows ask for and the simulated runs do without; left_without : what is
-    missing without any finding, where the models with them do not explain the runs
-    """
-
-    named: Named
-    parts: list[Part]
-    models: Models
-    rejected: tuple[Rejected, ...] = ()
-    left_without: Score | None = None
-
-
-def _unsearched(campaign: Campaign, fitting: _Fitting) -> _Agreed:
+def _unsearched(campaign: Campaign, fitting: Fitting) -> Agreed:
     """The user's model, contact and scatter, without a search for effects."""
     system = Naming.of(campaign).system
     rung = system.rung()
     named = Named(Ladder(system, (), rung, {}), (), system, rung, {})
     fitting.step()
-    return _Agreed(named, *fitting.best_of([], named))
+    return Agreed(named, *fitting.best_of([], named))
 
 
-def _answer(campaign: Campaign, agreed: _Agreed, doubts: Sequence[Doubt]) -> Gap:
+def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
     """The verdict, and all that is said of it."""
     named, parts, models = agreed.named, agreed.parts, agreed.models
     ladder, system, rung = named.ladder, named.system, named.rung
@@ -149,302 +112,6 @@ def _hints(gap: Gap, parts: Sequence[Part]) -> list[str]:
     if not (hints or parts) and best and best.evidence > ALIKE:
         hints = [best.effect]
     return hints
-
-
-def _agreed(campaign: Campaign, fitting: _Fitting) -> _Agreed:
-    """What rows and simulated runs both ask for.
-
-    Rows are read off a smoothed track, and a contact that is no switch may pretend something in
-    them; simulated runs have other faults. What they do without is not asked of the rows again.
-    """
-    naming = Naming.of(campaign)
-    fitting.step()
-    rejected: list[Rejected] = []
-    while True:
-        named = naming.named([one.effect for one in rejected])
-        parts = [fitting.part(named, finding) for finding in named.findings]
-        most = max((part.finding.gain for part in parts), default=0.0)
-        faint = {part.finding.name for part in parts
-                 if may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
-        if outdone := fitting.outdone(parts, named, faint):
-            rejected += outdone
-            continue
-        doubted = fitting.lost(parts, named, faint) or fitting.rejected(parts, named, faint)
-        if doubted is None:
-            if not parts:
-                parts, named = fitting.aged(named)
-            found, models = fitting.best_of(parts, named)
-            if not (explains(models.ladder) and models.is_felt):
-                along = {part.finding.name for part in parts if part.finding.added}
-                doubted = fitting.rejected(parts, named, along - faint)
-        if doubted is None:
-            rivals = fitting.rivals(parts, named)
-            doubted = fitting.overruled(parts, named, rivals)
-        if doubted is None:
-            named = fitting.told_apart(named, rivals)
-            found = [replace(part, finding=finding)
-                     for part, finding in zip(found, named.findings, strict=True)]  # fmt: skip
-            left = fitting.left_without(found, models, named)
-            return _Agreed(named, found, models, tuple(rejected), left)
-        rejected.append(doubted)
-
-
-@dataclass
-class _Fitting:
-    """Models of findings, fitted over the same windows.
-
-    known : what was fitted already, and whether each finding by itself
-    """
-
-    campaign: Campaign
-    step: Callable[[], None]
-    jobs: int
-    known: list[tuple[Models, bool]] = field(default_factory=list)
-
-    def part(self, named: Named, finding: Finding, law: LawFit | None = None) -> Part:
-        """What a finding puts into the model."""
-        return part_of(self.campaign, named.system, named.rung, finding, law)
-
-    def aged(self, named: Named) -> tuple[list[Part], Named]:
-        """Static friction over the hold time, where a contact would have to let go very soon.
-
-        Rows hardly tell the one from the other.
-        """
-        without = self._fitted(named, [])
-        offered = named.ladder.first_offers.get(AGEING)
-        if offered is None or not is_asked_for_ageing(without.fits[-1].values.get(LOADING, 0.0)):
-            return [], named
-        finding = Finding(AGEING, offered[1], 0.0)
-        aged = replace(named, rung=named.system.rung(finding.added))
-        gained = self._gained(self.part(aged, finding), without, aged, MUCH_MORE)
-        if not much_more(gained):
-            return [], named
-        finding = replace(finding, gain=gained)
-        return [self.part(aged, finding)], replace(aged, findings=(finding,))
-
-    def _gained(
-        self, part: Part, without: Models, named: Named, enough: float = LEAST_GAIN
-    ) -> float:
-        """ln of how much more probable simulated runs are with a finding.
-
-        Laws that follow a curve alike move the block differently: where the first brings neither
-        enough nor as much less, another form of it counts with which they are much more so.
-        """
-        first = without.gained(part)
-        if abs(first) <= enough + price_of(part.finding.name):
-            for law in part.rivals(self.campaign):
-                if law.effect == part.effect:
-                    gained = without.gained(self.part(named, part.finding, law))
-                    if much_more(gained):
-                        return gained
-        return first
-
-    def best_of(self, parts: list[Part], named: Named) -> tuple[list[Part], Models]:
-        """With laws that follow the curves, or with the curves where the runs ask for them.
-
-        Where laws of two effects follow a curve, as one of the user's own and the catalogue's may,
-        it is the one with which runs come out better that no fit has seen.
-        """
-        models = self._fitted(named, parts)
-        for part in parts:
-            for law in part.rivals(self.campaign):
-                if law.effect == part.effect and explains(models.ladder):
-                    continue  # another form of it hardly tells
-                other = self.part(named, part.finding, law)
-                swapped = [other if one.finding is part.finding else one for one in parts]
-                others = self._fitted(named, swapped)
-                if judged(others.ladder[-1].gap) < judged(models.ladder[-1].gap):
-                    parts, models = swapped, others
-        if not explains(models.ladder):  # a law may be near its curve, and not near enough
-            points = [as_points(self.campaign, named.system, part) for part in parts]
-            if points != parts:
-                others = self._fitted(named, points)
-                if judged(others.ladder[-1].gap) < judged(models.ladder[-1].gap):
-                    return points, others
-        return parts, models
-
-    def rejected(
-        self, parts: Sequence[Part], named: Named, asked: Collection[str]
-    ) -> Rejected | None:
-        """The least of the findings asked for that the simulated runs do without.
-
-        The least first: what a greater one leaves may pretend a small one, and with it gone the
-        greater one is seldom in doubt. What a finding takes of the gap is asked only where the runs
-        ask for all of them: beside one that is none, no other does well.
-        """
-        least_first = sorted(parts, key=lambda part: part.finding.gain)
-        for is_needed in (self._is_asked_for, self._makes_up):
-            for part in least_first:
-                if part.finding.name in asked and not is_needed(part, parts, named):
-                    without = self._without(part, parts, named)
-                    gained = self._gained(part, without, named) if part.in_kernel else None
-                    return Rejected(part.finding.name, part.finding.gain, gained)
-        return None
-
-    def outdone(
-        self, parts: Sequence[Part], named: Named, asked: Collection[str]
-    ) -> list[Rejected]:
-        """Of several lesser findings those asked for, where the greatest explains the runs alone.
-
-        One by one they would all go (see `rejected`), each after fits of its own; not so where
-        simulated runs are sure of one.
-        """
-        greatest = max(parts, key=lambda part: part.finding.gain, default=None)
-        lesser = [part for part in parts if part is not greatest and part.finding.name in asked]
-        if greatest is None or len(lesser) < 2 or any(p.finding.gain >= SURE for p in lesser):
-            return []
-        alone = self._fitted(named, [greatest], is_shown=False, scatters=False)
-        if judged(alone.unscattered) > EXPLAINED:
-            return []
-        alone.let_scatter()
-        gained = [alone.gained(part) if part.in_kernel else None for part in lesser]
-        if any(gain is not None and gain >= SURE for gain in gained):
-            return []
-        return [Rejected(part.finding.name, part.finding.gain, gain)
-                for part, gain in zip(lesser, gained, strict=True)]  # fmt: skip
-
-    def lost(self, parts: Sequence[Part], named: Named, asked: Collection[str]) -> Rejected | None:
-        """The greatest finding, where simulated runs are much worse with it alone, and do not ask
-        for it beside contact and scatter: nothing is built upon it."""
-        greatest = max(parts, key=lambda part: part.finding.gain, default=None)
-        if greatest is None or greatest.finding.name not in asked or not greatest.in_kernel:
-            return None
-        alone = self._fitted(named, [greatest], is_shown=False, scatters=False)
-        without = self._fitted(named, [], is_shown=False, scatters=False)
-        if not alone.is_lost_beside(without):
-            return None
-        without.let_scatter()
-        gained = self._gained(greatest, without, named)
-        if runs_ask(gained - price_of(greatest.finding.name)):
-            return None
-        return Rejected(greatest.finding.name, greatest.finding.gain, gained)
-
-    def _without(self, part: Part, parts: Sequence[Part], named: Named) -> Models:
-        return self._fitted(named, [other for other in parts if other is not part], is_shown=False)
-
-    def _is_asked_for(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
-        """Whether the simulated runs are more probable with a finding beside the others.
-
-        A lesser one below e^500, in rows and runs, is no more than what a law leaves that is not
-        quite the greater one's, where the others explain the runs and friction need not scatter.
-        """
-        without = self._without(part, parts, named)
-        is_lesser = part.finding.gain < max(other.finding.gain for other in parts)
-        gained = self._gained(part, without, named) if part.in_kernel else 0.0
-        is_sure = max(part.finding.gain, gained) >= SURE
-        if is_lesser and not is_sure and judged(without.unscattered) <= EXPLAINED:
-            return False
-        if not part.in_kernel:
-            return leaves(without.ladder[-1].gap, EXPLAINED if is_lesser else NOTHING_MISSING)
-        return runs_ask(gained - price_of(part.finding.name))
-
-    def _makes_up(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
-        """Whether it takes what is missing without it, or half of that; or half before scatter.
-
-        What makes the runs e^500 times as probable is a part of what is missing; a friction that
-        may scatter from run to run takes up what follows a setting.
-        """
-        without = self._without(part, parts, named)
-        is_missed = leaves(before := without.ladder[-1].gap)
-        if not part.in_kernel:
-            return True
-        found = self._fitted(named, parts)
-        if found.is_lost:
-            return False
-        if without.gained(part) > SURE if is_missed else len(parts) == 1:
-            return True
-        after = found.ladder[-1].gap
-        if is_missed and (not leaves(after) or halves(after, before)):
-            return True
-        left = without.unscattered
-        return leaves(left) and halves(found.unscattered, left)
-
-    def left_without(self, parts: Sequence[Part], models: Models, named: Named) -> Score | None:
-        """What the runs miss without any finding; None where the model with them is near enough."""
-        if not parts or explains(models.ladder):
-            return None
-        return self._fitted(named, [], is_shown=False).ladder[-1].gap
-
-    def rivals(self, parts: Sequence[Part], named: Named) -> _Rivals:
-        """Of a lone finding along x what the rows would nearly have in its place, simulated.
-
-        What no effect stands for is no more than the model without it.
-        """
-        if len(parts) != 1 or not parts[0].finding.added:
-            return {}
-        (finding,) = named.findings
-        rivals = {name: self._in_place(named, name) for name in rivals_of(finding)}
-        if not rivals:
-            return {}
-        without = self._fitted(named, [], is_shown=False)
-        own = without.gained(parts[0]) - price_of(finding.name) if parts[0].in_kernel else 0.0
-        return {name: (rival, self._more(rival, finding.others[name], without, named) - own)
-                for name, rival in rivals.items() if rival.in_kernel}  # fmt: skip
-
-    def _more(self, rival: Part, rows: float, without: Models, named: Named) -> float:
-        """What simulated runs gain by a rival; by any form of its law, where rows hardly tell it.
-
-        rows : ln of how much more probable it is by them than the finding
-        """
-        forms = [rival]
-        if rows > -ALIKE:
-            there = replace(named, rung=named.system.rung(rival.finding.added))
-            forms += [self.part(there, rival.finding, law) for law in rival.rivals(self.campaign)
-                      if law.effect == rival.effect]  # fmt: skip
-        return max(map(without.gained, forms)) - price_of(rival.finding.name)
-
-    def overruled(self, parts: Sequence[Part], named: Named, rivals: _Rivals) -> Rejected | None:
-        """A lone finding that simulated runs put so far behind a rival that the rows must err.
-
-        Runs that no fit has seen must come out better with the rival, too; and be explained by it
-        in place of what no effect stands for.
-        """
-        for rival, more in rivals.values():
-            if more > SURE:
-                with_it, own = (self._fitted(named, some) for some in ([rival], parts))
-                is_better = judged(with_it.ladder[-1].gap) < judged(own.ladder[-1].gap)
-                if is_better and (parts[0].in_kernel or explains(with_it.ladder)):
-                    without = self._fitted(named, [], is_shown=False)
-                    gained = without.gained(parts[0]) if parts[0].in_kernel else None
-                    return Rejected(parts[0].finding.name, parts[0].finding.gain, gained)
-        return None
-
-    def told_apart(self, named: Named, rivals: _Rivals) -> Named:
-        """A lone finding with its rivals as rows and simulated runs have them.
-
-        One that the rows do not tell from it goes where simulated runs do; one that they put behind
-        it stays as probable where simulated runs put it before.
-        """
-        if not rivals:
-            return named
-        (finding,) = named.findings
-        others = dict(finding.others)
-        for name, (_, more) in rivals.items():
-            others[name] = told_by_both(others[name], more)
-        return replace(named, findings=(replace(finding, others=others),))
-
-    def _in_place(self, named: Named, name: str) -> Part:
-        """What another explanation would put into the model."""
-        finding = Finding(name, named.ladder.first_offers[name][1], 0.0)
-        return self.part(replace(named, rung=named.system.rung(finding.added)), finding)
-
-    def _fitted(
-        self, named: Named, parts: Sequence[Part], is_shown: bool = True, scatters: bool = True
-    ) -> Models:
-        """Models of these findings; of what no page shows friction need not scatter."""
-        ids = list(map(id, parts))
-        known = (models for models, was_shown in self.known
-                 if list(map(id, models.parts)) == ids and (was_shown or not is_shown))  # fmt: skip
-        models = next(known, None)
-        if models is None:
-            models = Models.fitted(
-                self.campaign, named.system, parts, step=self.step, jobs=self.jobs,
-                others=self.known[0][0] if self.known else None, is_shown=is_shown,
-            )  # fmt: skip
-            self.known.append((models, is_shown))
-        if scatters:
-            models.let_scatter()
-        return models
 
 
 def _unanswered(

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from stickslip.effects.candidate import Candidate
 
-from cosim.gap import find, models
+from cosim.gap import agreement, find, models
 from cosim.gap.extended import Part
 from cosim.gap.judge import SURE
 from cosim.gap.laws import LawFit
@@ -53,9 +53,9 @@ def agreed(
     leaves, without and with; felt, lost : what findings do by themselves; sooner : by which a
     contact lets go, s
     """
-    monkeypatch.setattr(find.Naming, "of", lambda campaign: rows)
+    monkeypatch.setattr(agreement.Naming, "of", lambda campaign: rows)
     monkeypatch.setattr(
-        find,
+        agreement,
         "part_of",
         lambda campaign, system, rung, one, law: Part(one, None, (), (), {"on": 1.0}),
     )
@@ -79,9 +79,9 @@ def agreed(
         def gained(self, part):
             return gained[part.finding.name]
 
-    fitting = find._Fitting(None, lambda: None, 1)
+    fitting = agreement.Fitting(None, lambda: None, 1)
     monkeypatch.setattr(fitting, "_fitted", lambda named, parts, **_: Models(parts))
-    answer = find._agreed(None, fitting)
+    answer = agreement.confirmed_findings(None, fitting)
     rejected = tuple(one.effect for one in answer.rejected)
     return [part.finding.name for part in answer.parts], rejected
 
@@ -179,10 +179,10 @@ def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told
     offers = {name: (30.0 + less, (wave,)) for name, less in one.others.items()}
     named = Named(SimpleNamespace(first_offers=offers, system=system), (one,), system, rung, {})
     monkeypatch.setattr(
-        find, "part_of", lambda campaign, system, rung, one, law: Part(
+        agreement, "part_of", lambda campaign, system, rung, one, law: Part(
             one, None, (), (), {} if one.name == "other.order" else {"on": 1.0})
     )  # fmt: skip
-    fitting = find._Fitting(None, lambda: None, 1)
+    fitting = agreement.Fitting(None, lambda: None, 1)
     gains = {"run_in": 20.0, "film_drag": gained}
     models = SimpleNamespace(gained=lambda part: gains[part.finding.name])
     monkeypatch.setattr(fitting, "_fitted", lambda named, parts, **_: models)
@@ -208,11 +208,11 @@ def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(
                                           ("film_drag", {"on": 1.0})))  # fmt: skip
     gaps = {(): 2.0, ("run_in",): own or 2.0, ("film_drag",): held_out}
     monkeypatch.setattr(
-        find._Fitting, "_fitted", lambda self, named, parts, **_: SimpleNamespace(
+        agreement.Fitting, "_fitted", lambda self, named, parts, **_: SimpleNamespace(
             gained=lambda part: 20.0, ladder=[
                 SimpleNamespace(gap=Score(1.0, gaps[tuple(part.effect for part in parts)]))])
     )  # fmt: skip
-    rejected = find._Fitting(None, lambda: None, 1).overruled(
+    rejected = agreement.Fitting(None, lambda: None, 1).overruled(
         [part], None, {"film_drag": (rival, more)}
     )
     assert (rejected is not None) is gone
@@ -292,13 +292,15 @@ def test_another_form_of_a_law_is_tried_where_runs_are_of_two_minds(
     forms.append(law("mine", "kinked", 1.0))
     gains = {"logarithmic": first, "power": power, "saturating": 80.0, "kinked": 90.0}
     monkeypatch.setattr(
-        find, "part_of", lambda campaign, system, rung, one, law: Part(one, None, (law,), (), {})
+        agreement,
+        "part_of",
+        lambda campaign, system, rung, one, law: Part(one, None, (law,), (), {}),
     )
     campaign = SimpleNamespace(catalogue=SimpleNamespace(effects=()))
     without = SimpleNamespace(gained=lambda part: gains[part.fits[0].candidate.form])
     part = Part(finding(own, 10.0), None, tuple(forms), (), {})
     named = Named(None, (), None, None, {})
-    assert find._Fitting(campaign, lambda: None, 1)._gained(part, without, named) == gained
+    assert agreement.Fitting(campaign, lambda: None, 1)._gained(part, without, named) == gained
 
 
 def test_a_problem_of_least_squares_is_the_same_from_any_start():
@@ -350,20 +352,22 @@ def test_a_rung_of_what_moves_the_block_across_has_the_evidence_of_the_plane(mon
 
 def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):
     rows = Rows(finding("spring_hardening", 205.0))
-    monkeypatch.setattr(find.Naming, "of", lambda campaign: rows)
+    monkeypatch.setattr(agreement.Naming, "of", lambda campaign: rows)
     monkeypatch.setattr(
-        find,
+        agreement,
         "part_of",
         lambda campaign, system, rung, one, law: Part(one, None, (), (), {"on": 1.0}),
     )
-    fitting = find._Fitting(None, lambda: None, 1)
+    fitting = agreement.Fitting(None, lambda: None, 1)
     noise = SimpleNamespace(name="user's model", gap=Score(1.0, 1.0))
     models = SimpleNamespace(
         ladder=[noise], gained=lambda part: -906.0, is_felt=True,
         is_lost_beside=lambda other: False, fits=[SimpleNamespace(values={})],
     )  # fmt: skip
     monkeypatch.setattr(fitting, "_fitted", lambda named, parts, **_: models)
-    assert find._agreed(None, fitting).rejected == (Rejected("spring_hardening", 205.0, -906.0),)
+    assert agreement.confirmed_findings(None, fitting).rejected == (
+        Rejected("spring_hardening", 205.0, -906.0),
+    )
 
 
 @pytest.mark.parametrize(
@@ -381,11 +385,11 @@ def test_no_effect_is_searched_for_where_none_would_be_named(check, blocked, mon
     doubt = Doubt(check, "run01: surface_speed = 60 m/s", ("run01",), True)
     monkeypatch.setattr(find, "doubts_of", lambda campaign: (doubt,))
     taken = []
-    for name in ("_unsearched", "_agreed"):
+    for name in ("_unsearched", "confirmed_findings"):
         monkeypatch.setattr(find, name, lambda *given, name=name: taken.append(name))
     monkeypatch.setattr(find, "_answer", lambda campaign, agreed, doubts: doubts)
     assert find.find_gap(Campaign()) == (doubt,)
-    assert taken == ["_unsearched" if blocked else "_agreed"]
+    assert taken == ["_unsearched" if blocked else "confirmed_findings"]
 
 
 @pytest.mark.parametrize(
