@@ -117,7 +117,7 @@ class Fitting:
         if offered is None or not is_asked_for_ageing(without.fits[-1].values.get(LOADING, 0.0)):
             return [], named
         finding = Finding(AGEING, offered[1], 0.0)
-        aged = replace(named, rung=named.system.rung(finding.added))
+        aged = _with_alone(named, finding)
         gained = self._gained(self.part(aged, finding), without, aged, MUCH_MORE)
         if not much_more(gained):
             return [], named
@@ -191,7 +191,7 @@ class Fitting:
         One by one they would all go (see `rejected`), each after fits of its own; not so where
         simulated runs are sure of one.
         """
-        greatest = max(parts, key=lambda part: part.finding.gain, default=None)
+        greatest = _greatest(parts)
         lesser = [part for part in parts if part is not greatest and part.finding.name in asked]
         if greatest is None or len(lesser) < 2 or any(p.finding.gain >= SURE for p in lesser):
             return []
@@ -208,7 +208,7 @@ class Fitting:
     def lost(self, parts: Sequence[Part], named: Named, asked: Collection[str]) -> Rejected | None:
         """The greatest finding, where simulated runs are much worse with it alone, and do not ask
         for it beside contact and scatter: nothing is built upon it."""
-        greatest = max(parts, key=lambda part: part.finding.gain, default=None)
+        greatest = _greatest(parts)
         if greatest is None or greatest.finding.name not in asked or not greatest.in_kernel:
             return None
         alone = self._fitted(named, [greatest], is_shown=False, scatters=False)
@@ -290,7 +290,7 @@ class Fitting:
         """
         forms = [rival]
         if rows > -ALIKE:
-            there = replace(named, rung=named.system.rung(rival.finding.added))
+            there = _with_alone(named, rival.finding)
             forms += [self.part(there, rival.finding, law) for law in rival.rivals(self.campaign)
                       if law.effect == rival.effect]  # fmt: skip
         return max(map(without.gained, forms)) - price_of(rival.finding.name)
@@ -328,7 +328,7 @@ class Fitting:
     def _in_place(self, named: Named, name: str) -> Part:
         """What another explanation would put into the model."""
         finding = Finding(name, named.ladder.first_offers[name][1], 0.0)
-        return self.part(replace(named, rung=named.system.rung(finding.added)), finding)
+        return self.part(_with_alone(named, finding), finding)
 
     def _fitted(
         self, named: Named, parts: Sequence[Part], is_shown: bool = True, scatters: bool = True
@@ -347,3 +347,12 @@ class Fitting:
         if scatters:
             models.let_scatter()
         return models
+
+
+def _with_alone(named: Named, finding: Finding) -> Named:
+    """The same rows with this finding in place of all others."""
+    return replace(named, rung=named.system.rung(finding.added))
+
+
+def _greatest(parts: Sequence[Part]) -> Part | None:
+    return max(parts, key=lambda part: part.finding.gain, default=None)
