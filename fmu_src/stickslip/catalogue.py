@@ -22,6 +22,8 @@ from pathlib import Path
 from types import ModuleType, SimpleNamespace
 from typing import Any
 
+import numpy as np
+
 from . import contradictions, packing
 from .compiled import library
 from .effects import EFFECTS, PluginError
@@ -105,9 +107,18 @@ class Catalogue:
 
     def pack(self, values: Mapping[str, float]) -> list[float]:
         """The kernel's vector ``p``, see `packing.pack`."""
-        own = self._travelling["packing"] if self.outside else packing
-        packed: list[float] = own.pack(values)
+        packed: list[float] = self._packing.pack(values)
         return packed
+
+    def packed(self, values: Mapping[str, float]) -> np.ndarray:
+        """The same by machine code, in a fifth of the time."""
+        v, p = np.array(self._packing.in_order(values)), np.zeros(self.kernel.P_SIZE)
+        self.compiled.pack(v, np.array(self._packing.draws(v)), p)
+        return p
+
+    @property
+    def _packing(self) -> Any:
+        return self._travelling["packing"] if self.outside else packing
 
     def contradiction(self, values: Mapping[str, float]) -> str:
         """What the parameters contradict in, see `contradictions.contradiction`."""

@@ -11,6 +11,7 @@ next that is asked for, whatever uniform numbers are drawn between.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from random import Random
 
 from .kernel.layout import D_SIZE, DRAW_SEED, DRAW_UNIFORM
@@ -22,9 +23,15 @@ def draws(v: Sequence[float]) -> list[float]:
     Each is drawn, one after the other, by the seed in ``v`` that the layout names. They are the
     same whichever of what they are for is switched on.
     """
+    return list(_drawn(tuple(int(v[int(place)]) for place in DRAW_SEED)))
+
+
+@lru_cache
+def _drawn(seeds: tuple[int, ...]) -> list[float]:
+    """By the seed of each; a fit packs the same ones thousands of times."""
     d: list[float] = []
     for i in range(D_SIZE):
         if i == 0 or DRAW_SEED[i] != DRAW_SEED[i - 1]:
-            source = Random(int(v[int(DRAW_SEED[i])]))
+            source = Random(seeds[i])
         d.append(source.random() if DRAW_UNIFORM[i] else source.gauss(0.0, 1.0))
     return d

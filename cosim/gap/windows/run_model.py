@@ -105,6 +105,7 @@ class RunModel:
             parameters = kind.model_validate(campaign.parameters(run), strict=True)
         self.known = dict(parameters.flat()) | {"solver.tolerance": TOLERANCE}
         self.friction = {key: self.known[key] for key in FRICTION}
+        self.uneven = uneven(campaign.catalogue)
         if not windows.is_planar:
             self.known |= {"rig.free_y": 0.0, "rig.free_phi": 0.0}
         data = np.column_stack([run.motion[name] for name in windows.channels])
@@ -149,10 +150,10 @@ class RunModel:
         """The kernel's parameters, of this run's values."""
         flat = {**self.known, **parameters_of(self.run, {**self.friction, **values})}
         catalogue = self.campaign.catalogue
-        p = np.array(catalogue.pack(flat))
+        p = catalogue.packed(flat)
         p[layout.P_FEW_POINTS] = FEW_POINTS
         p[layout.P_LONGEST_STEP] *= LONGER
-        is_uneven = any(flat[key] != 0.0 for key in uneven(catalogue))
+        is_uneven = any(flat[key] != 0.0 for key in self.uneven)
         p[layout.P_LONGEST_STICK] *= LONGER if is_uneven else LONGER_STICK
         return p
 
