@@ -243,8 +243,8 @@ class Fitting:
     def _makes_up(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
         """Whether it takes what is missing without it, or half of that; or half before scatter.
 
-        What makes the runs e^500 times as probable is a part of what is missing; a friction that
-        may scatter from run to run takes up what follows a setting.
+        What makes the runs e^500 times as probable is a part of what is missing, also where the
+        contact or a friction that may scatter from run to run have taken it up.
         """
         without = self._without(part, parts, named)
         is_missed = leaves(before := without.ladder[-1].gap)
@@ -253,7 +253,7 @@ class Fitting:
         found = self._fitted(named, parts)
         if found.is_lost:
             return False
-        if without.gained(part) > SURE if is_missed else len(parts) == 1:
+        if without.gained(part) > SURE or (len(parts) == 1 and not is_missed):
             return True
         after = found.ladder[-1].gap
         if is_missed and (not leaves(after) or halves(after, before)):
@@ -272,14 +272,15 @@ class Fitting:
 
         What no effect stands for is no more than the model without it.
         """
-        if len(parts) != 1 or not parts[0].finding.added:
+        lone = _lone(parts)
+        if lone is None:
             return {}
-        (finding,) = named.findings
+        finding = lone.finding
         rivals = {name: self._in_place(named, name) for name in rivals_of(finding)}
         if not rivals:
             return {}
-        without = self._fitted(named, [], is_shown=False)
-        own = without.gained(parts[0]) - price_of(finding.name) if parts[0].in_kernel else 0.0
+        without = self._without(lone, parts, named)
+        own = without.gained(lone) - price_of(finding.name) if lone.in_kernel else 0.0
         return {name: (rival, self._more(rival, finding.others[name], without, named) - own)
                 for name, rival in rivals.items() if rival.in_kernel}  # fmt: skip
 
@@ -301,14 +302,18 @@ class Fitting:
         Runs that no fit has seen must come out better with the rival, too; and be explained by it
         in place of what no effect stands for.
         """
+        lone = _lone(parts)
+        if lone is None:
+            return None
         for rival, more in rivals.values():
             if more > SURE:
-                with_it, own = (self._fitted(named, some) for some in ([rival], parts))
+                in_place = [rival if part is lone else part for part in parts]
+                with_it, own = (self._fitted(named, some) for some in (in_place, parts))
                 is_better = judged(with_it.ladder[-1].gap) < judged(own.ladder[-1].gap)
-                if is_better and (parts[0].in_kernel or explains(with_it.ladder)):
-                    without = self._fitted(named, [], is_shown=False)
-                    gained = without.gained(parts[0]) if parts[0].in_kernel else None
-                    return Rejected(parts[0].finding.name, parts[0].finding.gain, gained)
+                if is_better and (lone.in_kernel or explains(with_it.ladder)):
+                    without = self._without(lone, parts, named)
+                    gained = without.gained(lone) if lone.in_kernel else None
+                    return Rejected(lone.finding.name, lone.finding.gain, gained)
         return None
 
     def told_apart(self, named: Named, rivals: _Rivals) -> Named:
@@ -319,11 +324,11 @@ class Fitting:
         """
         if not rivals:
             return named
-        (finding,) = named.findings
+        *across, finding = named.findings
         others = dict(finding.others)
         for name, (_, more) in rivals.items():
             others[name] = told_by_both(others[name], more)
-        return replace(named, findings=(replace(finding, others=others),))
+        return replace(named, findings=(*across, replace(finding, others=others)))
 
     def _in_place(self, named: Named, name: str) -> Part:
         """What another explanation would put into the model."""
@@ -352,6 +357,12 @@ class Fitting:
 def _with_alone(named: Named, finding: Finding) -> Named:
     """The same rows with this finding in place of all others."""
     return replace(named, rung=named.system.rung(finding.added))
+
+
+def _lone(parts: Sequence[Part]) -> Part | None:
+    """The only finding along x, beside what moves the block across."""
+    along = [part for part in parts if part.finding.added]
+    return along[0] if len(along) == 1 else None
 
 
 def _greatest(parts: Sequence[Part]) -> Part | None:

@@ -47,8 +47,9 @@ EXPLAINED = 1.3
 #: ln of a Bayes factor beyond which a finding is no slip of the contact's description: rows of
 #: foreign contacts (bristles, Iwan) have pretended up to 206.
 SURE = 500.0
-#: ln of a Bayes factor up to which a contact may have turned rows; and how many rivals are tried.
-TURNED, RIVALS = 200.0, 3
+#: ln of a Bayes factor up to which a contact may have turned rows, or, of what is sure, a part of
+#: its own: a law followed to 7 % leaves so much of its squares. And how many rivals are tried.
+TURNED, TURNED_PART, RIVALS = 200.0, 5e-3, 3
 #: A contact that lets go by more than this sooner, s, is asked for ageing.
 SOONER = 0.03
 #: ln of a Bayes factor of simulated runs that need not be asked for by rows, or are by another form
@@ -147,7 +148,7 @@ def leaves(score: Score, most: float = NOTHING_MISSING) -> bool:
 
 def rivals_of(finding: Finding) -> list[str]:
     """What else the rows ask for in a finding's place, and a contact may have put behind it."""
-    within = TURNED if finding.gain < SURE else ALIKE
+    within = TURNED if finding.gain < SURE else max(TURNED_PART * finding.gain, ALIKE)
     near = {name: less for name, less in finding.others.items()
             if less > -within and finding.gain + less > ALIKE}  # fmt: skip
     return sorted(near, key=lambda name: -near[name])[:RIVALS]

@@ -95,7 +95,8 @@ class Fitted:
     """A form with the numbers that y asks for.
 
     evidence : ln; numbers : unknown -> (value, sd), SHARE as lateral_friction.ratio;
-    planes : run -> motion in the plane; gap : rms of what is left of y and phi, noise units
+    planes : run -> motion in the plane; gap : rms of what is left of y and phi, and of how far
+    each run's own numbers are from what they are beforehand; noise units, standard deviations
     turned : names of the runs in which the camera may be
     """
 
@@ -308,7 +309,7 @@ def _round(
         rows = part.rows - part.shared @ values
         gram, right = part.own.T @ part.own, part.own.T @ rows
         own = posterior(gram, right, float(rows @ rows), np.diag(prior**2)).mean
-        left.append(rows - part.own @ own)
+        left += [rows - part.own @ own, own / prior]
         known = {name: float(v) for name, v in zip(form, values, strict=True) if name in moving}
         starts = {f"own {name}": float(v) for name, v in zip(OWN, own, strict=False)}
         found[run.track.run.name] = made.plane(run.track, known | starts)

@@ -133,6 +133,16 @@ def test_a_lesser_finding_makes_up_for_half_of_what_is_missing(monkeypatch, reac
     assert found == ["run_in", "surface_pattern"][:named]
 
 
+@pytest.mark.parametrize(("gained", "named"), [(499.0, 1), (501.0, 2)])
+def test_what_simulated_runs_are_sure_of_is_named_where_scatter_takes_it_up(
+    monkeypatch, gained, named
+):
+    rows = Rows(finding("run_in", 2.0 * SURE), finding("film_drag", 30.0), most=2)
+    simulated = {"film_drag": gained, "run_in": 1e3}
+    found, _ = agreed(monkeypatch, rows, simulated, 1.0, (1.31, 1.31))
+    assert found == ["run_in", "film_drag"][:named]
+
+
 @pytest.mark.parametrize(
     ("left", "gained", "named", "asked"),
     [
@@ -170,14 +180,17 @@ def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monke
         (-12.1, 40.0, -12.1),
     ],
 )
-def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told):
+@pytest.mark.parametrize("across", [0, 1])
+def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told, across):
     """Beside 20 of the finding; what no model has stays as the rows have it."""
     wave = Added(Unknown("surface_pattern", "", None, np.eye(1)))
     one = Finding("run_in", (wave,), 30.0, {"film_drag": rows, "other.order": -1.0})
+    beside = [Finding("turning_surface", (), 900.0, {})] * across
     rung = SimpleNamespace(evidence=0.0)
     system = SimpleNamespace(rung=lambda added=(): rung)
     offers = {name: (30.0 + less, (wave,)) for name, less in one.others.items()}
-    named = Named(SimpleNamespace(first_offers=offers, system=system), (one,), system, rung, {})
+    found = (*beside, one)
+    named = Named(SimpleNamespace(first_offers=offers, system=system), found, system, rung, {})
     monkeypatch.setattr(
         agreement, "part_of", lambda campaign, system, rung, one, law: Part(
             one, None, (), (), {} if one.name == "other.order" else {"on": 1.0})
@@ -186,11 +199,12 @@ def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told
     gains = {"run_in": 20.0, "film_drag": gained}
     models = SimpleNamespace(gained=lambda part: gains[part.finding.name])
     monkeypatch.setattr(fitting, "_fitted", lambda named, parts, **_: models)
-    part = Part(one, None, (), (), {"on": 1.0})
-    rivals = fitting.rivals([part], named)
-    others = fitting.told_apart(named, rivals).findings[0].others
-    assert others == pytest.approx({"film_drag": told, "other.order": -1.0})
-    assert fitting.overruled([part], named, rivals) is None
+    parts = [Part(each, None, (), (), {"on": 1.0}) for each in found]
+    rivals = fitting.rivals(parts, named)
+    *kept, again = fitting.told_apart(named, rivals).findings
+    assert again.others == pytest.approx({"film_drag": told, "other.order": -1.0})
+    assert kept == beside
+    assert fitting.overruled(parts, named, rivals) is None
 
 
 @pytest.mark.parametrize(

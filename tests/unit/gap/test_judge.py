@@ -123,6 +123,8 @@ def test_rivals_are_the_best_few_that_rows_do_not_rule_out():
     assert rivals_of(faint) == ["film_drag"]  # the other is not asked for by itself
     sure = Finding("run_in", (), 501.0, {"film_drag": -2.9, "other.time": -3.1})
     assert rivals_of(sure) == ["film_drag"]
+    clear = Finding("run_in", (), 2e4, {"film_drag": -99.0, "other.time": -101.0})
+    assert rivals_of(clear) == ["film_drag"]
 
 
 def test_a_part_is_half_of_what_contact_and_scatter_leave():
