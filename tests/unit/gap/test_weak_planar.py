@@ -155,6 +155,15 @@ def test_a_form_whose_numbers_may_be_zero_is_a_swing(deviations, answer, tmp_pat
     assert planar_effects(campaign, tracks_and_rows(campaign)[1]).answer == answer
 
 
+def test_zeros_far_beyond_their_stated_error_explain_no_place_beside_the_axis(tmp_path):
+    """Not even beside anchors that turn the block, too, which no tracker has seen."""
+    anchors = {"lateral_offset": 9e-3, "diagonal_offset": 9e-3}
+    campaign = measured(tmp_path, spring_misalignment=anchors, initial={"y": 9e-3, "phi": 0.3})
+    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    assert planar.answer == "spring_misalignment"
+    assert planar.numbers["shift"][0] == pytest.approx(9e-3, rel=0.05)
+
+
 def test_a_camera_that_creeps_moves_no_block(tmp_path):
     campaign = measured(tmp_path, creep=8e-3, **ISOTROPIC)
     planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
