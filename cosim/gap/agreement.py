@@ -80,7 +80,7 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
                 along = {part.finding.name for part in parts if part.finding.added}
                 doubted = fitting.rejected(parts, named, along - faint)
         if doubted is None:
-            rivals = fitting.rivals(parts, named)
+            rivals = fitting.rivals(parts, named, models)
             doubted = fitting.overruled(parts, named, rivals)
         if doubted is None:
             named = fitting.told_apart(named, rivals)
@@ -267,7 +267,7 @@ class Fitting:
             return None
         return self._fitted(named, [], is_shown=False).ladder[-1].gap
 
-    def rivals(self, parts: Sequence[Part], named: Named) -> _Rivals:
+    def rivals(self, parts: Sequence[Part], named: Named, models: Models) -> _Rivals:
         """Of a lone finding along x what the rows would nearly have in its place, simulated.
 
         What no effect stands for is no more than the model without it.
@@ -276,7 +276,8 @@ class Fitting:
         if lone is None:
             return {}
         finding = lone.finding
-        rivals = {name: self._in_place(named, name) for name in rivals_of(finding)}
+        near = rivals_of(finding, explains(models.ladder))
+        rivals = {name: self._in_place(named, name) for name in near}
         if not rivals:
             return {}
         without = self._without(lone, parts, named)
@@ -327,7 +328,7 @@ class Fitting:
         *across, finding = named.findings
         others = dict(finding.others)
         for name, (_, more) in rivals.items():
-            others[name] = told_by_both(others[name], more)
+            others[name] = told_by_both(finding, name, more)
         return replace(named, findings=(*across, replace(finding, others=others)))
 
     def _in_place(self, named: Named, name: str) -> Part:

@@ -47,8 +47,9 @@ EXPLAINED = 1.3
 #: ln of a Bayes factor beyond which a finding is no slip of the contact's description: rows of
 #: foreign contacts (bristles, Iwan) have pretended up to 206.
 SURE = 500.0
-#: ln of a Bayes factor up to which a contact may have turned rows, or, of what is sure, a part of
-#: its own: a law followed to 7 % leaves so much of its squares. And how many rivals are tried.
+#: ln of a Bayes factor up to which a contact may have turned rows, or, of what is sure and does not
+#: explain the runs, a part of its own: a law followed to 7 % leaves so much of its squares. And how
+#: many rivals are tried.
 TURNED, TURNED_PART, RIVALS = 200.0, 5e-3, 3
 #: A contact that lets go by more than this sooner, s, is asked for ageing.
 SOONER = 0.03
@@ -146,22 +147,28 @@ def leaves(score: Score, most: float = NOTHING_MISSING) -> bool:
     return max(score.fit, judged(score)) > most
 
 
-def rivals_of(finding: Finding) -> list[str]:
-    """What else the rows ask for in a finding's place, and a contact may have put behind it."""
-    within = TURNED if finding.gain < SURE else max(TURNED_PART * finding.gain, ALIKE)
+def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
+    """What else the rows ask for in a finding's place, and a contact may have put behind it.
+
+    does_explain : whether the model with the finding is near enough to the runs
+    """
+    within = max(ALIKE, 0.0 if does_explain else TURNED_PART * finding.gain)
+    within = TURNED if finding.gain < SURE else within
     near = {name: less for name, less in finding.others.items()
             if less > -within and finding.gain + less > ALIKE}  # fmt: skip
     return sorted(near, key=lambda name: -near[name])[:RIVALS]
 
 
-def told_by_both(rows: float, simulated: float) -> float:
+def told_by_both(finding: Finding, name: str, simulated: float) -> float:
     """ln of how much more probable a rival is: as rows have it, 0 where simulated runs prefer it.
 
-    What the rows do not tell apart simulated runs may.
+    What the rows do not tell apart simulated runs may; and what is not sure they may contradict.
     """
+    rows = finding.others[name]
     if rows > -ALIKE:
         return simulated if simulated < -LEAST_GAIN else rows
-    return 0.0 if simulated > 0.0 and rows > -UNDECIDED else rows
+    contradicts = simulated > 0.0 and rows > -UNDECIDED and finding.gain < SURE
+    return 0.0 if contradicts else rows
 
 
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:

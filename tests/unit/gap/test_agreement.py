@@ -171,24 +171,26 @@ def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monke
 
 
 @pytest.mark.parametrize(
-    ("rows", "gained", "told"),
+    ("gain", "rows", "gained", "told"),
     [
-        (-2.9, 14.1, -2.9),  # a class, which simulated runs do not tell apart
-        (-2.9, 13.9, -6.1),
-        (-3.1, 19.9, -3.1),
-        (-11.9, 20.1, 0.0),  # they contradict the rows
-        (-12.1, 40.0, -12.1),
+        (30.0, -2.9, 14.1, -2.9),  # a class, which simulated runs do not tell apart
+        (30.0, -2.9, 13.9, -6.1),
+        (30.0, -3.1, 19.9, -3.1),
+        (499.0, -11.9, 20.1, 0.0),  # they contradict the rows
+        (2e4, -2.9, 13.9, -6.1),
+        (2e4, -11.9, 20.1, -11.9),
+        (30.0, -12.1, 40.0, -12.1),
     ],
 )
 @pytest.mark.parametrize("across", [0, 1])
-def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told, across):
+def test_rivals_of_a_finding_are_simulated(monkeypatch, gain, rows, gained, told, across):
     """Beside 20 of the finding; what no model has stays as the rows have it."""
     wave = Added(Unknown("surface_pattern", "", None, np.eye(1)))
-    one = Finding("run_in", (wave,), 30.0, {"film_drag": rows, "other.order": -1.0})
+    one = Finding("run_in", (wave,), gain, {"film_drag": rows, "other.order": -1.0})
     beside = [Finding("turning_surface", (), 900.0, {})] * across
     rung = SimpleNamespace(evidence=0.0)
     system = SimpleNamespace(rung=lambda added=(): rung)
-    offers = {name: (30.0 + less, (wave,)) for name, less in one.others.items()}
+    offers = {name: (gain + less, (wave,)) for name, less in one.others.items()}
     found = (*beside, one)
     named = Named(SimpleNamespace(first_offers=offers, system=system), found, system, rung, {})
     monkeypatch.setattr(
@@ -197,10 +199,11 @@ def test_rivals_of_a_faint_finding_are_simulated(monkeypatch, rows, gained, told
     )  # fmt: skip
     fitting = agreement.Fitting(None, lambda: None, 1)
     gains = {"run_in": 20.0, "film_drag": gained}
-    models = SimpleNamespace(gained=lambda part: gains[part.finding.name])
+    ends = [SimpleNamespace(gap=Score(1.0, 1.0))]
+    models = SimpleNamespace(gained=lambda part: gains[part.finding.name], ladder=ends)
     monkeypatch.setattr(fitting, "_fitted", lambda named, parts, **_: models)
     parts = [Part(each, None, (), (), {"on": 1.0}) for each in found]
-    rivals = fitting.rivals(parts, named)
+    rivals = fitting.rivals(parts, named, models)
     *kept, again = fitting.told_apart(named, rivals).findings
     assert again.others == pytest.approx({"film_drag": told, "other.order": -1.0})
     assert kept == beside
