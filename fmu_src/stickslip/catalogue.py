@@ -20,9 +20,7 @@ from functools import cache, cached_property
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType, SimpleNamespace
-from typing import Any
-
-import numpy as np
+from typing import TYPE_CHECKING, Any
 
 from . import contradictions, packing
 from .compiled import library
@@ -32,6 +30,9 @@ from .generation.c_program import Program
 from .generation.source import kernel_source, travelling
 from .kernel import MODULES
 from .plugins.load import Source, effect_in, installed, source_of
+
+if TYPE_CHECKING:
+    import numpy as np
 
 #: Of the environment: files of effects that every scenario and campaign has, joined as in PATH.
 VARIABLE = "STICKSLIP_EFFECTS"
@@ -112,6 +113,8 @@ class Catalogue:
 
     def packed(self, values: Mapping[str, float]) -> np.ndarray:
         """The same by machine code, in a fifth of the time."""
+        import numpy as np  # a wheel's libraries are made without it
+
         v, p = np.array(self._packing.in_order(values)), np.zeros(self.kernel.P_SIZE)
         self.compiled.pack(v, np.array(self._packing.draws(v)), p)
         return p
