@@ -16,73 +16,47 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from cosim.coupling.case import CoupledRun, run_scenario
-    from cosim.gap import read_campaign
-    from cosim.gap.find import find_gap
-    from cosim.gap.plan import make_plan, read_plan
-    from cosim.report.compare import compare, read_result
-    from cosim.scenario import Scenario, read_scenario
-    from cosim.simulated import SimulatedRun, simulate_scenario
-    from cosim.studies.belt_length import how_long
-    from cosim.studies.friction_map import friction_map
-    from cosim.studies.reproduction import reproduce
-    from cosim.studies.stability import (
-        case_of,
-        pretension_map,
-        regime_map,
-        stability,
-        stick_slip_range,
-    )
-    from cosim.studies.sweep import sweep
-    from cosim.systems import read_system, run_system
+    from cosim.coupling.case import CoupledRun as CoupledRun
+    from cosim.coupling.case import run_scenario as run_scenario
+    from cosim.gap import read_campaign as read_campaign
+    from cosim.gap.find import find_gap as find_gap
+    from cosim.gap.plan import make_plan as make_plan
+    from cosim.gap.plan import read_plan as read_plan
+    from cosim.report.compare import compare as compare
+    from cosim.report.compare import read_result as read_result
+    from cosim.scenario import Scenario as Scenario
+    from cosim.scenario import read_scenario as read_scenario
+    from cosim.simulated import SimulatedRun as SimulatedRun
+    from cosim.simulated import simulate_scenario as simulate_scenario
+    from cosim.studies.belt_length import how_long as how_long
+    from cosim.studies.friction_map import friction_map as friction_map
+    from cosim.studies.reproduction import reproduce as reproduce
+    from cosim.studies.stability import case_of as case_of
+    from cosim.studies.stability import pretension_map as pretension_map
+    from cosim.studies.stability import regime_map as regime_map
+    from cosim.studies.stability import stability as stability
+    from cosim.studies.stability import stick_slip_range as stick_slip_range
+    from cosim.studies.sweep import sweep as sweep
+    from cosim.systems import read_system as read_system
+    from cosim.systems import run_system as run_system
 
-__all__ = [
-    "CoupledRun",
-    "Scenario",
-    "SimulatedRun",
-    "case_of",
-    "compare",
-    "find_gap",
-    "friction_map",
-    "how_long",
-    "make_plan",
-    "pretension_map",
-    "read_campaign",
-    "read_plan",
-    "read_result",
-    "read_scenario",
-    "read_system",
-    "regime_map",
-    "reproduce",
-    "run_scenario",
-    "run_system",
-    "simulate_scenario",
-    "stability",
-    "stick_slip_range",
-    "sweep",
-]
-
-_HOME = {
-    "CoupledRun": "cosim.coupling.case",
-    "run_scenario": "cosim.coupling.case",
-    "Scenario": "cosim.scenario",
-    "read_scenario": "cosim.scenario",
-    "SimulatedRun": "cosim.simulated",
-    "simulate_scenario": "cosim.simulated",
-    **dict.fromkeys(("read_system", "run_system"), "cosim.systems"),
-    "read_campaign": "cosim.gap",
-    "find_gap": "cosim.gap.find",
-    **dict.fromkeys(("make_plan", "read_plan"), "cosim.gap.plan"),
-    "how_long": "cosim.studies.belt_length",
-    "friction_map": "cosim.studies.friction_map",
-    "sweep": "cosim.studies.sweep",
-    "reproduce": "cosim.studies.reproduction",
-    **dict.fromkeys(("compare", "read_result"), "cosim.report.compare"),
-    **dict.fromkeys(
-        ("case_of", "pretension_map", "regime_map", "stability", "stick_slip_range"),
-        "cosim.studies.stability",
-    ),
+_HOMES = {
+    "cosim.coupling.case": "CoupledRun run_scenario",
+    "cosim.gap": "read_campaign",
+    "cosim.gap.find": "find_gap",
+    "cosim.gap.plan": "make_plan read_plan",
+    "cosim.report.compare": "compare read_result",
+    "cosim.scenario": "Scenario read_scenario",
+    "cosim.simulated": "SimulatedRun simulate_scenario",
+    "cosim.studies.belt_length": "how_long",
+    "cosim.studies.friction_map": "friction_map",
+    "cosim.studies.reproduction": "reproduce",
+    "cosim.studies.stability": "case_of pretension_map regime_map stability stick_slip_range",
+    "cosim.studies.sweep": "sweep",
+    "cosim.systems": "read_system run_system",
 }
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
+__all__ = sorted(_HOME)
 
 
 def __getattr__(name: str) -> Any:
@@ -93,4 +67,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return __all__

@@ -7,7 +7,9 @@ show, too; a new effect has its sliders at once.
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Iterator
+from importlib.resources import files
 from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel
@@ -38,34 +40,9 @@ OF_RUN = ("run.duration", "run.output_interval", "ambient.temperature_degC")
 #: Keys that are no numbers of the motion: the file of a table has been read.
 LEFT_OUT = ("friction.table",)
 #: Where a slider goes to, of keys whose declarations have no range: sizes of a rig on a table.
-RANGES = {
-    "rig.mass": (0.1, 5.0),
-    "rig.inertia": (1e-5, 1e-2),
-    "rig.contact_radius": (0.005, 0.1),
-    "rig.attachment_radius": (0.01, 0.2),
-    "rig.spring_length": (0.05, 0.6),
-    "rig.spring_natural_length": (0.05, 0.6),
-    "rig.slab_radius": (-2.0, 2.0),
-    "springs.stiffness": (2.0, 200.0),
-    "friction.mu_s": (0.0, 1.0),
-    "friction.mu_k": (0.0, 1.0),
-    "friction.stick_creep": (1e-6, 1e-2),
-    "friction.transition_speed": (1e-4, 0.1),
-    "friction.presliding_distance": (1e-6, 1e-3),
-    "surface.speed": (-0.6, 0.6),
-    "surface.run_up_time": (0.0, 30.0),
-    "initial.x": (-0.1, 0.1),
-    "initial.y": (-0.05, 0.05),
-    "initial.phi": (-0.5, 0.5),
-    "initial.vx": (-0.5, 0.5),
-    "initial.vy": (-0.5, 0.5),
-    "initial.omega": (-5.0, 5.0),
-    "imperfections.seed": (0, 100),
-    "surface_scatter.seed": (0, 100),
-    "run.duration": (1.0, 300.0),
-    "run.output_interval": (1e-3, 0.1),
-    "ambient.temperature_degC": (-40.0, 40.0),
-}
+RANGES: dict[str, list[float]] = tomllib.loads(
+    (files(__package__) / "ranges.toml").read_text(encoding="utf-8")
+)
 #: A slider is logarithmic where its ends are further apart than this.
 DECADES = 30.0
 #: A typical range ends where most rigs do; a slider goes on so much further.

@@ -9,33 +9,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from importlib.metadata import distribution
 from importlib.resources import files
+from typing import Any
 from xml.etree.ElementTree import Element, SubElement
 
 from cosim.fmu.description import written
 from cosim.fmu.libraries import FMI2, FMI3
-from cosim.fmu.variables import Variable
+from cosim.fmu.variables import DECLARED, Variable
 
 LICENSES = "documentation/licenses"
-#: Kind of terminal -> member -> variables that it may be, of which a unit has one.
-TERMINALS: Mapping[str, Mapping[str, tuple[str, ...]]] = {
-    "interface": {
-        "heat": ("heat",),
-        "surface_speed": ("surface_speed_actual", "surface_speed"),
-        "x": ("x",),
-        "interface_temperature": ("interface_temperature",),
-    },
-    "motion": {name: (name,) for name in ("x", "y", "phi", "vx", "vy", "omega")},
-    "external_load": {
-        "force_x": ("external_force_x",),
-        "force_y": ("external_force_y",),
-        "moment": ("external_moment",),
-    },
-}
-SAID = {
-    "interface": "What block and heat model exchange at the contact",
-    "motion": "Place and velocity of the block in the frame of the rig",
-    "external_load": "What acts on the block beside springs and friction",
-}
+#: Kind of terminal -> what it is, and member -> variables that it may be, of which a unit has one.
+TERMINALS: Mapping[str, Any] = DECLARED["terminals"]
 
 
 def extras(
@@ -74,10 +57,10 @@ def terminals(variables: Iterable[Variable]) -> bytes:
     SubElement(picture, "CoordinateSystem", corners, suggestedScalingFactorTo_mm="0.1")
     SubElement(picture, "Icon", corners)
     place = SubElement(root, "Terminals")
-    for kind, members in TERMINALS.items():
+    for kind, told in TERMINALS.items():
         has = {
             member: next((name for name in names if name in known), None)
-            for member, names in members.items()
+            for member, names in told["members"].items()
         }
         if None in has.values():
             continue
@@ -87,7 +70,7 @@ def terminals(variables: Iterable[Variable]) -> bytes:
             name=kind,
             matchingRule="plug",
             terminalKind=f"stickslip.{kind}",
-            description=SAID[kind],
+            description=told["says"],
         )
         for member, name in has.items():
             SubElement(

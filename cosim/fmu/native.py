@@ -48,8 +48,11 @@ DESCRIPTION = (
 MAKERS = (
     *Path(c_generation.__file__).parent.glob("c*.py"),
     *(
-        Path(__file__).with_name(f"{name}.py")
-        for name in ("native", "c_tables", "exchange", "libraries", "variables")
+        Path(__file__).with_name(name)
+        for name in (
+            *("native.py", "c_tables.py", "exchange.py", "libraries.py"),
+            *("variables.py", "variables.toml"),
+        )
     ),
 )
 

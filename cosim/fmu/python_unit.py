@@ -86,7 +86,10 @@ def slave_file(name: str) -> Path:
 #: Files that an FMU also depends on, though they do not travel.
 RECIPE_FILES = (
     Path(__file__),
-    *(Path(__file__).with_name(f"{name}.py") for name in ("pythonfmu_library", "variables")),
+    *(
+        Path(__file__).with_name(name)
+        for name in ("pythonfmu_library.py", "pythonfmu.toml", "variables.py", "variables.toml")
+    ),
     Path(units.__file__),
     Path(description.__file__),
     Path(fmi2.__file__),

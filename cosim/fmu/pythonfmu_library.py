@@ -31,8 +31,10 @@ refused, why there is no instance, or that it could not return as a status. What
 host's wish, `loggingOn != 0`, becomes `true`; the unit says little that is no error.
 """
 
+import tomllib
 import warnings
 from dataclasses import dataclass
+from importlib.resources import files
 
 #: First bytes of a library of Linux, of Windows.
 ELF, DLL = b"\x7fELF", b"MZ"
@@ -51,67 +53,19 @@ class Correction:
     start: bytes = b""
 
 
-REFUSED_STEP = Correction(
-    found=bytes.fromhex("c6430801 b802000000"),  # movb $1, 8(%rbx); movl $2, %eax
-    put=bytes.fromhex("c6430800 b803000000"),
-    loss="returns fmi2Discard, not fmi2Error, where a step is refused",
-)
-FATAL_END = "returns fmi2Fatal, not fmi2Error, where the end of initialisation is refused"
-REFUSED_END = (
-    Correction(  # mov %rsp, %r12; mov 0x18(%rbx), %rbp; mov %rax, %rdi; call what
-        found=bytes.fromhex("4989e4488b 6b184889c7 e848f7ffff"),
-        put=bytes.fromhex("e99c000000 6b184889c7 e848f7ffff"),  # jmp to the end of the second
-        loss=FATAL_END,
-        start=ELF,
-    ),
-    Correction(  # the first handler's entry in the table: type, frame, code, where to go on
-        found=bytes.fromhex("1712 a8d10300 50 10b90100 4c"),
-        put=bytes.fromhex("1712 a8d10300 50 10b90100 7a"),
-        loss=FATAL_END,
-        start=DLL,
-    ),
-    Correction(  # mov $4, %edx; mov %rdi, %rcx; call log
-        found=bytes.fromhex("ba04000000 488bcf e83102ffff"),
-        put=bytes.fromhex("ba04000000 488bcf 0f1f440000"),  # nop
-        loss="repeats in other words why the end of initialisation is refused",
-        start=DLL,
-    ),
-)
-PROCESS_END = Correction(
-    # endbr64; push %rbp; pxor %xmm0, %xmm0; push %rbx; sub $8, %rsp; mov pyState+8, %rbp;
-    # movaps %xmm0, pyState; test %rbp, %rbp
-    found=bytes.fromhex("f30f1efa 55 660fefc0 53 4883ec08 488b2d73640100 0f290564640100 4885ed"),
-    put=bytes.fromhex("f30f1efa c3 660fefc0 53 4883ec08 488b2d73640100 0f290564640100 4885ed"),
-    loss="may abort at the end of its host's process",
-    start=ELF,
-)
-UNHEARD = "says nothing of its errors to a host that has not switched logging on"
-LOGGING = (
-    Correction(  # test %eax, %eax; setne 8(%r12); call
-        found=bytes.fromhex("85c0 410f95442408 e8"),
-        put=bytes.fromhex("85c0 41c644240801 e8"),  # movb $1, 8(%r12)
-        loss=UNHEARD,
-        start=ELF,
-    ),
-    Correction(  # test %eax, %eax; setne 8(%rdi); add $0x30, %rdi
-        found=bytes.fromhex("85c0 0f954708 4883c730"),
-        put=bytes.fromhex("85c0 c6470801 4883c730"),  # movb $1, 8(%rdi)
-        loss=UNHEARD,
-        start=ELF,
-    ),
-    Correction(  # setne %al; mov 0x30(%rsp), %rbx; mov %al, 8(%rbx)
-        found=bytes.fromhex("0f95c0 488b5c2430 884308"),
-        put=bytes.fromhex("b00190 488b5c2430 884308"),  # mov $1, %al; nop
-        loss=UNHEARD,
-        start=DLL,
-    ),
-    Correction(  # test %r12d, %r12d; setne %al; mov %al, 8(%rcx)
-        found=bytes.fromhex("4585e4 0f95c0 884108"),
-        put=bytes.fromhex("4585e4 b00190 884108"),
-        loss=UNHEARD,
-        start=DLL,
-    ),
-)
+def corrections() -> list[Correction]:
+    """Those of `pythonfmu.toml`, in its order."""
+    text = (files(__package__) / "pythonfmu.toml").read_text(encoding="utf-8")
+    kinds = {"linux": ELF, "windows": DLL}
+    return [
+        Correction(
+            bytes.fromhex(each["found"]),
+            bytes.fromhex(each["put"]),
+            each["loss"],
+            kinds.get(each.get("system", ""), b""),
+        )
+        for each in tomllib.loads(text)["correction"]
+    ]
 
 
 def corrected(library: bytes) -> bytes:
@@ -119,7 +73,7 @@ def corrected(library: bytes) -> bytes:
 
     Code that is not found exactly once is left as it is, with a warning that says what is lost.
     """
-    for correction in (REFUSED_STEP, *REFUSED_END, PROCESS_END, *LOGGING):
+    for correction in corrections():
         if not library.startswith(correction.start):
             continue
         if library.count(correction.found) == 1:

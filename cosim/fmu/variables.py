@@ -5,6 +5,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
+from importlib.resources import files
 from pathlib import Path
 from typing import Any, get_args, get_origin
 
@@ -19,17 +20,18 @@ import cosim
 
 Entry = dict[str, Any]
 
+#: Guides, terminals, and what the unit has that its model has not.
+DECLARED = tomllib.loads((files(__package__) / "variables.toml").read_text(encoding="utf-8"))
+_WITHOUT: Entry = {"unit": None, "nominal": None, "max": None, "above_min": False}
 #: Parameters that the FMU shows otherwise than the parameter models do.
 GUIDES: dict[str, Entry] = {
-    key: {
-        "unit": None,
-        "nominal": None,
+    key: _WITHOUT
+    | {
         "min": 0,
         "max": 1,
-        "above_min": False,
         "description": f"1: the block can move in {motion}; 0: a guide keeps it from that",
     }
-    for key, motion in (("free_y", "y"), ("free_phi", "phi"))
+    for key, motion in DECLARED["guides"].items()
 }
 SPECIAL: dict[str, Entry] = {
     "rig.inertia": {
@@ -42,43 +44,9 @@ SPECIAL: dict[str, Entry] = {
         for i in range(limit)
     },
 }
-#: Of the unit alone: the model by itself has its inputs as they are.
-HOLD: Entry = {
-    "name": "input.hold",
-    "unit": None,
-    "nominal": None,
-    "min": 0,
-    "max": 1,
-    "above_min": False,
-    "description": "inputs between communication points: 0 held, 1 going on as between the last "
-    "two, through events too; rates that a host gives come first. The speed of the surface under a "
-    "block that sticks does not jump",
-    "start": 0,
-}
-#: Bounds of what the unit alone watches, see `WATCHED`.
-LIMITS: tuple[Entry, ...] = (
-    {
-        "name": "belt.width",
-        "unit": "m",
-        "nominal": 0.075,
-        "min": 0,
-        "max": 10,
-        "above_min": False,
-        "description": "width of the belt, for off_belt; 0: it has no edge",
-        "start": 0.075,
-    },
-    {
-        "name": "springs.longest",
-        "unit": "1",
-        "nominal": 2.0,
-        "min": 0,
-        "max": None,
-        "above_min": False,
-        "description": "length above which a spring is overstretched, in lengths without load; "
-        "most extension springs bear about 2; 0: any",
-        "start": 2.0,
-    },
-)
+#: Of the unit alone: what it does with its inputs, and bounds of what it watches, see `WATCHED`.
+HOLD: Entry = _WITHOUT | DECLARED["hold"]
+LIMITS: tuple[Entry, ...] = tuple(_WITHOUT | each for each in DECLARED["limits"])
 #: Parameters that may be changed in a run, where a unit can take that.
 TUNABLE = ("friction.mu_s", "friction.mu_k")
 
@@ -129,24 +97,9 @@ class Variable:
 
 
 #: Outputs of the unit alone: what no rig bears. The model goes on as if it did.
-WATCHED = (
-    Variable(
-        "off_belt",
-        "output",
-        None,
-        None,
-        "Whether the block's centre is beyond an edge of the belt, |y| > belt.width / 2; never "
-        "on a slab",
-        is_boolean=True,
-    ),
-    Variable(
-        "spring_overstretched",
-        "output",
-        None,
-        None,
-        "Whether a spring is longer than springs.longest times its length without load",
-        is_boolean=True,
-    ),
+WATCHED = tuple(
+    Variable(name, "output", None, None, text, is_boolean=True)
+    for name, text in DECLARED["watched"].items()
 )
 
 

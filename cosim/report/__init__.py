@@ -7,31 +7,23 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from cosim.files import OutputError
-    from cosim.report.contents import Views
-    from cosim.report.dataset import run_dataset, trajectory_dataset
-    from cosim.report.results import write_data, write_results
-    from cosim.report.run_summary import summary
+    from cosim.files import OutputError as OutputError
+    from cosim.report.contents import Views as Views
+    from cosim.report.dataset import run_dataset as run_dataset
+    from cosim.report.dataset import trajectory_dataset as trajectory_dataset
+    from cosim.report.results import write_data as write_data
+    from cosim.report.results import write_results as write_results
+    from cosim.report.run_summary import summary as summary
 
-__all__ = [
-    "OutputError",
-    "Views",
-    "run_dataset",
-    "summary",
-    "trajectory_dataset",
-    "write_data",
-    "write_results",
-]
-
-_HOME = {
-    "OutputError": "cosim.files",
-    "Views": "cosim.report.contents",
-    "run_dataset": "cosim.report.dataset",
-    "trajectory_dataset": "cosim.report.dataset",
-    "write_data": "cosim.report.results",
-    "write_results": "cosim.report.results",
-    "summary": "cosim.report.run_summary",
+_HOMES = {
+    "cosim.files": "OutputError",
+    "cosim.report.contents": "Views",
+    "cosim.report.dataset": "run_dataset trajectory_dataset",
+    "cosim.report.results": "write_data write_results",
+    "cosim.report.run_summary": "summary",
 }
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
+__all__ = sorted(_HOME)
 
 
 def __getattr__(name: str) -> Any:
@@ -42,4 +34,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return __all__

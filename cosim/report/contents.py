@@ -16,7 +16,7 @@ from stickslip.steady_motion import Assessment
 from stickslip.trajectory import counted_break_aways
 
 from cosim.report.columns import Data
-from cosim.report.quantities import Quantity
+from cosim.report.quantities import TABLES, Quantity
 
 if TYPE_CHECKING:
     from thermal import RigView, ThermalParameters
@@ -29,22 +29,7 @@ Array = NDArray[np.float64]
 
 SLIP = 1.0
 ATTRIBUTE = "assessment"
-STABILITY_UNITS = {
-    "growth": "1",
-    "cycle": "s",
-    "time_to_grow": "s",
-    "amplification": "1",
-    "pretension": "m",
-    "least_pretension": "m",
-}
-REGIME_UNITS = {
-    "frequency": "Hz",
-    "slip_share": "1",
-    "mean_x": "m",
-    "half_range_x": "m",
-    "max_y": "m",
-    "max_rotation_deg": "deg",
-}
+STABILITY_UNITS, REGIME_UNITS = TABLES["stability_units"], TABLES["regime_units"]
 
 
 def tables_of(scenario: BaseModel) -> Tables:

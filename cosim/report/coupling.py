@@ -9,31 +9,13 @@ from typing import TYPE_CHECKING, Any
 from cosim.report.columns import Data
 
 from .page import number
-from .quantities import Quantity
+from .quantities import TABLES, Quantity
 
 if TYPE_CHECKING:
     from cosim.coupling import CoupledResult
 
 #: Key of the numbers -> its words on a page.
-WORDS = {
-    "scheme": "scheme",
-    "order": "order",
-    "step_control": "step control",
-    "macro_step": "macro step asked for",
-    "steps": "steps made",
-    "rejected": "steps taken back",
-    "shortest_step": "shortest",
-    "longest_step": "longest",
-    "iterations": "iterations of all steps",
-    "most_iterations": "iterations of one step at most",
-    "unconverged": "steps accepted without convergence",
-    "first_unconverged": "the first of them, from",
-    "above_tolerance": "steps accepted above the tolerance",
-    "first_above_tolerance": "the first of these, from",
-    "events": "steps ended early by a unit",
-    "initial_sweeps": "sweeps of the initial exchange",
-    "remarks": "to be noted",
-}
+WORDS = TABLES["steps"]
 #: What is shown only where there is any: for one, the start of the first step that stands although
 #: it should not.
 FIRST = ("first_unconverged", "first_above_tolerance")

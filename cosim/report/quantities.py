@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import tomllib
 from collections.abc import Mapping
+from importlib.resources import files
 from typing import Any, NamedTuple
 
 from .page import unit_text
@@ -43,65 +45,12 @@ def ratio(part: float, whole: float) -> float | None:
     return part / whole if whole else None
 
 
-WORDS = {
-    "begin": "window begins",
-    "duration": "window lasts",
-    "break_aways": "break-aways counted",
-    "frequency": "stick-slip frequency",
-    "mean_period": "mean time between break-aways",
-    "slip_share": "share of the time in slip",
-    "mean_x": "mean x",
-    "min_x": "smallest x",
-    "max_x": "largest x",
-    "mean_y": "mean y",
-    "min_y": "smallest y",
-    "max_y": "largest y",
-    "max_rotation_deg": "largest rotation",
-    "mean_friction_force_x": "mean friction along x",
-    "max_friction_force_x": "largest friction along x",
-    "mean_heat_flow": "mean friction heat",
-    "surface_travel": "travel of the surface",
-    "sliding_distance": "sliding distance",
-    "surface_work": "work of the surface",
-    "external_work": "work of the external forces",
-    "damping_heat": "heat in the structural damping",
-    "friction_heat": "friction heat",
-    "residual": "residual at the end",
-    "largest_residual": "largest residual",
-    "relative_residual": "largest residual, relative",
-    "received": "received from friction",
-    "belt": "in the belt",
-    "ice": "in the ice",
-    "air": "given to the air",
-    "melting": "spent on melting",
-    "from_contact_to_belt": "entered the belt at the contact",
-    "handed_over": "handed over by the mechanics",
-    "taken_up": "taken up by belt and ice",
-    "largest_difference": "largest difference",
-    "relative_difference": "largest difference, relative",
-    "largest_total_residual": "largest residual of the whole system",
-    "onset": "melting begins",
-    "melted_mass": "ice that the block has lost",
-    "refrozen_mass": "of it lying frozen on the belt",
-    "wiped_ice_mass": "of it frozen on the belt, and wiped off",
-    "mean_melt_rate": "melt rate, mean since then",
-    "max_melt_rate": "largest melt rate",
-    "melting_share": "share of the friction heat spent on melting since then",
-    "melting_share_end": "share of the friction heat spent on melting",
-    "friction_before": "friction coefficient in the second before",
-    "friction_end": "friction coefficient",
-    "film_thickness": "water under the block, mean thickness",
-    "film_fed_by_melting": "thickness that melting alone feeds",
-    "friction_stress": "stress of friction",
-    "whole_film_shear": "shear of the film if it covered the whole contact",
-    "largest_flooded_share": "share of the contact that it can cover at most",
-    "flooded_share": "flooded share",
-    "water_shear": "shear of the water, part of the stress",
-    "interface": "contact, mean of both faces",
-    "belt_entry": "belt before the contact",
-    "belt_exit": "belt behind the contact",
-    "ice_face": "face of the ice",
-}
+#: What is called and shown how: `tables.toml`.
+TABLES: dict[str, dict[str, Any]] = tomllib.loads(
+    (files(__package__) / "tables.toml").read_text(encoding="utf-8")
+)
+WORDS: dict[str, str] = TABLES["words"]
+ROUNDING: dict[str, float] = TABLES["rounding"]
 
 NONE = "–"
 #: Digits of what is given, and of differences between results.
@@ -114,25 +63,6 @@ MINUS = str.maketrans("-", "−")
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 # units that are read more easily with a prefix than with a power of ten
 PREFIXED = {"m", "K", "W", "N", "s", "J"}
-
-
-#: Unit -> what is rounding below it, beside what a rig's block, belt and ice are like: an atom's
-#: size for a length, a part in 1e13 or less of the nominal values for the others.
-ROUNDING = {
-    "m": 1e-10,
-    "m/s": 1e-13,
-    "rad": 1e-12,
-    "deg": 1e-10,
-    "rad/s": 1e-11,
-    "N": 1e-13,
-    "N.m": 1e-14,
-    "W": 1e-14,
-    "J": 1e-15,
-    "K": 1e-11,
-    "kg": 1e-16,
-    "kg/s": 1e-16,
-    "Pa": 1e-9,
-}
 
 
 def worded(key: str) -> str:

@@ -6,7 +6,8 @@ import io
 import textwrap
 from collections.abc import Callable, Sequence
 from functools import partial, wraps
-from typing import TYPE_CHECKING, Any, NamedTuple
+from importlib.resources import files
+from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
@@ -25,9 +26,6 @@ from PIL import Image
 from .live import Live, Panel, TimeFigure
 from .page import DPI, Picture, unit_text
 
-if TYPE_CHECKING:
-    from matplotlib.typing import RcKeyType
-
 Array = NDArray[np.float64]
 
 # Okabe and Ito's palette: told apart with any kind of colour vision, and unequal in grey
@@ -44,42 +42,15 @@ INK, GREY = "#222222", "#7A7A7A"
 # of words: enough contrast with white
 DARK_RED = "#A34700"
 # from dark to pale, for what stands behind or is of no weight
-DULL_GREY, SOFT_GREY, GRID_GREY, LIGHT_GREY, PALE_GREY = (
-    "#BBBBBB",
-    "#CFCFCF",
-    "#D9D9D9",
-    "#E3E3E3",
-    "#EDEDED",
-)
+SOFT_GREY, LIGHT_GREY, PALE_GREY = "#CFCFCF", "#E3E3E3", "#EDEDED"
 SAND, SLIP = "#F3D9A4", "#F8EAD0"
 #: Colours of temperatures: from dark to bright, read alike with any kind of colour vision.
 HEAT_MAP = "inferno"
 
-RC: dict[RcKeyType, Any] = {
-    "font.family": "DejaVu Sans",
-    "font.size": 10.0,
-    "axes.labelsize": 10.0,
-    "axes.titlesize": 10.0,
-    "axes.titlelocation": "left",
-    "axes.edgecolor": GREY,
-    "axes.labelcolor": INK,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.axisbelow": True,
-    "axes.grid": True,
-    "grid.color": GRID_GREY,
-    "grid.linewidth": 0.6,
-    "xtick.labelsize": 9.0,
-    "ytick.labelsize": 9.0,
-    "xtick.color": INK,
-    "ytick.color": INK,
-    "legend.fontsize": 9.0,
-    "legend.frameon": False,
-    "figure.titlesize": 12.0,
-    "lines.linewidth": 1.3,
-    "lines.markersize": 4.0,
-    "lines.solid_joinstyle": "round",
-}
+#: The house style, whatever a user's own is.
+RC: Any = matplotlib.rc_params_from_file(
+    str(files(__package__) / "house.mplstyle"), use_default_template=False
+)
 
 PREFIXES = ((1e-9, "n"), (1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"), (1e6, "M"))
 

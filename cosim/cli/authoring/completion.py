@@ -2,30 +2,20 @@
 
 from __future__ import annotations
 
+import tomllib
 from argparse import Action, ArgumentParser, Namespace, _SubParsersAction
 from collections.abc import Iterator
+from importlib.resources import files
 from typing import Any
 
 from cosim.cli import DONE, BadInput
 from cosim.cli.arguments import COMMANDS
 
-EXAMPLE = "stickslip completion bash"
 SHELLS = ("bash", "zsh", "fish")
 #: What stands for a file where there is no metavar that says so.
 FILES = ("scenario", "campaign", "system", "source", "a", "b")
 #: What a key of a scenario follows, to be given a value; `couple` sets keys of its own.
 KEYED, NOT_KEYED = ("changes", "vary"), "couple"
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "shell",
-        choices=SHELLS,
-        help="whose script is printed (needs `pip install shtab`). bash: write it to "
-        "~/.local/share/bash-completion/completions/stickslip; zsh: to _stickslip in a folder of "
-        "$fpath; fish: to ~/.config/fish/completions/stickslip.fish",
-    )
 
 
 def execute(arguments: Namespace) -> int:
@@ -53,13 +43,14 @@ def execute(arguments: Namespace) -> int:
     names = " ".join(packaged_scenarios())
     # a text for each shell, whatever its declaration says
     keys = " ".join(f"{one.key}=" for one in all_keys() if "[]" not in one.key)
+    texts = tomllib.loads((files(__package__) / "completion.toml").read_text(encoding="utf-8"))
     preamble: Any = {
         shell: text.replace("@NAMES@", names).replace("@KEYS@", keys)
-        for shell, text in PREAMBLE.items()
+        for shell, text in texts["preamble"].items()
     }
     print(shtab.complete(whole, shell=arguments.shell, preamble=preamble))
     if arguments.shell == "bash":
-        print(NO_SPACE)
+        print(texts["after"])
     return DONE
 
 
@@ -72,49 +63,6 @@ def _actions(parser: ArgumentParser, command: str = "") -> Iterator[tuple[str, A
                 yield from _actions(inner, name)
 
 
-#: A packaged scenario or a TOML file, in the words of each shell.
-SCENARIOS: dict[str, Any] = {
-    "bash": "_stickslip_scenarios",
-    "zsh": "_stickslip_scenarios",
-    "fish": "_stickslip_scenarios",
-}
-#: A key of a scenario and its sign of equality.
+#: Of each shell, what completes a packaged scenario or a TOML file, and a key of a scenario.
+SCENARIOS: dict[str, Any] = dict.fromkeys(SHELLS, "_stickslip_scenarios")
 KEYS: dict[str, Any] = dict.fromkeys(SHELLS, "_stickslip_keys")
-#: Behind that sign comes the value, behind a folder what is in it, and no space.
-NO_SPACE = """
-_stickslip_complete() {
-  _shtab_stickslip
-  if [[ ${#COMPREPLY[@]} -eq 1 && ${COMPREPLY[0]} == *[=/] ]]; then compopt -o nospace; fi
-}
-complete -o bashdefault -F _stickslip_complete stickslip
-"""
-PREAMBLE = {
-    "bash": """
-_stickslip_scenarios() {
-  compgen -W "@NAMES@" -- "$1"
-  compgen -f -X '!*.toml' -- "$1"
-  compgen -f -X '!*.ssp' -- "$1"
-  compgen -d -S '/' -- "$1"
-}
-_stickslip_keys() {
-  compgen -W "@KEYS@" -- "$1"
-}
-""",
-    "zsh": """
-_stickslip_scenarios() {
-  _alternative 'names:packaged scenario:(@NAMES@)' 'files:file:_files -g "*.(toml|ssp)"'
-}
-_stickslip_keys() {
-  compadd -S '' -- @KEYS@
-}
-""",
-    "fish": """
-function _stickslip_scenarios
-  printf '%s\\n' @NAMES@
-  __fish_complete_suffix .toml
-end
-function _stickslip_keys
-  printf '%s\\n' @KEYS@
-end
-""",
-}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import webbrowser
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from importlib.resources import files
 from importlib.util import find_spec
 from pathlib import Path
@@ -14,22 +14,11 @@ import cosim
 from cosim.cli import DONE, BadInput, Failed
 from cosim.cli.console import note
 
-EXAMPLE = "stickslip docs"
 #: In a package that was released; in a checkout.
 INSTALLED, BUILT = "documentation/index.html", "results/site/html/index.html"
 BUILDER = "tests/docs/build_site.py"
 #: What building needs, of the extra `docs`.
 NEEDED = ("sphinx", "myst_nb", "furo", "latex2mathml")
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "--no-open", action="store_true", help="say where it is, and leave the browser alone"
-    )
-    parser.add_argument(
-        "--build", action="store_true", help="build it anew, from a checkout (default: if absent)"
-    )
 
 
 def execute(arguments: Namespace) -> int:

@@ -4,36 +4,18 @@ from __future__ import annotations
 
 import keyword
 import re
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError, Namespace
 from importlib import resources
 from pathlib import Path
 
 from cosim.cli import DONE
-from cosim.cli.arguments import add_force
 from cosim.files import OutputRefused, writable, write_unless_owned
 
-EXAMPLE = "stickslip effect new brush.py"
 SUFFIX = ".py"
 
 
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.description = (
-        f"{parser.description} It works as it is: name it in a scenario (effects = "
-        '["brush.py"] at its top, with a table [brush]), in a campaign ([model] effects = '
-        '["brush.py"]), or as `stickslip effects brush.py` and `stickslip build --effects '
-        "brush.py`. Such a file is code that these commands run: name none that you would not run "
-        "by yourself, nor a scenario or campaign that does. Its terms keep to what can become C "
-        "and machine code; what cannot is refused with its line."
-    )
-    parser.add_argument("what", choices=["new"], help="write a new file")
-    parser.add_argument(
-        "file", metavar="FILE.py", type=_file, help="the effect is called as the file is"
-    )
-    add_force(parser)
-
-
-def _file(name: str) -> Path:
+def effect_file(name: str) -> Path:
+    """A file whose name an effect can have."""
     path = Path(name)
     wrong = not re.fullmatch(r"[a-z][a-z0-9_]*", path.stem) or keyword.iskeyword(path.stem)
     if path.suffix != SUFFIX or wrong:

@@ -3,29 +3,14 @@
 from __future__ import annotations
 
 import json
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, BadInput
-from cosim.cli.arguments import add_force, add_json
 from cosim.cli.numbers import numbers_asked
 
 if TYPE_CHECKING:
     from cosim.scenario.keys import Key
-
-EXAMPLE = "stickslip keys stiffness"
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "word",
-        metavar="WORD",
-        nargs="?",
-        help="only keys that have this in their name, or else in what they mean (default: all)",
-    )
-    add_json(parser)
-    add_force(parser)
 
 
 def execute(arguments: Namespace) -> int:

@@ -3,25 +3,10 @@
 from __future__ import annotations
 
 import shlex
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 
 from cosim.cli import DONE
 from cosim.cli.console import note
-
-EXAMPLE = "stickslip new cold_room --from reference"
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("name", metavar="NAME", help="of the scenario; NAME.toml is written")
-    parser.add_argument(
-        "--from",
-        dest="source",
-        metavar="SCENARIO",
-        help="copy this TOML file or packaged scenario, such as reference, slab, meltwater "
-        "(default: a commented scenario with the keys that most rigs differ in)",
-    )
-    parser.add_argument("--force", action="store_true", help="overwrite NAME.toml")
 
 
 def execute(arguments: Namespace) -> int:

@@ -3,35 +3,11 @@
 from __future__ import annotations
 
 import json
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
 from cosim.cli import DONE
-
-EXAMPLE = "stickslip schema campaign -o campaign.schema.json"
-KINDS = ("scenario", "campaign", "plan", "system")
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "kind",
-        nargs="?",
-        choices=KINDS,
-        default=KINDS[0],
-        help="of which file: that of run and simulate (default), gap, plan, or couple",
-    )
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        help="write it there (default: standard output); a TOML file beside it that begins with "
-        "#:schema ./FILE is then checked by taplo and by Even Better TOML in VS Code",
-    )
-    parser.add_argument(
-        "--force", action="store_true", help="overwrite FILE where it is no such schema"
-    )
 
 
 def execute(arguments: Namespace) -> int:

@@ -2,39 +2,10 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 
 from cosim.cli import DONE, BadInput
-from cosim.cli.arguments import add_force
-
-EXAMPLE = "stickslip campaign tracks --set mass=870g --set stiffness=38.5"
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "folder",
-        metavar="FOLDER",
-        help="of a file for each run: CSV or text with a header, Excel, or as Tracker and "
-        "DeepLabCut export them; names such as 870g_60mm-s_k38.5.csv say mass, speed and stiffness",
-    )
-    parser.add_argument(
-        "--set",
-        metavar="KEY=VALUE",
-        action="append",
-        default=[],
-        dest="changes",
-        help="mass, stiffness, surface_speed or ambient_degC of the runs whose names do not say it,"
-        " in SI units or with the unit",
-    )
-    parser.add_argument(
-        "--frames", metavar="RATE", type=float, help="pictures a second, of tracks in pixels"
-    )
-    parser.add_argument(
-        "--pixel", metavar="LENGTH", help='of a pixel, as "0.2 mm", of tracks in pixels'
-    )
-    add_force(parser)
 
 
 def execute(arguments: Namespace) -> int:

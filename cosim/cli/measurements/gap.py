@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError, Namespace
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, Failed
-from cosim.cli.arguments import EXAMPLE_TOO, RESULTS, STDOUT, add_results
+from cosim.cli.arguments import RESULTS, STDOUT
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import numbers_asked
@@ -20,55 +20,15 @@ from cosim.manifest import made_by, own_folder, results_in
 if TYPE_CHECKING:
     from cosim.gap import Campaign
 
-EXAMPLE = "stickslip gap cold_room/campaign.toml -o results/cold_room"
-IMPORTS = ("cosim.gap",)
 RESULT, MODEL, PAGE = "gap.json", "model.toml", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("campaign", "verdict", "ranking")
 #: What writes an answer down.
 SHOW, SHOW_SUMMARY = "cosim.gap.show.files", "cosim.studies.reproduction.summary.show"
 CAMPAIGNS = Path(__file__).parents[2] / "gap" / "campaigns"
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "campaign",
-        nargs="?",
-        help="TOML file, a folder with campaign.toml, or a packaged campaign: "
-        f"{', '.join(packaged_campaigns())}; custom effects that it names execute "
-        "run. A run's CSV file, of up to 64 MiB, has columns t (s), x (m, along the "
-        "surface's motion) and, where they were measured, y (m), phi (rad) and force (N: what all "
-        "springs pull the block back with along x, positive where x is; compared with their "
-        'stiffness, not fitted). Other names: [columns] x = "pos"; other units: [units] x = '
-        '"mm", or in the header, x [mm], t/ms, phi (deg); both tables for a [[run]] too. Friction '
-        'over the sliding speed, measured by itself: [friction] table = "mu_v.csv" (columns v in '
-        "m/s and mu), which the model sets out from in place of mu_k",
-    )
-    holds = f"{PAGE}, figures, {MODEL} and {RESULT}"
-    add_results(parser, holds, "NAME OF THE CAMPAIGN-gap", anew=EXAMPLE_TOO)
-    parser.add_argument(
-        "--write-example",
-        metavar="DIR",
-        help="write a small campaign there to try this command on, and do nothing else",
-    )
-    parser.add_argument(
-        "--no-page", action="store_true", help=f"only {RESULT} and {MODEL}: no figures, no FMU"
-    )
-    parser.add_argument(
-        "--jobs",
-        metavar="N",
-        type=count,
-        default=2,
-        help="runs that are simulated at a time (default: 2)",
-    )
-    parser.add_argument(
-        "--seed",
-        metavar="N",
-        type=_whole,
-        default=0,
-        help="of what is drawn where only figures of runs are known (default: 0)",
-    )
+#: Names of the campaigns that ship with the package.
+PACKAGED = sorted(file.stem for file in CAMPAIGNS.glob("*.toml"))
+CAMPAIGNS_HERE = ", ".join(PACKAGED)
 
 
 def execute(arguments: Namespace) -> int:
@@ -122,14 +82,9 @@ def _show(
     print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
 
 
-def packaged_campaigns() -> list[str]:
-    """Names of the campaigns that ship with the package."""
-    return sorted(file.stem for file in CAMPAIGNS.glob("*.toml"))
-
-
 def _source(given: str) -> Path:
     """A file or folder; the name of a packaged campaign where there is none."""
-    if not Path(given).exists() and given in packaged_campaigns():
+    if not Path(given).exists() and given in PACKAGED:
         return CAMPAIGNS / f"{given}.toml"
     return Path(given)
 
@@ -163,13 +118,14 @@ def _find(campaign: Campaign, seed: int, jobs: int, bar: Bar) -> Any:
 
 def count(text: str) -> int:
     """A number of processes."""
-    number = _whole(text)
+    number = whole(text)
     if number < 1:
         raise ArgumentTypeError(f"{text} is not allowed, allowed is 1 or more")
     return number
 
 
-def _whole(text: str) -> int:
+def whole(text: str) -> int:
+    """A whole number from 0."""
     if not text.isdecimal():
         raise ArgumentTypeError(f"{text!r} is not allowed, allowed is a whole number from 0")
     return int(text)

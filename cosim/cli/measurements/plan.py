@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError, Namespace
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from cosim.cli import DONE, Failed
-from cosim.cli.arguments import EXAMPLE_TOO, RESULTS, STDOUT, add_results
+from cosim.cli.arguments import RESULTS, STDOUT
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import numbers_asked
@@ -17,40 +17,9 @@ from cosim.files import write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, own_folder, results_in
 
-EXAMPLE = "stickslip plan cold_room/campaign.toml -o results/cold_room-plan"
-IMPORTS = ("cosim.gap",)
 RESULT, PAGE = "plan.json", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("campaign", "smallest", "next_runs")
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "campaign",
-        nargs="?",
-        help="TOML file, or a folder with campaign.toml: as for `stickslip gap`, but a [[run]] "
-        "needs no file: `duration` (s, default 20) and `rate` (Hz, default 100) take its place; "
-        'effects of one\'s own that it names ([model] effects = ["brush.py"]) are code, and are '
-        'run and tried like those of the catalogue; [friction] table = "mu_v.csv" (columns v in '
-        "m/s and mu) is friction over the sliding speed, in place of mu_k",
-    )
-    add_results(parser, f"{PAGE}, figures and {RESULT}", "NAME-plan", anew=EXAMPLE_TOO)
-    parser.add_argument(
-        "--write-example",
-        metavar="DIR",
-        help="write a small plan there to try this command on, and do nothing else",
-    )
-    parser.add_argument(
-        "--power", metavar="P", type=_chance, default=0.8,
-        help="chance that an effect of the smallest size is named (default: 0.8)",
-    )  # fmt: skip
-    parser.add_argument(
-        "--seed", metavar="N", type=int, default=0, help="of the campaigns drawn (default: 0)"
-    )
-    parser.add_argument(
-        "--no-page", action="store_true", help=f"only {RESULT}: no figures, no page"
-    )
 
 
 def execute(arguments: Namespace) -> int:
@@ -102,7 +71,8 @@ def _show(answer: Any, lines: list[str], folder: Path, arguments: Namespace) -> 
     print("\n".join(lines), file=sys.stderr if arguments.json == STDOUT else sys.stdout)
 
 
-def _chance(text: str) -> float:
+def chance(text: str) -> float:
+    """A chance, neither 0 nor 1."""
     try:
         value = float(text)
     except ValueError:

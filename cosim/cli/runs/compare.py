@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 import sys
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cosim.cli import DONE
-from cosim.cli.arguments import RESULTS, add_results
+from cosim.cli.arguments import RESULTS
 from cosim.cli.numbers import numbers_asked
 from cosim.manifest import made_by, own_folder, results_in
 
@@ -17,30 +17,11 @@ if TYPE_CHECKING:
     from cosim.report.compare import Comparison, OneResult
     from cosim.scenario import Scenario
 
-EXAMPLE = "stickslip compare results/reference results/slab"
-IMPORTS = ("cosim.cli.runs.running", "cosim.report.compare")
 #: Numbers that are on the page only.
 OTHER_STARTS = tuple(f"regimes.{start}." for start in ("disturbed", "rest", "riding", "ramp"))
 #: Curves that the terminal tells of; all are on the page.
 MOST_CURVES = 8
 RESULT, PAGE = "compare.json", "report.html"
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    for name in ("a", "b"):
-        parser.add_argument(
-            name,
-            metavar=name.upper(),
-            help="folder of results of run, simulate or couple; or a TOML file or packaged"
-            " scenario, which is then run",
-        )
-    parser.add_argument(
-        "--coupled",
-        action="store_true",
-        help="run scenarios coupled to the heat in belt and ice, not the mechanics alone",
-    )
-    add_results(parser, "page, numbers and figures", "A-and-B")
 
 
 def execute(arguments: Namespace) -> int:

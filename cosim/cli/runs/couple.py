@@ -6,14 +6,14 @@ import os
 import shlex
 import sys
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, FAILED, BadInput
-from cosim.cli.arguments import ANEW, RESULTS, add_results, add_set, add_shown, shown
+from cosim.cli.arguments import RESULTS, shown
 from cosim.cli.numbers import Numbers, numbers_asked
 
 if TYPE_CHECKING:
@@ -24,30 +24,8 @@ if TYPE_CHECKING:
     from cosim.systems import SystemRun
     from cosim.systems.specification import SystemSpecification
 
-EXAMPLE = "stickslip couple StickSlipThermal.ssp --set coupling.macro_step=0.01 -o results/pair"
-IMPORTS = ("cosim.cli.runs.run_io", "cosim.systems.show")
 #: By which keys the JSON of a system is known.
 KEYS = ("name", "status", "coupling")
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "system",
-        metavar="SYSTEM",
-        nargs="?",
-        help="an SSP file (1.0 or 2.0), or a TOML file of units, connections, scheme and steps",
-    )
-    add_set(parser, "run.stop=10 (of [coupling] and [run], or UNIT.VARIABLE=VALUE)")
-    parser.add_argument(
-        "--resume",
-        metavar="DIR",
-        help="go on with the run of SYSTEM in DIR that was cut off, from its newest checkpoint"
-        " (run.checkpoint_seconds says how often there is one). Units are code: those of SYSTEM are"
-        " run, and none that DIR alone names",
-    )
-    add_shown(parser)
-    add_results(parser, "results; made when missing", "NAME", anew=ANEW)
 
 
 def _resume(system: str, results: Path) -> str:

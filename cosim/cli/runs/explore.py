@@ -3,38 +3,14 @@
 from __future__ import annotations
 
 import webbrowser
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 
 from cosim.cli import DONE
-from cosim.cli.arguments import add_set
 from cosim.cli.scenarios import given_scenario, note_taken
 
-EXAMPLE = "stickslip explore slab -o slab.html"
 #: Of a page; enough to see whose it is.
 BEGINNING = 100_000
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "scenario",
-        nargs="?",
-        help="TOML file, or the name of a packaged scenario, to begin with (default: reference)",
-    )
-    add_set(parser, "surface.speed=0.1")
-    parser.add_argument(
-        "-o",
-        "--output",
-        metavar="FILE",
-        help="the page (default: results/explorer-NAME OF THE SCENARIO.html)",
-    )
-    parser.add_argument(
-        "--no-open", action="store_true", help="write the page, and leave the browser alone"
-    )
-    parser.add_argument(
-        "--force", action="store_true", help="overwrite a file that this command did not make"
-    )
 
 
 def execute(arguments: Namespace) -> int:

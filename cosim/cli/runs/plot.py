@@ -2,25 +2,10 @@
 
 from __future__ import annotations
 
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 
 from cosim.cli import DONE, BadInput
-from cosim.cli.arguments import add_force
-
-EXAMPLE = "stickslip plot results/reference motion heat"
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("folder", metavar="DIR", help="results of stickslip run or simulate")
-    parser.add_argument(
-        "figures",
-        nargs="*",
-        metavar="FIGURE",
-        help="its name, such as motion, phase_portrait or heat (default: all that the run has)",
-    )
-    add_force(parser)
 
 
 def execute(arguments: Namespace) -> int:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import shlex
 import sys
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from cosim.cli import BadInput
-from cosim.cli.arguments import add_run_arguments, shown
+from cosim.cli.arguments import shown
 
 if TYPE_CHECKING:
     from cosim.cli.runs.run_io import Job
@@ -20,49 +20,9 @@ if TYPE_CHECKING:
     from cosim.manifest import ResultFolder
     from cosim.scenario import Scenario
 
-EXAMPLE = "stickslip run my_case.toml -o results/first"
-IMPORTS = ("cosim.cli.runs.running", "cosim.coupling.case")
 SCENARIO = "scenario.toml"
 #: Options of a run that is begun; one that goes on has them as it was begun.
 ONLY_ANEW = ("--fmu", "--animation", "--fields", "--figures", "--no-page", "--force")
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    add_run_arguments(parser)
-    parser.add_argument(
-        "--fmu",
-        metavar="FILE",
-        help="the mechanical FMU (default: that in build of a checkout, or else in the user's cache"
-        " folder, built when missing or stale)",
-    )
-    parser.add_argument(
-        "--animation",
-        action="store_true",
-        help="also write temperature.gif: belt and ice, a frame every run.snapshot_interval",
-    )
-    parser.add_argument(
-        "--fields",
-        action="store_true",
-        help="also write fields/temperature.pvd: belt and ice for ParaView, every"
-        " run.snapshot_interval",
-    )
-    parser.add_argument(
-        "--resume",
-        metavar="DIR",
-        help="go on with the run in DIR that was cut off, from its newest checkpoint"
-        " (run.checkpoint_seconds says how often there is one); as it was begun, so nothing else"
-        " but --effects, -q, -v and --json is given. The FMU that it was begun with is run: resume"
-        " a folder of somebody else's only if you trust them",
-    )
-    parser.add_argument(
-        "--effects",
-        nargs="+",
-        default=[],
-        metavar="FILE.py",
-        help="with --resume: the custom effects that the run has. Code is run only of files"
-        " that are named here, and whose SHA-256 is still that of when the run began",
-    )
 
 
 class Case(NamedTuple):

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from typing import TYPE_CHECKING
 
 from cosim.cli import DONE
-from cosim.cli.arguments import add_run_arguments, shown
+from cosim.cli.arguments import shown
 from cosim.interrupts import Patience, patient_interrupts
 from cosim.manifest import made_by, results_in
 
@@ -15,14 +15,6 @@ if TYPE_CHECKING:
     from stickslip import Trajectory
 
     from cosim.scenario import Scenario
-
-EXAMPLE = "stickslip simulate reference -o results/mechanics"
-IMPORTS = ("cosim.cli.runs.running",)
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    add_run_arguments(parser)
 
 
 def execute(arguments: Namespace) -> int:

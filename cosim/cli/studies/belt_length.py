@@ -6,12 +6,11 @@ import json
 import os
 import sys
 import time
-from argparse import ArgumentParser, ArgumentTypeError, Namespace
+from argparse import ArgumentTypeError, Namespace
 from dataclasses import replace
 from pathlib import Path
 
 from cosim.cli import DONE, FAILED, BadInput
-from cosim.cli.arguments import add_results, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
@@ -39,6 +38,7 @@ from cosim.studies.belt_length import (
     work_off,
 )
 from cosim.studies.belt_length.lengths import length_text
+from cosim.studies.belt_length.result import PRINTED
 from cosim.studies.belt_length.show.files import (
     CHANGES,
     DOUBT,
@@ -51,7 +51,8 @@ from cosim.studies.belt_length.show.files import (
 from cosim.studies.belt_length.show.wording import two_digits
 from cosim.studies.belt_length.study import BOUNDS, check_case, check_options, steps
 
-EXAMPLE = "stickslip belt-length --length 1 2 4 --speed 0.15 0.82 -o results/belt"
+#: Of --limit, K, and of --jobs.
+LIMIT, CORES = CAMERA, os.cpu_count() or 1
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
 STUDY = Case(1.0, 0.82)
 
@@ -67,117 +68,8 @@ LEGEND = (
 #: Of the shortest belts of an own rig.
 HEADINGS = ("as said", "5 %", "median", "95 %", "for ever")
 
-#: Choice -> what it is.
-CHOICES = {
-    "length": "lengths of the belt, m",
-    "speed": "speeds of the belt, m/s",
-    "mass": "masses on the belt, kg",
-    "h": f"heat transfer to the air on each face of the belt, W/m2K; or {AIR}: boundary layer,"
-    " convection and radiation of a belt moving through still air",
-    "conductivity": "conductivities of the belt, W/mK",
-    "friction": "kinetic friction coefficients",
-    "ambient": "temperatures of the air, degC; the rises hardly depend on it",
-    "conductance": "contact conductances, W/m2K",
-    "thickness": "thicknesses of the belt, m",
-}
 #: Choice -> the study's values; of the others it has the default case's.
 STUDIED = {"length": (1.0, 2.0, 3.0, 4.0), "speed": (0.15, 0.5, 0.82)}
-#: What a case takes from the thermal model where it says nothing itself.
-_FROM_RIG = {"conductivity": "belt", "thickness": "belt", "conductance": "contact"}
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "scenario",
-        nargs="?",
-        help="TOML file or packaged scenario that says belt (layers, rollers), block, contact, air,"
-        " ramp and run, in front of the options: how long its belt must be, and how sure that is;"
-        " without one, the source study's rig and protocol, and whether 1 m does",
-    )
-    for name, text in CHOICES.items():
-        values = STUDIED.get(name) or (_own(STUDY, BOUNDS[name][0]),)
-        shown = " ".join(_shown(value) for value in values)
-        parser.add_argument(
-            f"--{name}",
-            nargs="+",
-            type=number_or_air if name == "h" else float,
-            help=f"{text} (default: the scenario's, or {shown})",
-        )
-    add_set(parser)
-    _add_protocol(parser)
-    parser.add_argument(
-        "--limit",
-        "--camera",
-        metavar="K",
-        type=float,
-        default=CAMERA,
-        help="rise that is allowed, such as what a camera tells apart, K (default:"
-        f" {CAMERA:g}, by the study's camera's data sheet; a choice)",
-    )
-    parser.add_argument(
-        "--doubt",
-        metavar="UNKNOWN=LOW,HIGH",
-        action="append",
-        default=[],
-        help="between what something lies that is not known of the rig, or =VALUE where it is; its"
-        " names, and the ranges otherwise, stand in doubt.csv (roller_rise=0,0.1)",
-    )
-    parser.add_argument(
-        "--sensitivity",
-        metavar="S",
-        type=float,
-        help="part of the friction lost per kelvin, 0 to 1 1/K (default: linear to melting)",
-    )
-    parser.add_argument(
-        "--samples",
-        metavar="N",
-        type=int,
-        default=128,
-        help="runs of the model for the uncertainty, a power of two, 0 for none (default: 128)",
-    )
-    parser.add_argument(
-        "--map",
-        metavar="N",
-        type=int,
-        help="points a side of the map length x speed, 0 for none (default: 30, of a scenario 12)",
-    )
-    parser.add_argument(
-        "--jobs",
-        metavar="N",
-        type=int,
-        default=os.cpu_count() or 1,
-        help="processes (default: all cores)",
-    )
-    add_results(parser, "table, numbers and figures", "belt-length")
-
-
-def _add_protocol(parser: ArgumentParser) -> None:
-    """How the experiment is run."""
-    protocol = STUDY.protocol
-    for name, text, from_where in (
-        ("ramp", "from standstill to the speed", "the scenario's, or "),
-        ("run", "at constant speed", "the scenario's, or "),
-        ("pause", "between two runs, the belt at a standstill", ""),
-    ):
-        parser.add_argument(
-            f"--{name}",
-            metavar="S",
-            type=float,
-            help=f"{text}, s (default: {from_where}{getattr(protocol, name):g})",
-        )
-    parser.add_argument(
-        "--runs",
-        metavar="N",
-        type=int,
-        default=protocol.runs,
-        help=f"runs in a row (default: {protocol.runs})",
-    )
-    parser.add_argument(
-        "--lifted",
-        action="store_true",
-        help="the ice is lifted off the belt in a pause, not left resting on it",
-    )
 
 
 def number_or_air(text: str) -> float | str:
@@ -186,18 +78,6 @@ def number_or_air(text: str) -> float | str:
         return AIR if text == AIR else float(text)
     except ValueError:
         raise ArgumentTypeError(f"{text}: allowed is a number in W/m2K, or {AIR}") from None
-
-
-def _own(case: Case, field: str) -> float | str:
-    """What a case has where it is not told otherwise."""
-    value: float | None = getattr(case, field)
-    if value is None and field in _FROM_RIG:
-        value = getattr(getattr(case.rig, _FROM_RIG[field]), field)
-    return AIR if value is None else value
-
-
-def _shown(value: float | str) -> str:
-    return value if isinstance(value, str) else f"{value:g}"
 
 
 def execute(arguments: Namespace) -> int:
@@ -300,26 +180,7 @@ def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None
     if study.answers:
         _print_answers(study)
     elif study.rows:
-        shown = study.table()[
-            [
-                "length [m]",
-                "speed [m/s]",
-                "h [W/m2K]",
-                "study [K]",
-                "drift [K]",
-                "drift low [K]",
-                "drift high [K]",
-                "drift steady [K]",
-                "interface drift [K]",
-                "interface drift low [K]",
-                "interface drift high [K]",
-                "interface drift, endless belt [K]",
-                "ice [K]",
-                "belt share",
-                "wait [s]",
-                "mu change",
-            ]
-        ]
+        shown = study.table()[PRINTED]
         # what is asked for is printed as it is, what is found with as much as it is worth
         exact = {name: "{:g}".format for name in ("length [m]", "speed [m/s]")}
         print(shown.to_string(index=False, formatters=exact, float_format=two_digits))

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, Failed
-from cosim.cli.arguments import add_force, add_json, add_output
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.files import writable, write_bytes, write_text
@@ -19,22 +18,7 @@ if TYPE_CHECKING:
     from cosim.report.page import Picture
     from cosim.studies.effects import Entry
 
-EXAMPLE = "stickslip effects -o results/effects"
-IMPORTS = ("cosim.studies.effects",)
 RESULT, PAGE = "effects.json", "effects.html"
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument(
-        "effects",
-        metavar="EFFECT",
-        nargs="*",
-        help="ids, or files of custom effects such as brush.py, whose code is run (default: all)",
-    )
-    add_json(parser)
-    add_output(parser, f"also write {PAGE}, {RESULT} and the figures there")
-    add_force(parser)
 
 
 def execute(arguments: Namespace) -> int:

@@ -5,57 +5,19 @@ from __future__ import annotations
 import json
 import sys
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from typing import Any
 
-import numpy as np
-
 from cosim.cli import DONE
-from cosim.cli.arguments import add_results, add_scenario, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
 
-EXAMPLE = "stickslip friction-map melting_friction --ambient -8 -o results/friction"
-IMPORTS = ("cosim.studies.friction_map",)
 RESULT, PAGE = "friction_map.json", "report.html"
 TABLE, FIGURE = "friction_map.csv", "friction_map.png"
 #: By which keys RESULT is known.
 KEYS = ("scenario", "regimes", "points")
-#: Three speeds a decade, m/s, up to those of skates and sleds.
-SPEEDS = tuple(float(f"{speed:.3g}") for speed in np.geomspace(3e-3, 30.0, 13))
-AMBIENTS = (-16.0, -8.0, -1.0)
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    add_scenario(parser, "melting_friction")
-    parser.add_argument(
-        "--speed",
-        metavar="V",
-        type=float,
-        nargs="+",
-        default=SPEEDS,
-        help="speeds of sliding, m/s (default: 13 from 0.003 to 30)",
-    )
-    parser.add_argument(
-        "--ambient",
-        metavar="T",
-        type=float,
-        nargs="+",
-        default=AMBIENTS,
-        help="temperatures of the air, degC (default: -16 -8 -1)",
-    )
-    parser.add_argument(
-        "--duration",
-        metavar="S",
-        type=float,
-        default=2.0,
-        help="length of each coupled run, s (default: 2)",
-    )
-    add_set(parser)
-    add_results(parser, "table, numbers, figure and page", "friction-map")
 
 
 def execute(arguments: Namespace) -> int:

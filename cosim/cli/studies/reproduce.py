@@ -5,11 +5,10 @@ from __future__ import annotations
 import re
 import sys
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_results
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.interrupts import held_interrupts
@@ -18,15 +17,7 @@ from cosim.manifest import made_by, own_folder, results_in
 if TYPE_CHECKING:
     from cosim.studies.reproduction import Claim
 
-EXAMPLE = "stickslip reproduce C6 C13 -o results/claims"
-IMPORTS = ("cosim.studies.reproduction.claims",)
 RESULT, PAGE = "reproduction.json", "report.html"
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("claims", metavar="CLAIM", nargs="*", help="C1 to C18 (default: all)")
-    add_results(parser, "report, figures and numbers", "reproduction")
 
 
 def execute(arguments: Namespace) -> int:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import json
 import sys
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import add_results, add_scenario, add_set
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
@@ -19,31 +18,9 @@ from cosim.manifest import made_by, own_folder, results_in
 if TYPE_CHECKING:
     pass
 
-EXAMPLE = "stickslip stability study --grid 20 -o results/stability"
-IMPORTS = ("cosim.studies.stability",)
 RESULT, PAGE = "stability.json", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("name", "stability", "regime_map")
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    add_scenario(parser, "reference")
-    parser.add_argument(
-        "--grid",
-        metavar="N",
-        type=int,
-        help="points a side of each map, 0 for none (default: 20, with --border none)",
-    )
-    parser.add_argument(
-        "--border",
-        choices=("speed", "ramp", "damping", "pretension", "ratio"),
-        help="where the block stops to stick and slip, in one number of the rig: from rest, riding"
-        " on the surface, and from a speed ramp. speed: of the surface; ramp: its run-up time;"
-        " ratio: mu_s/mu_k at the scenario's mu_k",
-    )
-    add_set(parser)
-    add_results(parser, "page, numbers and figures", "stability")
 
 
 def execute(arguments: Namespace) -> int:

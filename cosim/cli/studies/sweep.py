@@ -5,12 +5,12 @@ from __future__ import annotations
 import json
 import sys
 import time
-from argparse import ArgumentParser, Namespace
+from argparse import Namespace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, FAILED
-from cosim.cli.arguments import RESULTS, add_results, add_set
+from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
@@ -22,73 +22,10 @@ if TYPE_CHECKING:
     from cosim.studies.sweep import Grid, Run
     from cosim.studies.sweep.result import Sweep
 
-EXAMPLE = "stickslip sweep reference --vary rig.mass=0.67,2.03 --vary surface.speed=0.15,0.37,0.82"
-IMPORTS = ("cosim.studies.sweep.figure",)
 RESULT, FIGURE, TABLE, PAGE = "sweep.nc", "sweep.png", "sweep.csv", "report.html"
 OWN = (RESULT, FIGURE, TABLE, PAGE)
 #: Group of the result file that holds the test plan's repeats.
 REPEATS = "repeats"
-
-
-def add_arguments(parser: ArgumentParser) -> None:
-    """The arguments of the command."""
-    parser.add_argument("scenario", help="TOML file, or the name of a packaged scenario")
-    parser.add_argument(
-        "others",
-        nargs="*",
-        metavar="SCENARIO",
-        help="further ones: the scenario is then an axis of its own",
-    )
-    what = parser.add_mutually_exclusive_group()
-    what.add_argument(
-        "--vary",
-        metavar="KEY=V1,V2,...",
-        action="append",
-        help="values of any key of a scenario, as TOML has them; given more than once, all"
-        " combinations are run. Keys that go together: mu_s and mu_k as"
-        " friction.mu_s+friction.mu_k=0.28:0.21,0.07:0.05; a list's second table:"
-        " belt.layers[2].conductivity=0.2,0.5; a whole list: belt.layers=[{thickness=...}],[...]",
-    )
-    what.add_argument(
-        "--test-plan",
-        action="store_true",
-        help="the 1306 combinations of the published test plan (its belts' friction is assumed)",
-    )
-    add_set(parser)
-    how = parser.add_mutually_exclusive_group()
-    how.add_argument(
-        "--coupled",
-        action="store_true",
-        default=None,
-        help="run each coupled to the heat in belt and ice (as it is without this where a key of"
-        " belt, ice, contact or coupling is varied, or differs between the scenarios)",
-    )
-    how.add_argument(
-        "--mechanics",
-        dest="coupled",
-        action="store_false",
-        help="run the mechanics alone",
-    )
-    parser.add_argument(
-        "--show",
-        metavar="FEATURE",
-        action="append",
-        default=[],
-        help="a feature to be drawn and listed, such as x_mean, frequency, slip_share (default:"
-        " those that vary)",
-    )
-    where = parser.add_mutually_exclusive_group()
-    where.add_argument(
-        "--jobs", metavar="N", type=int, help="processes on this machine (default: all cores)"
-    )
-    where.add_argument(
-        "--dask", metavar="ADDRESS", help="run on the Dask cluster whose scheduler is there"
-    )
-    add_results(
-        parser,
-        "results, in which combinations that are finished are not run again",
-        "NAME OF THE SCENARIO-sweep",
-    )
 
 
 def execute(arguments: Namespace) -> int:

@@ -34,7 +34,13 @@ FMU = f"{NAME}.fmu"
 #: Version of FMI -> file.
 FILES = {FMI2: FMU, FMI3: f"{NAME}-fmi3.fmu"}
 #: Files that make the sources, and the heat model that the matrices are of.
-MAKERS = (Path(__file__), Path(__file__).with_name("variables.py"), Path(c_tables.__file__))
+MAKERS = (
+    *(
+        Path(__file__).with_name(name)
+        for name in ("native_unit.py", "variables.py", "variables.toml")
+    ),
+    Path(c_tables.__file__),
+)
 CAN = {"HAS_EXCHANGE": False, "TAKES_RATES": False, "BEGINS_WITH_INPUTS": False}
 #: Of the documentation: how far the unit is from the whole model, measured.
 ERRORS = (

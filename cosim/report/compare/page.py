@@ -9,7 +9,16 @@ from typing import Any
 from cosim.files import write_bytes, write_text
 from cosim.report.files import json_text
 from cosim.report.page import Picture, render
-from cosim.report.quantities import DIGITS, FOUND, NONE, ROUNDING, digits, told, worded
+from cosim.report.quantities import (
+    DIGITS,
+    FOUND,
+    NONE,
+    ROUNDING,
+    TABLES,
+    digits,
+    told,
+    worded,
+)
 
 from .compare import SAME, Comparison, Difference
 from .series import Apart
@@ -28,20 +37,7 @@ UNFELT = {"m": 1e-7, "m/s": 1e-6, "rad": 1e-6, "rad/s": 1e-5, "N": 1e-6, "N.m": 
 #: Digits that a difference is worth.
 OF_DIFFERENCE = 2
 #: Titles of the summary's groups.
-TITLES = {
-    "": "Run",
-    "after_run_up": "After the speed ramp",
-    "whole_run": "Whole run",
-    "ledger": "Ledgers",
-    "heat_shares": "Where the heat is at the end",
-    "temperatures": "Temperatures",
-    "stability": "Stability",
-    "regimes": "Regimes",
-    "melting": "Melting",
-    "outputs": "Outputs",
-    "overstretched": "How far springs are stretched",
-    "left_belt": "How far the block is off the middle",
-}
+TITLES = TABLES["compared"]
 
 
 def write(both: Comparison, folder: Path, command: str = "") -> None:

@@ -25,7 +25,8 @@ from .uncertainty import Uncertainty
 #: What speaks, draws and writes; loaded when asked for.
 VERDICT, PAGE, FILES = (f"{__package__}.show.{name}" for name in ("verdict", "page", "files"))
 #: Column of the table -> place in a case's JSON.
-_COLUMNS = tomllib.loads((files(__package__) / "columns.toml").read_text(encoding="utf-8"))
+_TABLE = tomllib.loads((files(__package__) / "columns.toml").read_text(encoding="utf-8"))
+_COLUMNS, PRINTED = _TABLE["columns"], _TABLE["printed"]
 #: Of a case, what JSON has elsewhere, or not at all.
 _NOT_TOLD = ("rig", "protocol", "ranges", "drawn")
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import replace
+from importlib.resources import files
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -38,26 +40,11 @@ PREFIXED = ("m", "s", "N", "J", "W", "Pa", "A", "V", "rad", "m/s", "m/s2", "rad/
 #: Change of a signal that is none, as a part of it.
 NOTHING = 1e-6
 #: Figures over time: caption, and what a reader hears who does not see it.
-OVER_TIME = {
-    "signals": (
-        "Outputs over time at the recorded times, those that are connected first.",
-        "Outputs over time.",
-    ),
-    "more_signals": (
-        f"Further outputs over time, of more than {MOST_PANELS} the first; the numbers below and"
-        " the files have all.",
-        "Further outputs over time.",
-    ),
-    "energy": (
-        "Energy across each connection in J: handed over by the one unit, and taken up by the"
-        " other. Below: what has been handed over and not taken up.",
-        "Energy handed over and taken up across each connection over time.",
-    ),
-    "steps": (
-        "Sizes of the macro steps that were accepted. In a run of very many steps neighbours are"
-        " drawn as one, by the smallest and the largest of them.",
-        "Sizes of the macro steps over time.",
-    ),
+OVER_TIME: dict[str, tuple[str, str]] = {
+    name: (told["caption"].format(most=MOST_PANELS), told["alt"])
+    for name, told in tomllib.loads(
+        (files(__package__) / "captions.toml").read_text(encoding="utf-8")
+    ).items()
 }
 
 

@@ -10,6 +10,7 @@ import subprocess
 import sys
 
 from cosim.cli import main
+from cosim.cli.arguments import add_arguments
 
 
 def stickslip(folder, *arguments):
@@ -49,7 +50,7 @@ def stickslip_here(folder, *arguments):
 def executed(command, *words):
     """Exit status of a command's module, given these words; what it refuses is raised."""
     parser = argparse.ArgumentParser()
-    command.add_arguments(parser)
+    add_arguments(parser, command.__name__.rpartition(".")[2].replace("_", "-"))
     return command.execute(parser.parse_args([str(word) for word in words]))
 
 

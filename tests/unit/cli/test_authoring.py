@@ -11,7 +11,6 @@ from command_line import refusal
 
 from cosim.cli import main
 from cosim.cli.arguments import COMMANDS
-from cosim.cli.authoring.schema import KINDS
 from cosim.gap import read_campaign
 from cosim.scenario import Scenario, packaged_scenarios, read_scenario
 from cosim.scenario.keys import all_keys
@@ -29,7 +28,10 @@ def printed(capsys, *argv):
 @pytest.fixture
 def schemas(capsys):
     """Kind -> what checks a file of it."""
-    found = {kind: json.loads(printed(capsys, "schema", kind)) for kind in KINDS}
+    found = {
+        kind: json.loads(printed(capsys, "schema", kind))
+        for kind in COMMANDS["schema"]["arguments"]["kind"]["choices"]
+    }
     for schema in found.values():
         jsonschema.Draft7Validator.check_schema(schema)
     return {kind: jsonschema.Draft7Validator(schema) for kind, schema in found.items()}

@@ -144,5 +144,5 @@ def test_refusals_are_one_line(arguments, said, tmp_path, capsys, monkeypatch):
 
 
 def test_packaged_campaigns_are_found_by_name():
-    assert "study" in gap_command.packaged_campaigns()
+    assert "study" in gap_command.PACKAGED
     assert gap_command._source("study").is_file()

@@ -58,7 +58,8 @@ def test_without_rows_there_are_files_all_the_same(tmp_path):
 def test_a_run_is_written_without_xarray(of_the_command, of_its_files):
     """And without pandas and scipy: together they take longer than a small run."""
     code = f"import sys; from importlib import import_module; import {of_its_files}"
-    code += f"; import cosim.cli.runs.{of_the_command} as one; [*map(import_module, one.IMPORTS)]"
+    code += "; from cosim.cli.arguments import COMMANDS"
+    code += f"; [*map(import_module, COMMANDS[{of_the_command!r}]['imports'])]"
     code += "; print([name for name in ('xarray', 'pandas', 'scipy') if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"

@@ -17,7 +17,7 @@ def mechanics() -> str:
 
 def thermal() -> str:
     """BeltIceThermal, the reduced one: ports and parameters."""
-    return by_causality([*heat.inputs(), *heat.outputs(), *heat.reduced_parameters()])
+    return by_causality([*heat.reduced()])
 
 
 def by_causality(declared: Iterable[Variable]) -> str:
