@@ -24,6 +24,7 @@ def execute(arguments: Namespace) -> int:
     """Run, write, print a line a temperature; 0."""
     from cosim.fmu.build import own_fmu
     from cosim.studies.friction_map import friction_map
+    from cosim.studies.friction_map.measured import differences
     from cosim.studies.friction_map.page import write
 
     began = time.perf_counter()
@@ -47,6 +48,8 @@ def execute(arguments: Namespace) -> int:
         _print(found.regimes(ambient))
     for reason in found.failed:
         print(f"warning: left out: {reason}", file=sys.stderr)
+    if differ := differences(found):
+        print(differ)
     wall_time = time.perf_counter() - began
     print(f"{total} coupled runs in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
     return DONE

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from stickslip.effects.melting.asperity_melting import carrying_speed, conducting
 from stickslip.packing import GRAVITY
 
 from .map import FrictionMap
@@ -55,18 +56,25 @@ def _asperities(found: FrictionMap) -> Law | None:
     speeds = [point.speed for point in found.points]
     below = sum(speed < slow for speed in speeds)
     slowest = min(speeds)
-    share = conducted_share(found, slowest)
+    share = 100.0 * conducted_share(found, slowest)
+    conducts = f"{share:.0f} % of what the ice takes in passing at {slowest:.2g} m/s"
+    if law.conductivity == 0.0:
+        conducts = "left out (conductivity = 0)"
+    carries = carrying_speed(law.length, law.roughness)
     return Law(
         "asperity_melting",
-        "a real contact of N/H in patches of the length l, warmed one-dimensionally: a Péclet "
-        "number v l/κ above 1. Slower, both bodies conduct, and Evans' term with 1/v would be "
-        "added, which this law leaves out. At the melting point it leaves no kinetic friction at "
-        "any speed, while mu_s stays",
+        "a real contact of N/H in patches of the length l, which are at the melting point: they "
+        "warm the ice in passing, as 1/√v, from a Péclet number v l/κ of 1 on, and both bodies "
+        "conduct, as 1/v, at any speed. Where its melt is thinner than the contact is rough, "
+        "friction is the dry μ_k, at the melting point, too; measured dry friction itself falls "
+        "towards melting (ice on rock: 0.02), which is temperature_dependence",
         f"N/H = {1e6 * bears:.2g} mm², {_patches(bears, law.length)}; Péclet above 1 from "
-        f"{slow:.2g} m/s on, {below or 'none'} of {len(speeds)} runs slower; the term with 1/v "
-        f"would be {100.0 * share:.0f} % of this law's friction at {slowest:.2g} m/s and falls "
-        f"with 1/√v; mu_s = {mechanics.friction.mu_s:g} at 0 °C, too",
-        "assumed: length, hardness; computed: constant; of ice: effusivity",
+        f"{slow:.2g} m/s on, {below or 'none'} of {len(speeds)} runs slower; conduction: "
+        f"{conducts}; "
+        + (f"melt carries above {carries:.2g} m/s" if carries else "melt carries at any speed")
+        + f"; mu_s = {mechanics.friction.mu_s:g} at 0 °C, too",
+        "assumed: length, hardness, roughness; computed: constant; of ice: effusivity; of both "
+        "bodies: conductivity",
     )
 
 
@@ -84,18 +92,10 @@ def diffusivity(found: FrictionMap) -> float:
 
 
 def conducted_share(found: FrictionMap, speed: float) -> float:
-    """Evans' conduction into both bodies over the warming of the law, at a speed (m/s).
-
-    A patch of the radius l/2 at the melting point gives 4 k (T_m - T) l/2 to a half-space; the
-    law's own heat is C e (T_m - T) sqrt(v / l) times its area.
-    """
+    """What both bodies conduct, over what the ice takes in passing, at a speed (m/s)."""
     law = found.scenario.mechanics.asperity_melting
-    thermal = found.scenario.thermal
-    conductivity = thermal.ice.conductivity + thermal.belt.conductivity
-    radius = 0.5 * law.length
-    conducted = 4.0 * conductivity * radius / (math.pi * radius**2)
-    warmed = law.constant * law.effusivity * math.sqrt(speed / law.length)
-    return float(conducted / warmed)
+    root = conducting(law.length, law.effusivity, law.constant, law.conductivity)
+    return root / math.sqrt(speed)
 
 
 def _film(found: FrictionMap) -> Law | None:

@@ -26,6 +26,7 @@ from cosim.scenario import Scenario
 
 #: What shows a map; loaded when asked for.
 PAGE = "cosim.studies.friction_map.page"
+MEASURED = "cosim.studies.friction_map.measured"
 #: Damping over what the fall of friction with the speed drives.
 DAMPING = 3.0
 #: Steady is friction that changes by less than this part in the last tenth of a run: the interface
@@ -272,6 +273,7 @@ class FrictionMap(Result):
             "regimes": [self.regimes(ambient) for ambient in self.ambients],
             "points": [asdict(point) for point in self.points],
             "failed": list(self.failed),
+            "measured": [asdict(each) for each in import_module(MEASURED).measured_beside(self)],
         }
 
 

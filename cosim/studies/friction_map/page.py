@@ -10,15 +10,26 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
 from stickslip import friction_coefficient
 
 from cosim.files import write_bytes, write_text
 from cosim.report.files import write_table
 from cosim.report.page import Picture, number, render
-from cosim.report.style import GREY, INK, SERIES, logarithmic_x, logarithmic_y, panels, picture
+from cosim.report.style import (
+    GREY,
+    INK,
+    PALE_GREY,
+    SERIES,
+    logarithmic_x,
+    logarithmic_y,
+    panels,
+    picture,
+)
 
 from .laws import laws_of
 from .map import SAME, FrictionMap, SteadySliding, steady_scenario
+from .measured import Measured, differences, measured_beside, own_point
 
 #: The law is drawn this far beyond the slowest and the fastest run.
 BELOW, ABOVE = 300.0, 5.0
@@ -56,6 +67,8 @@ def draw_map(found: FrictionMap) -> Figure:
         ylabel="friction coefficient [1]",
         title="lines: the law at the ambient temperature; points: coupled runs",
     )
+    for each in measured_beside(found):
+        _draw_measured(ax, each, is_own=each == own_point(found))
     low, high = ax.dataLim.intervaly
     if is_flat:
         logarithmic_x(ax)
@@ -83,6 +96,34 @@ def _draw_ambient(
     ax.plot(speeds, law, color=colour, label=f"{ambient:g} °C".replace("-", "−"))
     ax.plot([p.speed for p in points], [p.friction for p in points], "o", color=colour)
     return law
+
+
+def _draw_measured(ax: Axes, measured: Measured, is_own: bool) -> None:
+    """A range as a pale box, a published curve dotted between its ends, the rig's own as a star."""
+    (slow, fast), (low, high) = (
+        (values[0], values[-1]) for values in (measured.speeds, measured.friction)
+    )
+    if measured.is_range:
+        box = Rectangle((slow, low), fast - slow, high - low, color=PALE_GREY, zorder=0)
+        ax.add_artist(box)  # which, unlike a patch, leaves the axes' limits alone
+        ax.annotate(
+            measured.what,
+            (fast, low),
+            xytext=(-3, 3),
+            textcoords="offset points",
+            color=GREY,
+            fontsize=8.0,
+            ha="right",
+            va="bottom",
+            annotation_clip=True,
+            clip_on=True,
+        )
+        return
+    style = "*" if is_own else "s:"
+    size = 12.0 if is_own else 5.0
+    label = f"measured: {measured.what}"
+    line = ax.plot(measured.speeds, measured.friction, style, color=INK, ms=size, label=label)
+    line[0].set_zorder(4)
 
 
 def _local_slope(speed: np.ndarray, value: np.ndarray) -> np.ndarray:
@@ -115,9 +156,11 @@ def _name_regimes(ax: Axes, speed: np.ndarray, law: np.ndarray) -> None:
 
 
 def _mark_slopes(ax: Axes, speed: np.ndarray, law: np.ndarray) -> None:
-    """Dashed lines of slope -1/2 and +1/2 through the steepest places of the lowest curve."""
+    """Dashed lines of slope -1/2 and +1/2 along the lowest curve, where it falls and rises so."""
     slope = _local_slope(speed, law)
-    for at, ideal in ((int(np.argmin(slope)), -0.5), (int(np.argmax(slope)), 0.5)):
+    falling = np.flatnonzero(slope <= -0.5)  # steeper first where melt begins to carry
+    fall = int(falling[-1]) if falling.size else int(np.argmin(slope))
+    for at, ideal in ((fall, -0.5), (int(np.argmax(slope)), 0.5)):
         if abs(slope[at]) < NAMED:
             continue
         at = min(at, int(0.85 * len(speed)))  # room for the words
@@ -215,6 +258,8 @@ def page(found: FrictionMap, picture: Picture, command: str) -> str:
         points=found.points,
         failed=found.failed,
         laws=laws_of(found),
+        measured=measured_beside(found),
+        differences=differences(found),
         picture=picture,
         slope_text=_slope,
         scenario=found.scenario.to_toml(),

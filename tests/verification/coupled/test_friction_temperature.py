@@ -14,6 +14,7 @@ from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_SIZE
 
 MASS, RADIUS, DRY, COLD = 0.67, 0.04, 0.5, -8.0
 ASPERITY = {"length": 4e-3, "hardness": 1.6e7, "effusivity": 2034.0}
+ASPERITY |= {"conductivity": 0.0, "roughness": 0.0}  # what passes, alone
 FILM = {"wetted_share": 2e-3, "length": 6e-3, "viscosity": 1.79e-3, "latent_heat": 3.06e8}
 PRESSURE = MASS * 9.81 / (FILM["wetted_share"] * pi * RADIUS**2)
 SPEEDS = np.geomspace(1e-7, 1e3, 41)
@@ -159,6 +160,45 @@ def test_the_limit_of_no_speed_is_dry_and_what_is_at_rest_holds(temperature):
     assert holding_coefficient(p, u, w) == pytest.approx(DRY, rel=1e-15)
     for speed in SPEEDS:
         assert np.isfinite(local_coefficient(p, u, w, DRY, speed))
+
+
+def conduction(speed, temperature=COLD, conductivity=2.7):
+    """A disc of the diameter l at the melting point on half-spaces: 4 k a per kelvin, over N v."""
+    radius = 0.5 * ASPERITY["length"]
+    contact = MASS * 9.81 / ASPERITY["hardness"]
+    discs = contact / (pi * radius**2)
+    return discs * 4.0 * conductivity * radius * -temperature / (MASS * 9.81 * speed)
+
+
+@pytest.mark.parametrize("temperature", [-20.0, -8.0, -0.5])
+def test_both_bodies_conduct_from_the_contact(temperature):
+    """Slower than a Peclet number of 1 it is all that is left, with the slope -1."""
+    found = law(temperature, asperity_melting=ASPERITY | {"conductivity": 2.7})
+    boundary = asperity(SPEEDS, temperature) + conduction(SPEEDS, temperature)
+    np.testing.assert_allclose(found**-2, DRY**-2 + boundary**-2, rtol=1e-12)
+    undry = np.array([1e-6, 1e-5])  # Peclet numbers of 0.003 and 0.03; dry friction bears all
+    (slow, fast) = asperity(undry, temperature) + conduction(undry, temperature)
+    assert np.log10(fast / slow) == pytest.approx(-1.0, abs=0.05)
+
+
+@pytest.mark.parametrize("temperature", [-20.0, -8.0, -0.5, 0.0])
+def test_melt_carries_where_it_is_thicker_than_the_contact_is_rough(temperature):
+    """exp(-(h / s)^2) of the load is on asperities, h = sqrt(2 eta l v / (rho L)) after l."""
+    rough = 1e-7
+    found = law(temperature, asperity_melting=ASPERITY | {"roughness": rough})
+    melted = law(temperature, asperity_melting=ASPERITY) if temperature < 0.0 else 0.0 * SPEEDS
+    thickness = np.sqrt(2.0 * 1.79e-3 * ASPERITY["length"] * SPEEDS / 3.06e8)
+    solid = np.exp(-((thickness / rough) ** 2))
+    np.testing.assert_allclose(found, solid * DRY + (1.0 - solid) * melted, rtol=1e-11, atol=1e-300)
+    assert found[0] == pytest.approx(DRY, rel=1e-2)
+
+
+@pytest.mark.parametrize("temperature", [-1e-11, 0.0, 2.0])
+def test_melting_ice_keeps_dry_friction_at_rest(temperature):
+    """mu_k of 0.5 at no speed, as in the cold, where mu_s is 0.5, too; the defaults are rough."""
+    found = law(temperature, [1e-9], asperity_melting={"length": 1e-2})
+    assert found == pytest.approx(DRY, rel=1e-4)
+    assert law(temperature, [1.0], asperity_melting={"length": 1e-2}) < 1e-6
 
 
 def test_a_speed_must_be_one():

@@ -16,15 +16,24 @@ MASS, MU_S, MU_K, SPEED, RADIUS = 0.67, 0.2815, 0.2086, 0.15, 0.04
 NORMAL = MASS * 9.81
 TIMES = np.linspace(0.0, 3.0, 301)
 ASPERITY = {"length": 1e-3, "hardness": 2e7, "effusivity": 2034.0, "constant": 1.128}
+CONDUCTIVITY, ROUGHNESS = 2.7, 1e-8
 FILM = {"wetted_share": 5e-4, "length": 1e-3, "viscosity": 1.79e-3, "latent_heat": 3.06e8}
 
 
 def friction(u, temperature, dry=MU_K):
-    """Inverse squares of dry and boundary friction add, then squares with that of the film."""
-    boundary = 1.128 * 2034.0 * -temperature / (2e7 * np.sqrt(1e-3))  # at 1 m/s
+    """Inverse squares of dry and boundary friction add, then squares with that of the film.
+
+    Boundary friction: warming in passing, and conduction from discs of the diameter l; melt
+    thinner than the roughness leaves dry friction.
+    """
+    passing = 1.128 * 2034.0 * -temperature / (2e7 * np.sqrt(1e-3))  # at 1 m/s
+    conducted = 8.0 * CONDUCTIVITY * -temperature / (np.pi * 1e-3 * 2e7)  # at 1 m/s
     pressure = NORMAL / (5e-4 * np.pi * RADIUS**2)
     film = np.sqrt(2.0 * 1.79e-3 * 3.06e8 / 1e-3) / pressure  # at 1 m/s
-    return np.sqrt(1.0 / (dry**-2 + u / boundary**2) + film**2 * u)
+    warmed = passing * np.sqrt(u) + conducted  # mu_a v
+    melted = 1.0 / np.sqrt(dry**-2 + (u / warmed) ** 2)
+    solid = np.exp(-2.0 * 1.79e-3 * 1e-3 * u / (3.06e8 * ROUGHNESS**2))
+    return np.sqrt((melted + (dry - melted) * solid) ** 2 + film**2 * u)
 
 
 @pytest.mark.parametrize("temperature", [-16.0, -8.0, -1.0])

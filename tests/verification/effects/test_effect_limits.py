@@ -49,7 +49,7 @@ STATED = {
     "spring_misalignment.lateral_offset": (0.01, {}, 1),
     "spring_misalignment.diagonal_offset": (0.01, {}, 1),
     "temperature_dependence.sensitivity": (0.02, {}, 1),
-    "asperity_melting.length": (5e-6, {}, 1),
+    "asperity_melting.length": (5e-6, {"conductivity": 0.0, "roughness": 0.0}, 1),
     "melt_film.wetted_share": (2e-3, {}, 2),
     "mixed_lubrication.share": (0.2, {}, 1),
     "rate_and_state.direct": (0.01, {}, 1),
