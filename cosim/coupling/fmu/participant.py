@@ -17,7 +17,13 @@ from fmpy.fmi1 import FMICallException
 from cosim.coupling.fmu import fmi2, fmi3
 from cosim.coupling.fmu.archive import unpack
 from cosim.coupling.fmu.calls import Calls, How
-from cosim.coupling.fmu.description import describe, is_fmi3, library_of
+from cosim.coupling.fmu.description import (
+    describe,
+    is_fmi3,
+    library_of,
+    load_error,
+    unloadable,
+)
 from cosim.coupling.fmu.errors import FmuCallError, FmuError, one_line
 from cosim.coupling.fmu.log import STATUSES, FmuLog
 from cosim.coupling.fmu.module_conflicts import claim_modules, claim_place, leave_place
@@ -157,7 +163,10 @@ class FmuParticipant:
             os.chdir(home)  # which fmpy has left then
             said = self._log.take_errors()
             self._log.close()
+            library = library_of(self.path, folder, self.description)
             self._free_instance()
+            if refused := load_error(error):
+                raise unloadable(self.path, folder, library, refused) from error
             raise FmuCallError(f"{one_line(error)} {said}".strip()) from error
         return self._calls
 

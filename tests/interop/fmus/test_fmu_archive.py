@@ -14,9 +14,9 @@ from c_units import made
 from stickslip import scratch
 from stickslip.scratch import scratch_folder
 
+from cosim.cli import main
 from cosim.coupling import CoupledSystem, FmuError, FmuParticipant, GaussSeidel, run
 from cosim.coupling.fmu import archive
-from cosim.coupling.fmu.errors import FmuCallError
 
 
 @pytest.fixture
@@ -109,6 +109,38 @@ def test_a_description_without_sense_is_refused(tmp_path, changes, message):
     refused(made("faulty", tmp_path, **changes), message)
 
 
+def with_library(unit, path, content):
+    """The unit with another library."""
+    with zipfile.ZipFile(unit) as old, zipfile.ZipFile(path, "w") as file:
+        for name in old.namelist():
+            file.writestr(name, content if name.startswith("binaries/") else old.read(name))
+    return path
+
+
+@pytest.mark.parametrize("content", [b"#!/bin/sh\necho none\n", b"", b"\x7fELF" + bytes(60)])
+def test_a_library_that_is_none_is_refused_as_the_user_s_file(unit, tmp_path, content):
+    """No name of the unpacked copy, which is gone by then."""
+    path = with_library(unit, tmp_path / "junk.fmu", content)
+    refused(path, r"its library binaries/\S+ cannot be loaded: [^/]+; allowed is a shared library")
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="takes a library of the system")
+def test_a_library_without_the_functions_of_the_standard_is_refused(unit, tmp_path):
+    import _ctypes
+
+    path = with_library(unit, tmp_path / "other.fmu", Path(_ctypes.__file__).read_bytes())
+    refused(path, r"cannot be loaded: undefined symbol: fmi2\w+; allowed is a shared library")
+
+
+def test_couple_refuses_a_library_that_is_none(unit, tmp_path, capsys):
+    path = with_library(unit, tmp_path / "junk.fmu", b"text")
+    system = tmp_path / "system.toml"
+    system.write_text('[units.one]\nfile = "junk.fmu"\n[run]\nstop = 0.1\n')
+    assert main(["couple", str(system), "-o", str(tmp_path / "out")]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1 and said.startswith(f"error: {path}: its library binaries/")
+
+
 def test_a_unit_for_other_machines_says_for_which(unit, tmp_path):
     path = tmp_path / "other.fmu"
     with zipfile.ZipFile(unit) as old, zipfile.ZipFile(path, "w") as file:
@@ -126,7 +158,7 @@ def test_a_library_that_does_not_load_leaves_all_as_it_was(unit, tmp_path, monke
         file.writestr("modelDescription.xml", description)
         file.writestr(library, "no library")
     with FmuParticipant(unit) as participant:
-        with pytest.raises(FmuCallError, match="Failed to load shared library"):
+        with pytest.raises(FmuError, match="cannot be loaded: file too short"):
             participant.enter_initialisation(0.0, 1.0)
     assert Path.cwd() == tmp_path
 
