@@ -14,7 +14,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 from warnings import warn
 
-from cosim.files import OutputRefused, watched, writable, write_text
+from cosim.files import OutputRefused, clear_partial, watched, writable, write_text
 
 LOG = logging.getLogger(__name__)
 #: What made the results beside it, and which files they are.
@@ -95,6 +95,7 @@ def results_in(
     ``force`` overwrites it.
     """
     require_own(folder, files, force)
+    clear_partial(folder)  # of a run that was killed, where the command has not tried the folder
     results = ResultFolder(folder, made, force)
     try:
         with watched(results.about_to_write):

@@ -1,6 +1,7 @@
 """At which numbers of a rig its motion becomes another: by closed forms, and of the reference."""
 
 import math
+from pathlib import Path
 
 import pytest
 from stickslip import Friction, LateralFriction, Parameters, Rig, StructuralDamping, Surface
@@ -77,6 +78,11 @@ def test_the_reference_is_near_its_borders():
     }
     assert list(found) == [RATIO, SPEED, RAMP, DAMPING]
     assert {border.beyond for border in found.values()} == {(SLIDING, False)}
+    read = " ".join((Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8").split())
+    assert f"slides without sticking above {values[SPEED]:.3f} m/s" in read
+    assert f"below a ramp of {values[RAMP]:.1f} s" in read
+    assert f"above damping of {values[DAMPING]:.3f} N s/m" in read
+    assert f"below μ_s/μ_k of {values[RATIO]:.2f}" in read
 
 
 def test_no_more_steps_are_taken_than_are_allowed():
