@@ -78,11 +78,15 @@ def test_the_reference_is_near_its_borders():
     }
     assert list(found) == [RATIO, SPEED, RAMP, DAMPING]
     assert {border.beyond for border in found.values()} == {(SLIDING, False)}
-    read = " ".join((Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8").split())
-    assert f"slides without sticking above {values[SPEED]:.3f} m/s" in read
-    assert f"below a ramp of {values[RAMP]:.1f} s" in read
-    assert f"above damping of {values[DAMPING]:.3f} N s/m" in read
-    assert f"below μ_s/μ_k of {values[RATIO]:.2f}" in read
+    readme, guide = (
+        " ".join((Path(__file__).parents[3] / file).read_text(encoding="utf-8").split())
+        for file in ("README.md", "tests/docs/site/guide/motion.md")
+    )
+    assert f"above {values[SPEED]:.3f} m/s it slides" in readme
+    assert f"slides at {values[SPEED]:.3f} m/s (0.15 given)" in guide
+    assert f"after a ramp of {values[RAMP]:.1f} s (10)" in guide
+    assert f"damp {values[DAMPING]:.3f} N s/m (0.07)" in guide
+    assert f"with μ_s/μ_k below {values[RATIO]:.2f} (1.35)" in guide
 
 
 def test_no_more_steps_are_taken_than_are_allowed():
