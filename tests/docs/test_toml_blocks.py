@@ -9,7 +9,7 @@ import jsonschema
 import pytest
 
 from cosim.cli import main
-from cosim.cli.authoring.schema import KINDS
+from cosim.cli.arguments import COMMANDS
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = ROOT / "tests" / "docs" / "site"
@@ -29,7 +29,7 @@ def schemas():
     """Kind -> what checks a file of it."""
     found = {}
     with pytest.MonkeyPatch.context() as patch:
-        for kind in KINDS:
+        for kind in COMMANDS["schema"]["arguments"]["kind"]["choices"]:
             said: list[str] = []
             patch.setattr("builtins.print", lambda text, said=said, **_: said.append(text))
             assert main(["schema", kind]) == 0
