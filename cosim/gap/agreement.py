@@ -206,8 +206,8 @@ class Fitting:
                 for part, gain in zip(lesser, gained, strict=True)]  # fmt: skip
 
     def lost(self, parts: Sequence[Part], named: Named, asked: Collection[str]) -> Rejected | None:
-        """The greatest finding, where simulated runs are much worse with it alone, and do not ask
-        for it beside contact and scatter: nothing is built upon it."""
+        """The greatest finding, where simulated runs are much worse with it alone, and ask for it
+        by no more than e^30 beside contact and scatter: nothing is built upon it."""
         greatest = _greatest(parts)
         if greatest is None or greatest.finding.name not in asked or not greatest.in_kernel:
             return None
@@ -217,7 +217,7 @@ class Fitting:
             return None
         without.let_scatter()
         gained = self._gained(greatest, without, named)
-        if runs_ask(gained - price_of(greatest.finding.name)):
+        if much_more(gained - price_of(greatest.finding.name)):
             return None
         return Rejected(greatest.finding.name, greatest.finding.gain, gained)
 

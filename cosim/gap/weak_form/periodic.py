@@ -39,6 +39,8 @@ Coordinate = Callable[[RunRows], np.ndarray]
 Effect = Callable[[RunRows, np.ndarray], Response]
 
 ORDERS = np.arange(1, HARMONICS + 1)
+#: Wavenumbers that are worked out together: what they need stays in the processor's cache.
+TOGETHER = 64
 #: Runs and waves are worked out beside one another, in numpy's loops.
 THREADS = ThreadPoolExecutor(2)
 
@@ -129,16 +131,25 @@ def wavenumbers_of(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
 
 @dataclass(frozen=True)
 class _Waves:
-    """Rows of unit noise of cosines and sines of one run, (2, rows, w), and their products (w,)."""
+    """Rows of unit noise of cosines and sines of one run, (2, rows, w), and their products (w,).
+
+    Of evenly spaced wavenumbers.
+    """
 
     rows: np.ndarray
     products: tuple[np.ndarray, np.ndarray, np.ndarray]
 
     @classmethod
     def of(cls, run: RunRows, kind: Periodic, wavenumbers: np.ndarray) -> _Waves:
-        turn = _turned(kind.coordinate(run), wavenumbers)
-        rows = np.array([run.respond(kind.effect(run, each), wavenumbers.size)
-                         for each in (turn.real, turn.imag)], dtype=np.float32)  # fmt: skip
+        at, rows = kind.coordinate(run), np.empty((2, len(run), wavenumbers.size), np.float32)
+        # a product costs a tenth of an exponential
+        fine = _turned(at, wavenumbers[:TOGETHER] - wavenumbers[:1])
+        for first in range(0, wavenumbers.size, TOGETHER):
+            count = min(TOGETHER, wavenumbers.size - first)
+            turn = _turned(at, wavenumbers[first : first + 1]) * fine[:, :count]
+            effect = kind.effect(run, np.hstack([turn.real, turn.imag]))
+            made = run.respond(effect, 2 * count).reshape(-1, 2, count)
+            rows[:, :, first : first + count] = made.transpose(1, 0, 2)
         pairs = ((rows[0], rows[0]), (rows[1], rows[1]), (rows[0], rows[1]))
         cc, ss, cs = (np.einsum("rw,rw->w", a, b).astype(float) for a, b in pairs)
         return cls(rows, (cc, ss, cs))
@@ -154,17 +165,8 @@ class _Waves:
 
 
 def _turned(at: np.ndarray, wavenumbers: np.ndarray) -> np.ndarray:
-    """(n, w) exp(2 pi i k s) of evenly spaced wavenumbers, as products of a coarse and a fine one.
-
-    A product costs a tenth of an exponential.
-    """
-    count = max(int(np.ceil(np.sqrt(wavenumbers.size))), 1)
-    coarse = np.exp(2j * np.pi * np.outer(at, wavenumbers[::count]))
-    fine = np.exp(2j * np.pi * np.outer(at, wavenumbers[:count] - wavenumbers[:1]))
-    every = (coarse[:, :, None] * fine[:, None, :]).reshape(
-        at.size, coarse.shape[1] * fine.shape[1]
-    )
-    return every[:, : wavenumbers.size]
+    """(n, w) exp(2 pi i k s)"""
+    return np.asarray(np.exp(2j * np.pi * np.outer(at, wavenumbers)))
 
 
 def _scan(rung: Rung, kind: Periodic) -> tuple[np.ndarray, np.ndarray]:
@@ -320,8 +322,8 @@ class Wave:
         name = run.track.run.name
         at = self.kind.coordinate(run) + self.faster.get(name, 0.0) * _travel(run)
         angle = 2.0 * np.pi * self.wavenumber * at - self.phases.get(name, 0.0)
-        angles = np.outer(angle, ORDERS)
-        return np.hstack([np.cos(angles), np.sin(angles)])
+        powers = np.cumprod(np.repeat(np.exp(1j * angle)[:, None], HARMONICS, axis=1), axis=1)
+        return np.hstack([powers.real, powers.imag])
 
     def at_times(self, run: RunRows, sizes: np.ndarray) -> Callable[[np.ndarray], np.ndarray]:
         """The wave of one run as a function of the time, s."""

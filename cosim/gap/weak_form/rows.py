@@ -151,8 +151,11 @@ def _stick_part(block: _Block, response: Response, unknowns: int) -> np.ndarray:
     return block.whitened(rows)
 
 
-def rows_of(track: SmoothTrack, rig: Rig, plane: Plane | None = None) -> RunRows:
-    """Rows of a run. plane : how the block moves across, where it does."""
+def rows_of(
+    track: SmoothTrack, rig: Rig, plane: Plane | None = None,
+    events: tuple[BreakAway, ...] | None = None,
+) -> RunRows:  # fmt: skip
+    """Rows of a run. plane : how the block moves across, where it does; events : None, all seen."""
     run = track.run
     knots = max(1, round(KNOTS / run.natural_frequency / track.interval))
     slip = _block(track, track.slips, _slip_weights(track, knots), run.noise["x"])
@@ -162,7 +165,7 @@ def rows_of(track: SmoothTrack, rig: Rig, plane: Plane | None = None) -> RunRows
         along = spring_loads(rig, run.stiffness, track.x)[0]
     else:
         along, drive = plane.loads(rig, run.stiffness, track.x)[0], plane.drive(run.surface_speed)
-    events = break_aways(track, rig, plane)
+    events = break_aways(track, rig, plane) if events is None else events
     values = [
         slip.whitened(slip.inertia @ track.x - slip.force @ along),
         stick.whitened(stick.place @ track.x - stick.force @ drive),

@@ -20,9 +20,9 @@ from cosim.gap.weak_form.constants import (
     PHASES_TRIED,
     RIPPLE_BANDS,
 )
-from cosim.gap.weak_form.rows import BREAK_AWAY, STICK, Response, RunRows, rows_of
+from cosim.gap.weak_form.rows import STICK, Response, RunRows, rows_of
 from cosim.gap.weak_form.system import System
-from cosim.gap.weak_form.track import SmoothTrack, smooth
+from cosim.gap.weak_form.track import GridTrack, SmoothTrack
 
 #: Times (n,), s -> the part by which a surface is faster than its set-point.
 Varies = Callable[[np.ndarray], np.ndarray]
@@ -30,14 +30,14 @@ Varies = Callable[[np.ndarray], np.ndarray]
 
 def tracks_of(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[SmoothTrack]:
     """Smoothed tracks, relative to the surface as it moves."""
-    varies: dict[str, Varies] = {}
+    grids, varies = [GridTrack.of(run) for run in runs], {}
     for band in RIPPLE_BANDS:
-        tracks = [smooth(run, varies.get(run.name), band) for run in runs]
+        tracks = [grid.smoothed(varies.get(grid.run.name), band) for grid in grids]
         found = _ripple(campaign, [rows_of(track, campaign.rig) for track in tracks])
         if not found:
             break
         varies = found
-    return [smooth(run, varies.get(run.name)) for run in runs]
+    return [grid.smoothed(varies.get(grid.run.name)) for grid in grids]
 
 
 def _ripple(campaign: Campaign, rows: list[RunRows]) -> dict[str, Varies]:
@@ -66,25 +66,27 @@ def best_phase(
     campaign: Campaign, run: RunRows, wave: periodic.Wave, sizes: np.ndarray
 ) -> periodic.Wave:
     """The wave with the phase of one run that leaves least: where it seldom sticks, slips tell."""
-    name, measured = run.track.run.name, run.track.run
+    name, grid = run.track.run.name, GridTrack.of(run.track.run)
     step = 2.0 * np.pi / PHASES_TRIED
     for width in (step, step / 6.0):  # over a turn, then about the best
         half = PHASES_TRIED // 2
         tried = [wave.moved({name: width * n}) for n in range(-half, half)]
-        wave = min(tried, key=lambda w: _left(campaign, measured, w.at_times(run, sizes)))
+        wave = min(tried, key=lambda w: _left(campaign, grid, w.at_times(run, sizes)))
     return wave
 
 
-def _left(campaign: Campaign, measured: MeasuredRun, varies: Varies) -> float:
-    """Mean square of a run's rows beside one coefficient, a zero and a fall at low speeds."""
-    rows = rows_of(smooth(measured, varies), campaign.rig)
-    track = rows.track
+def _left(campaign: Campaign, grid: GridTrack, varies: Varies) -> float:
+    """Mean square of a run's slips and sticks beside one coefficient, a zero and a fall at low
+    speeds."""
+    rows = rows_of(grid.smoothed(varies), campaign.rig, events=())
+    if not len(rows):
+        return 0.0
+    track, run = rows.track, grid.run
     friction = rows.weight * track.direction
     slow = friction * np.exp(-np.abs(track.sliding) / CONTACT_SPEED)
-    forces = np.column_stack([friction, slow, measured.total_stiffness * np.ones_like(slow)])
-    faster = (measured.surface_speed * varies(track.time))[:, None]
+    forces = np.column_stack([friction, slow, run.total_stiffness * np.ones_like(slow)])
+    faster = (run.surface_speed * varies(track.time))[:, None]
     left = rows.values - rows.respond(Response(speed=faster), 1)[:, 0]
-    here = rows.kinds != BREAK_AWAY
-    columns = rows.respond(Response(force=forces), 3)[here]
-    solution = np.linalg.lstsq(columns, left[here], rcond=None)[0]
-    return float(np.mean((left[here] - columns @ solution) ** 2)) if here.any() else 0.0
+    columns = rows.respond(Response(force=forces), 3)
+    solution = np.linalg.lstsq(columns, left, rcond=None)[0]
+    return float(np.mean((left - columns @ solution) ** 2))

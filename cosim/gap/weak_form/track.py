@@ -98,71 +98,109 @@ def mask(stretches: tuple[tuple[int, int], ...], size: int) -> np.ndarray:
     return inside
 
 
-def smooth(
-    run: MeasuredRun,
-    varies: Callable[[np.ndarray], np.ndarray] | None = None,
-    band: float = 0.0,
-) -> SmoothTrack:
-    """The track of a run, smoothed twice: across everything to find the slips, then inside them.
+@dataclass(frozen=True)
+class GridTrack:
+    """The samples of one run on an even grid of n times, whatever its surface does.
 
-    varies : times (n,), s, to the part by which the surface is faster than its set-point; band :
-    a block moves with the surface up to this part of its speed
-
-    A polynomial that reaches over a break-away would round it off; inside a slip the motion is that
-    of an oscillator, which a quintic over two radians follows to 1e-3.
+    Attributes
+    ----------
+    time, interval, errors, x, y, phi, seen : as of `SmoothTrack`
+    omega : frequency of the swings, rad/s
+    rough : (3, n) x and its first two derivatives, smoothed across everything
+    across : (3, n) the same of y; zeros where it was not measured
+    threshold : sliding speed above which the block slips, m/s
     """
-    track = run.motion
-    present = np.isfinite(track.x)
-    time, samples, remainder, seen = _grid(track.time[present])
-    interval = time[1] - time[0]
 
-    def values(channel: str) -> np.ndarray | None:
-        if channel not in track.channels:
-            return None
-        raw, at = track[channel][present], track.time[present]
-        raw = np.interp(at, at[np.isfinite(raw)], raw[np.isfinite(raw)])
-        return np.asarray(raw if samples is None else samples @ raw)
+    run: MeasuredRun
+    time: np.ndarray
+    interval: float
+    errors: sparse.csr_array | None
+    x: np.ndarray
+    y: np.ndarray | None
+    phi: np.ndarray | None
+    seen: np.ndarray
+    omega: float
+    rough: np.ndarray
+    across: np.ndarray
+    threshold: float
 
-    x, y, phi = values("x"), values("y"), values("phi")
-    assert x is not None  # every track has it
-    omega = _frequency(x, interval, run)
-    errors = None
-    if samples is not None:
-        off = omega**4 * float(np.std(x)) / run.noise["x"] * remainder
-        errors = sparse.hstack([samples, sparse.diags_array(off)], format="csr")
-    rough = derivatives(x, interval, CUBIC_REACH / omega, 3)
-    threshold = max(_sliding_threshold(run, interval, rough[1]), band * abs(run.surface_speed))
-    surface = np.full(time.size, run.surface_speed)
-    if varies is not None:
-        surface *= 1.0 + varies(time)
-    sliding = surface - rough[1]
-    # a slip is of one direction: where it changes, a short stick may hide between two samples
-    ways = [each for way in (1.0, -1.0) for each in _stretches((way * sliding > threshold) & seen)]
-    # in a slip the surface gets ahead by more than noise can
-    slips = tuple(
-        (first, last) for first, last in sorted(ways)
-        if abs(np.sum(sliding[first:last])) * interval > SLIP_SIGMAS * run.noise["x"]
-    )  # fmt: skip
-    margin = round(KNOTS / omega / interval)
-    ahead = np.cumsum(sliding) * interval
-    most = max(band, STICK_AHEAD) * abs(run.surface_speed) * interval
-    sticks = tuple(
-        (first + margin, last - margin)
-        for first, last in _stretches(seen & ~mask(slips, time.size))
-        if last - first > 2 * margin
-        and np.ptp(ahead[first:last]) < STICK_SIGMAS * run.noise["x"] + most * (last - first)
-    )
-    fine = rough.copy()
-    for first, last in slips:
-        if min(last - first, _window(QUINTIC_REACH / omega, interval)) > 6:
-            fine[:, first:last] = derivatives(x[first:last], interval, QUINTIC_REACH / omega, 5)
-    across = np.zeros((3, x.size))
-    if y is not None:
-        across = derivatives(y, interval, QUINTIC_REACH / omega, 5)
-    return SmoothTrack(
-        run, time, interval, errors, x, y, phi, fine[0], fine[1], fine[2], across[0], across[1],
-        surface, surface - fine[1], seen, slips, sticks, run.mass * omega**2,
-    )  # fmt: skip
+    @classmethod
+    def of(cls, run: MeasuredRun) -> GridTrack:
+        """The grid has the samples' median step."""
+        track = run.motion
+        present = np.isfinite(track.x)
+        time, samples, remainder, seen = _grid(track.time[present])
+        interval = time[1] - time[0]
+
+        def values(channel: str) -> np.ndarray | None:
+            if channel not in track.channels:
+                return None
+            raw, at = track[channel][present], track.time[present]
+            raw = np.interp(at, at[np.isfinite(raw)], raw[np.isfinite(raw)])
+            return np.asarray(raw if samples is None else samples @ raw)
+
+        x, y, phi = values("x"), values("y"), values("phi")
+        assert x is not None  # every track has it
+        omega = _frequency(x, interval, run)
+        errors = None
+        if samples is not None:
+            off = omega**4 * float(np.std(x)) / run.noise["x"] * remainder
+            errors = sparse.hstack([samples, sparse.diags_array(off)], format="csr")
+        rough = derivatives(x, interval, CUBIC_REACH / omega, 3)
+        across = np.zeros((3, x.size))
+        if y is not None:
+            across = derivatives(y, interval, QUINTIC_REACH / omega, 5)
+        threshold = _sliding_threshold(run, interval, rough[1])
+        return cls(run, time, interval, errors, x, y, phi, seen, omega, rough, across, threshold)
+
+    def smoothed(
+        self, varies: Callable[[np.ndarray], np.ndarray] | None = None, band: float = 0.0
+    ) -> SmoothTrack:
+        """Smoothed again inside the slips.
+
+        varies : times (n,), s, to the part by which the surface is faster than its set-point;
+        band : a block moves with the surface up to this part of its speed
+
+        A polynomial that reaches over a break-away would round it off; inside a slip the motion is
+        that of an oscillator, which a quintic over two radians follows to 1e-3.
+        """
+        run, time, interval, seen, x = self.run, self.time, self.interval, self.seen, self.x
+        threshold = max(self.threshold, band * abs(run.surface_speed))
+        surface = np.full(time.size, run.surface_speed)
+        if varies is not None:
+            surface *= 1.0 + varies(time)
+        sliding = surface - self.rough[1]
+        # a slip is of one direction: where it changes, a short stick may hide between two samples
+        ways = [each for way in (1.0, -1.0)
+                for each in _stretches((way * sliding > threshold) & seen)]  # fmt: skip
+        # in a slip the surface gets ahead by more than noise can
+        slips = tuple(
+            (first, last) for first, last in sorted(ways)
+            if abs(np.sum(sliding[first:last])) * interval > SLIP_SIGMAS * run.noise["x"]
+        )  # fmt: skip
+        margin = round(KNOTS / self.omega / interval)
+        ahead = np.cumsum(sliding) * interval
+        most = max(band, STICK_AHEAD) * abs(run.surface_speed) * interval
+        sticks = tuple(
+            (first + margin, last - margin)
+            for first, last in _stretches(seen & ~mask(slips, time.size))
+            if last - first > 2 * margin
+            and np.ptp(ahead[first:last]) < STICK_SIGMAS * run.noise["x"] + most * (last - first)
+        )
+        fine = self.rough.copy()
+        reach = QUINTIC_REACH / self.omega
+        for first, last in slips:
+            if min(last - first, _window(reach, interval)) > 6:
+                fine[:, first:last] = derivatives(x[first:last], interval, reach, 5)
+        return SmoothTrack(
+            run, time, interval, self.errors, x, self.y, self.phi, *fine, *self.across[:2],
+            surface, surface - fine[1], seen, slips, sticks, run.mass * self.omega**2,
+        )  # fmt: skip
+
+
+def smooth(run: MeasuredRun) -> SmoothTrack:
+    """The track of a run whose surface moves steadily."""
+    return GridTrack.of(run).smoothed()
 
 
 def _grid(

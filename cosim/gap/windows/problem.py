@@ -74,7 +74,7 @@ class Problem:
 
     def derivatives(self, scaled: np.ndarray) -> np.ndarray:
         """Of `residuals`, start states eliminated."""
-        blocks = self.threads.map(lambda part: part.derivatives(scaled), self.parts)
+        blocks = [part.derivatives(scaled, self.threads.map) for part in self.parts]
         return np.concatenate([*blocks, self._priors(scaled)[1]])
 
     def _priors(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -9,7 +9,7 @@ import numpy as np
 from .fitted import FittedRun
 from .numbers import Unknown
 from .run_model import RunModel
-from .start_states import Started, StartStates
+from .start_states import Each, Started, StartStates
 
 #: Finite differences of a number, in its scales. Numbers that compensate each other but for their
 #: priors (mu_s, mu_k and all zeros) need derivatives to 1e-3 of themselves; with ten times the step
@@ -77,11 +77,11 @@ class RunFit:
             at = self.starts.settled(values, at, p, rounds=2)
         return at
 
-    def derivatives(self, scaled: np.ndarray) -> np.ndarray:
+    def derivatives(self, scaled: np.ndarray, each: Each) -> np.ndarray:
         """(size, k) by the numbers, normal to those by the start states."""
         at = self.followed(scaled)
         if id(at) not in self.known:
-            self.known[id(at)] = (at, *self._derivatives(scaled, at))
+            self.known[id(at)] = (at, *self._derivatives(scaled, at, each))
         _, self.columns, self.response, derivatives = self.known[id(at)]
         if self.base is None or (self.base != scaled[self.felt]).any():
             self.base = scaled[self.felt].copy()
@@ -89,14 +89,13 @@ class RunFit:
         return derivatives
 
     def _derivatives(
-        self, scaled: np.ndarray, at: Started
+        self, scaled: np.ndarray, at: Started, each: Each
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """By the start states, of these by the numbers, and of the rest by the numbers."""
         values = self.values(scaled)
-        columns = self.starts.derivatives(values, at, self.model.packed(values))
-        slopes = np.zeros((at.residuals.size, len(self.felt)))
-        for place, i in enumerate(self.felt):
-            slopes[:, place] = self._slope(scaled, i, at)
+        columns = self.starts.derivatives(values, at, self.model.packed(values), each)
+        of_numbers = each(lambda i: self._slope(scaled, i, at), self.felt)
+        slopes = np.column_stack([at.residuals[:, None][:, :0], *of_numbers])
         move = self.starts.coordinates(columns, slopes)
         steps = self.starts.steps[self.starts.axes(values)]
         derivatives = np.zeros((at.residuals.size, len(self.unknowns)))
