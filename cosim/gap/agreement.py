@@ -13,6 +13,7 @@ from cosim.gap.judge import (
     NOTHING_MISSING,
     SURE,
     explains,
+    findings_by_rounds,
     halves,
     is_asked_for_ageing,
     judged,
@@ -62,8 +63,9 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
     naming = Naming.of(campaign)
     fitting.step()
     rejected: list[Rejected] = []
+    rounds = iter(findings_by_rounds())
     while True:
-        named = naming.named([one.effect for one in rejected])
+        named = naming.named([one.effect for one in rejected], next(rounds, 0))
         parts = [fitting.part(named, finding) for finding in named.findings]
         most = max((part.finding.gain for part in parts), default=0.0)
         faint = {part.finding.name for part in parts

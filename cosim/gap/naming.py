@@ -9,6 +9,7 @@ from cosim.gap.data import Campaign
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.arguments import Arguments
 from cosim.gap.weak_form.camera_faults import SMOOTHING, camera_faults, filters
+from cosim.gap.weak_form.constants import MOST_FINDINGS
 from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Finding, Ladder, Search
 from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
@@ -75,14 +76,14 @@ class Naming:
             unknowns.pop("measurement.zero", None)
         return cls(campaign, rows, planar, system, arguments, unknowns)
 
-    def named(self, without: Collection[str] = ()) -> Named:
-        """The findings. without : names that are not asked for"""
+    def named(self, without: Collection[str] = (), most: int = MOST_FINDINGS) -> Named:
+        """The findings, so many along x. without : names that are not asked for"""
         unknowns = {name: some for name, some in self.unknowns.items() if name not in without}
         waves = [wave for wave in periodic.kinds(self.system.level.kinetic)
                  if wave.name not in without]  # fmt: skip
-        ladder = Search(self.system, unknowns, waves, self.arguments.near, without).climb()
+        ladder = Search(self.system, unknowns, waves, self.arguments.near, without).climb(most)
         rows = self.rows
-        if not (self.planar.answer or SMOOTHING in without):
+        if most and not (self.planar.answer or SMOOTHING in without):
             rows, ladder, unknowns = self._at_corners(ladder, unknowns)
         self._follow_surface(ladder)
         fitted = System(self.campaign, rows)

@@ -127,14 +127,13 @@ class Search:
             offers[GROWS if curve[-1] > 0.0 else FALLS] = offer
         return {name: offer for name, offer in offers.items() if name not in self.barred}
 
-    def climb(self) -> Ladder:
-        """Add, drop and exchange until nothing more is asked for."""
+    def climb(self, most: int = MOST_FINDINGS) -> Ladder:
+        """Add, drop and exchange until nothing more is asked for, or there are so many findings."""
         found: list[tuple[str, tuple[Added, ...]]] = []
-        first: dict[str, Offer] = {}
-        for _ in range(MOST_FINDINGS):
+        first = self.offers(self._rung(found))
+        for number in range(most):
             rung = self._rung(found)
-            offers = self.offers(rung, [name for name, _ in found])
-            first = first or offers
+            offers = self.offers(rung, [name for name, _ in found]) if number else first
             if not offers:
                 break
             name = max(offers, key=lambda each: offers[each][0])

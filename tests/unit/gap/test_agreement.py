@@ -36,9 +36,9 @@ class Rows:
         self.findings, self.most, self.asked = findings, most, []
         self.offers = {one.name: (one.gain, one.added) for one in offers}
 
-    def named(self, without):
+    def named(self, without, most):
         self.asked.append(tuple(without))
-        left = [one for one in self.findings if one.name not in without]
+        left = [one for one in self.findings if one.name not in without][:most]
         system = SimpleNamespace(rung=lambda added: None)
         return Named(SimpleNamespace(first_offers=self.offers), tuple(left[: self.most]), system,
                      None, {})  # fmt: skip
@@ -98,6 +98,17 @@ def test_simulated_runs_ask_by_as_much_as_the_rows(monkeypatch, gained, names):
     found, spurious = agreed(monkeypatch, Rows(finding("film_drag", 12.0)), {"film_drag": gained})
     assert found == names
     assert spurious == (() if names else ("film_drag",))
+
+
+def test_after_four_rounds_rows_are_asked_for_one_finding_alone(monkeypatch):
+    names = [f"pretended {number}" for number in range(5)]
+    gained = dict.fromkeys(names, 0.0) | {"true": 100.0, "second": 100.0}
+    findings = [finding(name, 20.0) for name in [*names[:4], "true", "second"]]
+    rows = Rows(*findings, most=1)
+    assert agreed(monkeypatch, rows, gained)[0] == ["true"]
+    rows = Rows(*(finding(name, 20.0) for name in [*names, "true"]), most=1)
+    assert agreed(monkeypatch, rows, gained)[0] == []
+    assert rows.asked[-1] == tuple(names)
 
 
 @pytest.mark.parametrize(("gained", "found"), [(8.9, False), (9.1, True)])
