@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from cosim.gap.data import Campaign
-from cosim.gap.extended import Part, as_points, part_of
+from cosim.gap.extended import Part, as_points, part_of, rounding_of
 from cosim.gap.judge import (
     EXPLAINED,
     MUCH_MORE,
@@ -66,6 +66,9 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
     rounds = iter(findings_by_rounds())
     while True:
         named = naming.named([one.effect for one in rejected], next(rounds, 0))
+        if unsure := fitting.unsure(named):
+            rejected += unsure
+            continue
         parts = [fitting.part(named, finding) for finding in named.findings]
         most = max((part.finding.gain for part in parts), default=0.0)
         faint = {part.finding.name for part in parts
@@ -108,6 +111,13 @@ class Fitting:
     def part(self, named: Named, finding: Finding, law: LawFit | None = None) -> Part:
         """What a finding puts into the model."""
         return part_of(self.campaign, named.system, named.rung, finding, law)
+
+    def unsure(self, named: Named) -> list[Rejected]:
+        """Beside coarse steps, whose errors go together from sample to sample, what is not sure."""
+        if rounding_of(self.campaign) is None:
+            return []
+        return [Rejected(one.name, one.gain, None)
+                for one in named.findings if one.added and one.gain < SURE]  # fmt: skip
 
     def aged(self, named: Named) -> tuple[list[Part], Named]:
         """Static friction over the hold time, where a contact would have to let go very soon.

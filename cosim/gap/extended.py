@@ -38,6 +38,7 @@ from cosim.gap.windows.windows import moves_across
 #: the speeds of sliding; a loaded contact creeps at less than a third of the surface's speed.
 TRANSITION, FALL_PART, CREEP_PART = (3e-4, 2e-2), 0.15, 0.3
 TRANSITION_SPEED = "friction.transition_speed"
+ROUNDING = "measurement.quantisation"
 #: Longest time by which a contact lets go sooner, s, bristles of 100 um on a surface of 2 mm/s:
 #: what follows the loading rate farther is static friction's own law.
 LONGEST_DELAY = 0.05
@@ -95,6 +96,20 @@ class Part:
                 form = fit.candidate.form if fit.effect == best.effect else ""
                 others.setdefault((fit.effect, form), fit)
         return list(others.values())[1:]
+
+
+def rounding_of(campaign: Campaign) -> Part | None:
+    """Numbers that are written in coarse steps, which are read off the digits; None where none are.
+
+    No number of it is fitted: what rounding adds to the noise is in that of the runs.
+    """
+    steps = {run.name: run.rounding for run in campaign.runs if run.rounding}
+    if not steps:
+        return None
+    some = len(steps) < sum(run.track is not None for run in campaign.runs)
+    settings = {f"in@{name}": 1.0 for name in steps} if some else {}
+    coarsest = max(step for of_run in steps.values() for step, _ in of_run.values())
+    return Part(Finding(ROUNDING, (), 0.0, settings=settings), None, (), (), {ROUNDING: coarsest})
 
 
 def part_of(

@@ -6,10 +6,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from cosim.gap.agreement import Agreed, Fitting, confirmed_findings
-from cosim.gap.checks import blocking, doubts_of
+from cosim.gap.checks import blocking, doubts_of, with_rounding
 from cosim.gap.data import Campaign
-from cosim.gap.extended import Part
-from cosim.gap.judge import explains, judge
+from cosim.gap.extended import ROUNDING, Part, rounding_of
+from cosim.gap.judge import explains, judge, with_steps
 from cosim.gap.naming import Named, Naming
 from cosim.gap.plan.next_run import next_experiment
 from cosim.gap.rates import by_direction, rates_of
@@ -21,7 +21,7 @@ from cosim.gap.report_of_findings import (
     sentence_of,
     where_of,
 )
-from cosim.gap.result import Doubt, Gap, Rung
+from cosim.gap.result import Doubt, Gap, Ranked, Rung
 from cosim.gap.scatter import Scatter
 from cosim.gap.weak_form.camera_faults import FAULTS
 from cosim.gap.weak_form.constants import ALIKE
@@ -44,6 +44,7 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     jobs : runs that are simulated at a time; progress : called with the parts done and of all
     """
     step = _Steps(progress)
+    campaign = with_rounding(campaign)
     doubts = doubts_of(campaign)
     campaign = replace(campaign, runs=tuple(thinned(run) for run in campaign.runs))
     step()
@@ -68,12 +69,17 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
     named, parts, models = agreed.named, agreed.parts, agreed.models
     ladder, system, rung = named.ladder, named.system, named.rung
     rates = rates_of(ladder, named.unknowns) if named.unknowns else None
+    answered = _unanswered(doubts, models.ladder, [part.effect for part in parts])
     names = [part.effect for part in parts]
     verdict = judge(
         named.findings, names, models.ladder, _physics(campaign), rates, agreed.left_without
     )
-    doubts = _unanswered(doubts, models.ladder, names)
-    if any(doubt.severe for doubt in doubts):
+    # coarse steps are read off the digits, and stand in no other finding's place
+    rounding = [part for part in [rounding_of(campaign)] if part]
+    steps = [rung for rung in models.ladder if rung.name == ROUNDING]
+    if rounding:
+        verdict = with_steps(verdict, ROUNDING)
+    if any(doubt.severe for doubt in answered):
         verdict = replace(verdict, verdict="unknown", effects=())
     extended = models.fits[-1]
     known = {finding.name for finding in ladder.findings} | set(ladder.first_offers)
@@ -85,7 +91,10 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
         classes=verdict.classes,
         where=where_of(campaign, ladder, models.fits[0]),
         ladder=tuple(models.ladder),
-        ranking=ranking_of(ladder, parts, extended, models.ladder[-1].gap),
+        ranking=(
+            *(Ranked(rung.name, "", rung.evidence or 0.0, 1.0, rung.gap) for rung in steps),
+            *ranking_of(ladder, parts, extended, models.ladder[-1].gap),
+        ),
         plain=models.fits[0],
         extended=extended,
         laws=tuple(law for part in parts if (law := law_of(system, rung, part)) is not None),
@@ -93,7 +102,7 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
         scatter=models.scatter,
         rig=rig_numbers(campaign, extended),
         rates=rates and by_direction(rates, known),
-        doubts=doubts,
+        doubts=answered,
         next_experiment=(
             next_experiment(
                 ladder, named.unknowns, verdict.classes[0], Scatter.of(rung).expected[0]
@@ -102,7 +111,7 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
         ),
         rejected=agreed.rejected,
     )  # fmt: skip
-    return replace(gap, sentence=sentence_of(gap, parts, _hints(gap, parts)))
+    return replace(gap, sentence=sentence_of(gap, [*rounding, *parts], _hints(gap, parts)))
 
 
 def _hints(gap: Gap, parts: Sequence[Part]) -> list[str]:

@@ -34,7 +34,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cosim.gap.rates import confirmed
 from cosim.gap.result import Rates, Rung, Score
@@ -105,6 +105,14 @@ def judge(
     if improves and own and ladder[-1].share >= MOST:
         return Verdict("partial", tuple(names), classes)
     return Verdict("unknown", (), classes)
+
+
+def with_steps(verdict: Verdict, name: str) -> Verdict:
+    """With coarse steps of the tracker, by this name, where nothing else is missing or unknown."""
+    if verdict.verdict in ("unknown", "class"):
+        return verdict
+    named = "named" if verdict.verdict == "none" else verdict.verdict
+    return replace(verdict, verdict=named, effects=(name, *verdict.effects))
 
 
 def explains(ladder: Sequence[Rung]) -> bool:

@@ -10,9 +10,11 @@ import numpy as np
 
 from cosim.gap.data import Campaign
 from cosim.gap.extended import (
+    ROUNDING,
     TRANSITION_SPEED,
     Part,
     contact_numbers,
+    rounding_of,
     scatter_numbers,
     started_from,
 )
@@ -81,8 +83,7 @@ class Models:
         """
         windows = others.windows if others else windows_of_campaign(campaign)
         models = cls(campaign, system, windows, parts, jobs, known=others.known if others else {})
-        weak = system.rung(contact=False, scatter=False)
-        models._add("user's model", "the model as stated", user_model(campaign), weak)
+        models._add_plain()
         step()
         if is_shown:
             models._add_parts()
@@ -94,6 +95,33 @@ class Models:
             models._add_at_once()
         step()
         return models
+
+    def _add_plain(self) -> None:
+        """The user's model; where numbers are written in coarse steps, before and after these."""
+        rows = self.system.rung(contact=False, scatter=False)
+        self._add("user's model", "the model as stated", user_model(self.campaign), rows)
+        rounding = rounding_of(self.campaign)
+        if rounding is None:
+            return
+        fitted, first = self.fits[0], self.ladder[0]
+        self.fits[0] = fitted.in_stated_units()
+        gap = score_of(self.fits[0])
+        larger, held_out = gap.fit / first.gap.fit, first.weak.held_out
+        weak = Score(larger * first.weak.fit, held_out and larger * held_out)
+        self.ladder[0] = replace(first, gap=gap, weak=weak)
+        # of the fitted runs' residuals, in units of the one noise and of the other
+        gain = sum(
+            float(np.sum(0.5 * run.residuals**2 * (run.rounding**2 - 1.0) - np.log(run.rounding)))
+            for run in fitted.runs if not run.hold_out
+        )  # fmt: skip
+        numbers, settings, _ = self.free[0]
+        self._add(rounding.effect, text_of(rounding), (numbers, settings), rows, fitted,
+                  across=gain)  # fmt: skip
+
+    @property
+    def _plain(self) -> int:
+        """Number of the rung before the findings."""
+        return len(self.ladder[1:]) and int(self.ladder[1].name == ROUNDING)
 
     def let_scatter(self) -> None:
         """Once: friction scatters, as the rows with all findings have it, where that is felt."""
@@ -150,7 +178,7 @@ class Models:
     @property
     def is_lost(self) -> bool:
         """Whether the findings make it much worse."""
-        return self.unscattered.fit > LOST * self.ladder[0].gap.fit
+        return self.unscattered.fit > LOST * self.ladder[self._plain].gap.fit
 
     def is_lost_beside(self, other: Models) -> bool:
         """Whether it is much worse than another, in fitted runs or in those that judge."""
@@ -160,7 +188,8 @@ class Models:
     @property
     def is_felt(self) -> bool:
         """Whether the findings take anything of the gap by themselves."""
-        before, after = self.ladder[0].gap.fit, self.ladder[len(self.parts)].gap.fit
+        first = self._plain
+        before, after = (self.ladder[n].gap.fit for n in (first, first + len(self.parts)))
         return before**2 - after**2 > FELT_PART * max(before**2 - 1.0, 0.0)
 
     @property

@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 from scipy.special import logsumexp
 
 from cosim.gap.data import Campaign
-from cosim.gap.extended import Part
+from cosim.gap.extended import ROUNDING, Part
 from cosim.gap.judge import NOTHING_MISSING
 from cosim.gap.quantities import digits, percent, quantity, with_digits
 from cosim.gap.result import NINETY, Exponent, Gap, Law, Ranked, RigNumber, Score, Where
@@ -44,6 +44,7 @@ _SAYS = {
     "measurement.latency": "The camera reads a frame out while the block moves",
     "measurement.smoothing": "The tracker smooths the motion",
     "measurement.rotation": "The camera is turned",
+    "measurement.quantisation": "The tracker writes in steps that are coarse beside its noise",
     "measurement.zero": "The tracker's zero is off by more than stated",
     "other.time": "Friction drifts with the time of the run, whatever was slid",
     "other.hysteresis": "Springs or guides show hysteresis",
@@ -136,6 +137,9 @@ def _first_number(part: Part, gap: Gap) -> str:
             key, parameters[key], intervals[key], catalogue=gap.campaign.catalogue
         ).text
         return f", {shown.removeprefix(f'{part.effect}.')}"
+    if ROUNDING in part.settings:
+        step = quantity(ROUNDING, part.settings[ROUNDING], None)
+        return f", {step.value} {step.unit}"
     return ""
 
 

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy import stats
 
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.data.units import swing
+from cosim.gap.judge import NOTHING_MISSING
 from cosim.gap.result import Doubt
 from cosim.gap.windows.sticks import sticks_of
 
@@ -55,6 +57,8 @@ def doubts_of_noise(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
 
     Noise is looked at where the motion hardly shows in third differences.
     """
+    if any(run.rounding for run in runs):
+        return []
     if steps := _of_steps(runs):
         return steps
     size, variance, together = quiet(runs)
@@ -125,6 +129,31 @@ def _of_steps(runs: Sequence[MeasuredRun]) -> list[Doubt]:
         f"is felt beside noise of {1e3 * noise:.3g} mm"
     )
     return [Doubt("steps", text, names)]
+
+
+def with_rounding(campaign: Campaign) -> Campaign:
+    """With the steps that numbers are written in, where these are coarse beside the noise.
+
+    Rounding to steps q leaves a variance of q^2 / 12 (Bennett 1948): coarse is what would look like
+    something missing by itself. Noise that is stated is larger by it; what was estimated has it.
+    """
+    return replace(campaign, runs=tuple(
+        run if run.track is None else _rounded(run, campaign.noise_estimated)
+        for run in campaign.runs
+    ))  # fmt: skip
+
+
+def _rounded(run: MeasuredRun, estimated: Collection[str]) -> MeasuredRun:
+    noise, rounding = dict(run.noise), {}
+    for channel in {"x", "y"} & set(run.motion.channels):
+        step, _ = lattice(run.motion[channel])
+        part = (step / run.noise[channel]) ** 2 / 12.0
+        if channel in estimated and 1.0 / max(1.0 - part, 1e-9) > NOTHING_MISSING**2:
+            rounding[channel] = (step, 1.0)
+        elif channel not in estimated and 1.0 + part > NOTHING_MISSING**2:
+            rounding[channel] = (step, math.sqrt(1.0 + part))
+            noise[channel] *= rounding[channel][1]
+    return replace(run, noise=noise, rounding=rounding)
 
 
 def felt(step: float, noise: float, samples: int) -> float:

@@ -82,6 +82,8 @@ class MeasuredRun:
     hold_out : never used for fitting
     track, summary : one of the two; summary is figure -> (value, standard deviation)
     noise : channel -> standard deviation of one sample of this run
+    rounding : channel -> step of the numbers that are written (m) and factor by which `noise` is
+        larger for it than stated, where the step is coarse
     """
 
     name: str
@@ -94,6 +96,7 @@ class MeasuredRun:
     track: Track | None = field(default=None, repr=False)
     summary: Mapping[str, tuple[float, float]] | None = None
     noise: Mapping[str, float] = field(default_factory=dict)
+    rounding: Mapping[str, tuple[float, float]] = field(default_factory=dict)
 
     @property
     def motion(self) -> Track:

@@ -30,7 +30,8 @@ Varies = Callable[[np.ndarray], np.ndarray]
 
 def tracks_of(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[SmoothTrack]:
     """Smoothed tracks, relative to the surface as it moves."""
-    grids, varies = [GridTrack.of(run) for run in runs], {}
+    grids = [GridTrack.of(run) for run in runs]
+    varies: dict[str, Varies] = {}
     for band in RIPPLE_BANDS:
         tracks = [grid.smoothed(varies.get(grid.run.name), band) for grid in grids]
         found = _ripple(campaign, [rows_of(track, campaign.rig) for track in tracks])

@@ -193,8 +193,9 @@ class GridTrack:
             if min(last - first, _window(reach, interval)) > 6:
                 fine[:, first:last] = derivatives(x[first:last], interval, reach, 5)
         return SmoothTrack(
-            run, time, interval, self.errors, x, self.y, self.phi, *fine, *self.across[:2],
-            surface, surface - fine[1], seen, slips, sticks, run.mass * self.omega**2,
+            run, time, interval, self.errors, x, self.y, self.phi, fine[0], fine[1], fine[2],
+            self.across[0], self.across[1], surface, surface - fine[1], seen,
+            slips, sticks, run.mass * self.omega**2,
         )  # fmt: skip
 
 

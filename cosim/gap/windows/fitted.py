@@ -33,6 +33,7 @@ class FittedRun:
     residuals : (m,) model less data in units of the noise, one for each sample seen
     window : (m,) number of the window that each belongs to
     begin : first row of the data that is compared
+    rounding : (m,) factor by which the noise of each is larger than stated
     """
 
     name: str
@@ -43,6 +44,7 @@ class FittedRun:
     window: np.ndarray = field(repr=False)
     hold_out: bool
     begin: int = 0
+    rounding: np.ndarray | float = field(default=1.0, repr=False)
 
     @property
     def gap(self) -> float:
@@ -147,6 +149,11 @@ class Fitted:
         """Root mean square residual in units of the noise: of fitted, of held-out runs (or NaN)."""
         held_out = [run for run in self.runs if run.hold_out]
         return _rms([run for run in self.runs if not run.hold_out]), _rms(held_out)
+
+    def in_stated_units(self) -> Fitted:
+        """With residuals in units of the noise as stated, without what rounding adds to it."""
+        runs = [replace(run, residuals=run.residuals * run.rounding) for run in self.runs]
+        return replace(self, runs=tuple(runs))
 
     def gain_over(self, other: Fitted) -> float:
         """ln of how much more probable all runs are than with another model of the same windows.

@@ -96,6 +96,7 @@ class RunModel:
     size : number of residuals
     starts : the first residual of each window that is compared; those of a window stand together
     owner : (rows,) window of each residual, then of each stick's prior and of each state's
+    rounding : (size,) factor by which the noise of each is larger than stated
     """
 
     def __init__(self, campaign: Campaign, run: MeasuredRun, windows: Windows):
@@ -115,6 +116,8 @@ class RunModel:
         self.rows, channel = np.nonzero(compared)
         self.axes = np.array([AXES.index(name) for name in windows.channels])[channel]
         self.noise, self.data = noise[channel], data[self.rows, channel]
+        factors = [run.rounding.get(name, (0.0, 1.0))[1] for name in windows.channels]
+        self.rounding = np.array(factors)[channel]
         # a window that the model loses counts as off by the whole motion, not by more
         self.most = (np.nanmax(data, axis=0) - np.nanmin(data, axis=0))[channel] / self.noise
         self.size = self.data.size

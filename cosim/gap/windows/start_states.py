@@ -93,7 +93,7 @@ class StartStates:
         def column(axis: int) -> np.ndarray:
             moved = at.states.copy()
             moved[free[:, axis], axis] += self.steps[axis]
-            return self.model.residuals(values, moved, p) - at.residuals
+            return np.asarray(self.model.residuals(values, moved, p) - at.residuals)
 
         columns = np.column_stack([at.residuals[:, None][:, :0], *each(column, axes)])
         # windows without this axis feel nothing but what the model carried over from others

@@ -45,8 +45,9 @@ class Rows:
 
 
 def agreed(
-    monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0), felt=True, lost=False, sooner=0.0
-):
+    monkeypatch, rows, gained, reached=1.0, halved=(1.0, 1.0), felt=True, lost=False, sooner=0.0,
+    rounding=None,
+):  # fmt: skip
     """Findings and what was pretended; gained : name -> what simulated runs gain by it.
 
     reached : gap at the end of ladders, of all findings where two; halved : what the contact
@@ -59,6 +60,8 @@ def agreed(
         "part_of",
         lambda campaign, system, rung, one, law: Part(one, None, (), (), {"on": 1.0}),
     )
+
+    monkeypatch.setattr(agreement, "rounding_of", lambda campaign: rounding)
 
     class Models:
         def __init__(self, parts):
@@ -98,6 +101,13 @@ def test_simulated_runs_ask_by_as_much_as_the_rows(monkeypatch, gained, names):
     found, spurious = agreed(monkeypatch, Rows(finding("film_drag", 12.0)), {"film_drag": gained})
     assert found == names
     assert spurious == (() if names else ("film_drag",))
+
+
+@pytest.mark.parametrize(("gain", "names"), [(499.0, []), (501.0, ["film_drag"])])
+def test_beside_coarse_steps_only_what_is_sure_is_asked_for(monkeypatch, gain, names):
+    rows, gained = Rows(finding("film_drag", gain)), {"film_drag": 100.0}
+    assert agreed(monkeypatch, rows, gained, rounding="coarse")[0] == names
+    assert agreed(monkeypatch, rows, gained)[0] == ["film_drag"]
 
 
 def test_after_four_rounds_rows_are_asked_for_one_finding_alone(monkeypatch):
@@ -386,6 +396,7 @@ def test_what_was_rejected_is_kept_with_both_gains(monkeypatch):
         "part_of",
         lambda campaign, system, rung, one, law: Part(one, None, (), (), {"on": 1.0}),
     )
+    monkeypatch.setattr(agreement, "rounding_of", lambda campaign: None)
     fitting = agreement.Fitting(None, lambda: None, 1)
     noise = SimpleNamespace(name="user's model", gap=Score(1.0, 1.0))
     models = SimpleNamespace(

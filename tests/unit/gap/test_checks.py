@@ -26,6 +26,7 @@ from cosim.gap.checks.tracker import (
     doubts_of_sampling,
     felt,
     lattice,
+    with_rounding,
 )
 from cosim.gap.checks.units import SHORT_CYCLE, doubts_of_units
 from cosim.gap.data.campaign_file import Rig
@@ -310,6 +311,22 @@ def test_decimals_of_a_file_are_no_steps(decimals):
         run = run_of(0.1, seed, filtered=lambda x: decimals * np.round(x / decimals), duration=5.0)
         assert lattice(run.track.x)[0] < 1.01 * decimals
         assert doubts_of_noise(campaign_of([run]), [run]) == []
+
+
+@pytest.mark.parametrize(
+    ("noise", "estimated", "factor"),
+    [(1.0, (), 0.0), (0.2, (), 1.756), (0.6, (), 1.110), (0.65, (), 0.0), (0.35, ("x",), 1.0)],
+)
+def test_steps_that_would_look_like_something_missing_are_coarse(noise, estimated, factor):
+    """Steps of 1 mm, beside noise that is stated, mm, or that was taken from the samples."""
+    run = run_of(0.1, noise=2e-4, filtered=lambda x: 1e-3 * np.round(x / 1e-3))
+    campaign = campaign_of([replace(run, noise={"x": 1e-3 * noise})])
+    (made,) = with_rounding(replace(campaign, noise_estimated=estimated)).runs
+    assert bool(made.rounding) == bool(factor)
+    if factor:
+        assert made.rounding["x"] == pytest.approx((1e-3, factor), rel=2e-3)
+        assert made.noise["x"] == pytest.approx(1e-3 * noise * factor, rel=2e-3)
+        assert doubts_of_noise(campaign, [made]) == []
 
 
 def test_a_step_is_felt_at_the_stated_level():

@@ -11,7 +11,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from cosim.gap import read_campaign
 from cosim.gap.extended import Part
+from cosim.gap.find import find_gap
 from cosim.gap.judge import judge, judged
 from cosim.gap.laws import FreeCurve
 from cosim.gap.quantities import digits, fitted_quantities, percent
@@ -204,3 +206,24 @@ def test_the_run_that_is_named_is_the_run_that_is_shown(gap):
     largest = max(changed.plain.runs, key=lambda run: run.gap).name
     (axis,) = changed.plot("run").axes
     assert axis.get_title(loc="left").startswith(largest)
+
+
+@pytest.mark.parametrize("stated", [True, False])
+def test_numbers_written_in_coarse_steps_are_named(stated, tmp_path):
+    """Steps of 1 mm beside noise of a fifth of that, stated or not; friction is as stated."""
+    runs = []
+    for number, speed in enumerate(answers.SPEEDS):
+        run = answers.motion(speed=speed, duration=6.0)
+        x = 1e-3 * np.round(answers.noisy(run["x"], number) / 1e-3)
+        columns = {"t": run.time, "x": x}
+        runs.append({"surface_speed": speed, "hold_out": number == 2, "columns": columns})
+    noise = {"noise": {"x": answers.NOISE}} if stated else {}
+    gap = find_gap(read_campaign(answers.write_campaign(tmp_path, runs, **noise)))
+    assert (gap.verdict, gap.effects) == ("named", ("measurement.quantisation",))
+    assert "measurement.quantisation, 1.00 mm" in gap.sentence
+    assert gap.ladder[1].name == "measurement.quantisation"
+    assert gap.after.fit < 1.1 and gap.after.held_out < 1.1
+    if stated:  # what the digits take of the gap is in it
+        factor = gap.plain.runs[0].gap / gap.ladder[1].gap.fit
+        assert gap.before.fit > 1.3 and gap.ladder[1].evidence > 100.0
+        assert factor == pytest.approx(np.sqrt(1.0 + (1e-3 / answers.NOISE) ** 2 / 12.0), rel=0.1)

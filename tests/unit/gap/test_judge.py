@@ -10,7 +10,16 @@ from hypothesis import strategies as st
 from stickslip.catalogue import CATALOGUE
 
 from cosim.gap.extended import Part
-from cosim.gap.judge import halves, judge, leaves, may_be_spurious, rivals_of, runs_ask
+from cosim.gap.judge import (
+    Verdict,
+    halves,
+    judge,
+    leaves,
+    may_be_spurious,
+    rivals_of,
+    runs_ask,
+    with_steps,
+)
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import VERDICTS, Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
@@ -307,3 +316,18 @@ def test_data_in_doubt_are_said_to_be_the_reason():
     doubt = Doubt("units", "run01: mass in g?", ("run01",), True)
     gap = SimpleNamespace(verdict="unknown", effects=(), exponents=(), doubts=(doubt,))
     assert sentence_of(gap, []) == "Nothing is named while the data are in doubt. run01: mass in g?"
+
+
+@pytest.mark.parametrize(
+    ("verdict", "effects", "told"),
+    [
+        ("none", (), ("named", ("steps",))),
+        ("named", ("run_in",), ("named", ("steps", "run_in"))),
+        ("partial", ("run_in",), ("partial", ("steps", "run_in"))),
+        ("unknown", (), ("unknown", ())),
+        ("class", ("run_in", "film_drag"), ("class", ("run_in", "film_drag"))),
+    ],
+)
+def test_coarse_steps_are_named_where_nothing_else_is_unknown(verdict, effects, told):
+    answer = with_steps(Verdict(verdict, effects, ()), "steps")
+    assert (answer.verdict, answer.effects) == told
