@@ -313,6 +313,18 @@ def test_what_is_lost_by_itself_goes_before_the_others_are_asked_beside_it(monke
     assert rows.asked == [(), ("spring_hardening",)]
 
 
+@pytest.mark.parametrize(("gained", "lost"), [(29.0, True), (31.0, False)])
+def test_a_lost_finding_stays_where_simulated_runs_ask_for_it_by_more(monkeypatch, gained, lost):
+    """Beside contact and scatter, from next to nothing of it: e^30."""
+    part = Part(finding("spring_hardening", 58.0), None, (), (), {"on": 1.0})
+    models = SimpleNamespace(
+        is_lost_beside=lambda other: True, let_scatter=lambda: None, gained=lambda part: gained
+    )
+    fitting = agreement.Fitting(None, lambda: None, 1)
+    monkeypatch.setattr(fitting, "_fitted", lambda named, parts, **_: models)
+    assert bool(fitting.lost([part], None, {"spring_hardening"})) == lost
+
+
 def law(effect, form, price=0.0):
     return LawFit(effect, Candidate(effect, form, ()), {}, np.zeros(2), 1.0, price)
 
