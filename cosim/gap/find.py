@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from cosim.gap.agreement import Agreed, Fitting, confirmed_findings
-from cosim.gap.checks import blocking, doubts_of, with_rounding
+from cosim.gap.checks import blocking, digits_evidence, doubts_of, with_rounding
 from cosim.gap.data import Campaign
 from cosim.gap.extended import ROUNDING, Part, rounding_of
 from cosim.gap.judge import explains, judge, with_steps
@@ -92,7 +92,7 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
         where=where_of(campaign, ladder, models.fits[0]),
         ladder=tuple(models.ladder),
         ranking=(
-            *(Ranked(rung.name, "", rung.evidence or 0.0, 1.0, rung.gap) for rung in steps),
+            *(Ranked(rung.name, "", digits_evidence(campaign), 1.0, rung.gap) for rung in steps),
             *ranking_of(ladder, parts, extended, models.ladder[-1].gap),
         ),
         plain=models.fits[0],

@@ -17,10 +17,10 @@ from cosim.gap.windows.windows import cycle
 
 from .level import LEVEL
 from .motion import doubts_of_direction, doubts_of_force, doubts_of_speed, doubts_of_springs
-from .tracker import doubts_of_noise, doubts_of_sampling, with_rounding
+from .tracker import digits_evidence, doubts_of_noise, doubts_of_sampling, with_rounding
 from .units import doubts_of_units
 
-__all__ = ["ANSWERABLE", "LEVEL", "blocking", "doubts_of", "with_rounding"]
+__all__ = ["ANSWERABLE", "LEVEL", "blocking", "digits_evidence", "doubts_of", "with_rounding"]
 
 #: Severe doubts that findings may answer: swings that springs alone have not, and sticks at the
 #: crests or the troughs of a drive that is not steady.

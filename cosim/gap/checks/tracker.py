@@ -156,6 +156,12 @@ def _rounded(run: MeasuredRun, estimated: Collection[str]) -> MeasuredRun:
     return replace(run, noise=noise, rounding=rounding)
 
 
+def digits_evidence(campaign: Campaign) -> float:
+    """ln of how much less probable it is that numbers in coarse steps lie there by chance."""
+    runs = [run for run in campaign.runs if run.rounding]
+    return -math.log(2.0 * NEAR) * sum(run.motion.time.size for run in runs)
+
+
 def felt(step: float, noise: float, samples: int) -> float:
     """Chance that white noise of so many samples shows a variance larger by q^2 / 12."""
     part = 1.0 + (step / noise) ** 2 / 12.0
