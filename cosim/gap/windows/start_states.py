@@ -32,8 +32,6 @@ ROUNDS, GAIN = 6, 1e-3
 #: window that is off course sets out again: whether the block sticks at once or in the next cycle
 #: hangs on them, and small ones do not show it.
 CHANGES = ((0.0, -1.0), (0.0, -0.3), (0.0, -0.05), (0.0, 0.05), (0.0, 0.3), (-2.0, 0.0), (2.0, 0.0))
-#: Of these the best so many of each window are followed by a step.
-FOLLOWED = 2
 #: At first, when the numbers are off as well, a window is off course whose mean square exceeds the
 #: run's median window's, and the noise's, by this factor; at last, when any may be in which the
 #: block barely sticks, one whose mean square exceeds that of the noise by the second.
@@ -169,25 +167,19 @@ class StartStates:
     def retried(
         self, values: Mapping[str, float], at: Started, p: np.ndarray, at_last: bool = True
     ) -> Started:
-        """Windows off course set out from a few other states; the very same if none gains."""
+        """Windows off course set out from a few other velocities; the very same if none gains."""
         mean = self.squares(at) / np.maximum(
             self.model.per_window(np.ones(self.model.owner.size)), 1.0
         )
         limit = AT_LAST if at_last else OFF_COURSE * max(float(np.median(mean)), 1.0)
         lost = (mean > limit) & self.of_block[:, 3]
-        if not lost.any():
-            return at
+        best = at
         scales = np.array([self.model.run.noise["x"], self.model.run.surface_speed])
-        tried, best = [], at
-        for change in CHANGES:
+        for change in CHANGES if lost.any() else ():
             states = at.states.copy()
             states[np.ix_(lost, [0, 3])] += change * scales
-            tried.append(self.started(values, states, p))
-        order = np.argsort([self.squares(each) for each in tried], axis=0)
-        windows = np.arange(lost.size)
-        for chosen in order[:FOLLOWED]:  # windows do not know of each other
-            states = np.array([each.states for each in tried])[chosen, windows]
-            best = self.better(best, self.settled(values, self.started(values, states, p), p, 1))
+            tried = self.started(values, states, p)
+            best = self.better(best, self.settled(values, tried, p, rounds=1))
         return best
 
     def squares(self, at: Started) -> np.ndarray:
