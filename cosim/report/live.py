@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
+import matplotlib
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import to_hex
@@ -30,6 +31,8 @@ Live = Mapping[str, Any]
 MOST_ROWS = 5000
 #: Stretches there are at least, however many curves: about one for each two pixels.
 LEAST_STRETCHES = 600
+#: The highest level of a map.
+LEVELS = 255
 #: Known events of a figure: from more on they are rows like others.
 MOST_EVENTS = 4000
 
@@ -51,6 +54,44 @@ class Curve:
     width: float = 1.3
 
 
+class Map(NamedTuple):
+    """A field (times, places) below the curves of a panel, with the name and the unit of its scale.
+
+    Its times are the figure's; its places go evenly from 0 to ``length``, in the panel's unit.
+    least: where the scale ends at least.
+    """
+
+    values: Array
+    length: float
+    label: str
+    unit: str
+    colours: str
+    least: float
+
+    def live(self) -> Live:
+        """With as many colours as a map has levels."""
+        low, high = self.ends
+        levels = np.rint(LEVELS * (self.values - low) / (high - low))
+        return {
+            "levels": packed(levels, "u1"),
+            "shape": list(self.values.shape),
+            "low": low,
+            "high": high,
+            **{key: getattr(self, key) for key in ("length", "label", "unit")},
+            "colours": colour_table(self.colours),
+        }
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Of the scale: from 0 on, or from what is below it."""
+        return min(0.0, float(self.values.min())), max(float(self.values.max()), self.least)
+
+    def without_jumps(self, places: Array) -> Array:
+        """A way (times,) round the loop with NaN where it comes to its end, for a line."""
+        jumps = np.abs(np.diff(places, prepend=places[:1])) > 0.5 * self.length
+        return np.where(jumps, np.nan, places)
+
+
 @dataclass(frozen=True)
 class Panel:
     """Curves with one scale; label: of the scale, with its unit in brackets.
@@ -60,6 +101,7 @@ class Panel:
     least that it spans. top: where it ends. shaded: the figure's phases show. logarithmic: of the
     scale. linear_to: linear up to here and logarithmic beyond, on both sides of 0 (0: all of it is
     linear). thermometer: air temperature (degC) and factor to K, for a second scale of degrees.
+    map: a field below a curve of places.
     """
 
     label: str
@@ -73,6 +115,7 @@ class Panel:
     logarithmic: bool = False
     linear_to: float = 0.0
     thermometer: tuple[float, float] | None = None
+    map: Map | None = None
 
 
 @dataclass(frozen=True)
@@ -127,7 +170,7 @@ def several(figures: Mapping[str, Live]) -> Live:
 
 
 def _panel(panel: Panel, rows: NDArray[np.int64]) -> dict[str, Any]:
-    told = {key: value for key, value in vars(panel).items() if key != "thermometer"}
+    told = vars(panel) | {"thermometer": None, "map": panel.map and panel.map.live()}
     curves = [
         vars(curve) | {"values": packed(np.asarray(curve.values, float)[rows])}
         for curve in panel.curves
@@ -288,6 +331,12 @@ def _named(line: Line2D) -> str:
 def _with_brackets(label: str) -> str:
     """ "x, cm" and "x (cm)" as the pages have it: "x [cm]"."""
     return re.sub(r"^(.*?)(?:, | \()([^,()]+)\)?$", r"\1 [\2]", label)
+
+
+def colour_table(name: str) -> str:
+    """The 256 colours of a map as one text, six hexadecimal digits each, for a page."""
+    colours = matplotlib.colormaps[name](np.arange(LEVELS + 1), bytes=True)[:, :3]
+    return colours.tobytes().hex()
 
 
 def packed(values: ArrayLike, kind: str = "f4") -> dict[str, str]:

@@ -6,8 +6,8 @@ content. Beside its own values it has ``figure(picture)`` and the filters ``numb
 A picture with ``live`` is drawn by the scripts in `templates/`, to hover over, to zoom or to play;
 others are PNGs. The scripts are in the page, plain and readable, and so is uPlot (MIT licence, in
 `templates/uplot`), which draws the curves: a page asks for nothing outside. A table
-scrolls by itself, so that a page never does sideways; one of class `listed` is a list where the
-window is narrow, its words behind their heads.
+scrolls by itself, so that a page never does sideways; one of more than two columns is a list where
+the window is narrow, its words behind their heads.
 """
 
 from __future__ import annotations
@@ -55,8 +55,7 @@ ITS_HOME = "https://github.com/leeoniya/"
 #: What draws each kind of live picture, in this order; of `templates/`.
 SCRIPTS = {
     "over_time": (UPLOT, "live.js", "over_time.js"),
-    "belt_map": ("live.js", "belt_map.js"),
-    "top_view": ("live.js", "player.js", "top_view.js"),
+    "top_view": ("live.js", "rig.js", "player.js", "top_view.js"),
 }
 #: On every page, and behind the scripts of live pictures.
 EVERYWHERE = "page.js"
@@ -164,7 +163,8 @@ def number(
         return value
     if abs(value) <= max(OF_LARGEST * abs(largest), OF_NOMINAL * abs(nominal)):
         return "0"
-    return f"{value:.{digits}g}".replace("-", "−")
+    # no power of ten where thousands are as short
+    return f"{float(f'{value:.{digits}g}'):.{max(digits, 6)}g}".replace("-", "−")
 
 
 def _width(png: bytes) -> int:

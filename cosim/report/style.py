@@ -23,7 +23,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter, StrMet
 from numpy.typing import NDArray
 from PIL import Image
 
-from .live import Live, Panel, TimeFigure
+from .live import Live, Map, Panel, TimeFigure
 from .page import DPI, Picture, unit_text
 
 Array = NDArray[np.float64]
@@ -125,12 +125,6 @@ def png(figure: Figure) -> bytes:
 def _has_map(figure: Figure) -> bool:
     """Whether there are more shades of one colour than the fast choice of colours keeps."""
     return any(axes.images or axes.findobj(QuadMesh) for axes in figure.axes)
-
-
-def colour_table(name: str) -> str:
-    """The 256 colours of a map as one text, six hexadecimal digits each, for a page."""
-    colours = matplotlib.colormaps[name](np.arange(COLOURS), bytes=True)[:, :3]
-    return colours.tobytes().hex()
 
 
 def panels(
@@ -353,6 +347,8 @@ def picture_over_time(name: str, caption: str, alt: str, shown: TimeFigure) -> P
 
 def draw_panel(axes: Axes, time: Array, panel: Panel) -> None:
     """The curves and levels of a panel over time (n,), s, to its scale."""
+    if panel.map:
+        _draw_map(axes, time, panel.map)
     below = np.zeros(time.size)
     for curve in panel.curves:
         if curve.fill:
@@ -363,7 +359,7 @@ def draw_panel(axes: Axes, time: Array, panel: Panel) -> None:
         line(
             axes,
             time,
-            curve.values,
+            panel.map.without_jumps(curve.values) if panel.map else curve.values,
             color=curve.colour,
             linewidth=curve.width,
             linestyle="--" if curve.dash else "-",
@@ -377,6 +373,23 @@ def draw_panel(axes: Axes, time: Array, panel: Panel) -> None:
         axes.set_ylim(bottom=0.0)
     if panel.top is not None:
         axes.set_ylim(top=panel.top)
+
+
+def _draw_map(axes: Axes, time: Array, shown: Map) -> None:
+    places = np.linspace(0.0, shown.length, shown.values.shape[1] + 1)
+    low, high = shown.ends
+    mesh = axes.pcolormesh(
+        time,
+        0.5 * (places[1:] + places[:-1]),
+        shown.values.T,
+        shading="nearest",
+        cmap=shown.colours,
+        vmin=low,
+        vmax=high,
+        rasterized=True,
+    )
+    axes.figure.colorbar(mesh, ax=axes, label=f"{shown.label} [{shown.unit}]")
+    axes.grid(visible=False)
 
 
 def _draw_levels(axes: Axes, levels: Sequence[tuple[float, str]]) -> None:

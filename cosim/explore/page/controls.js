@@ -18,48 +18,48 @@ class Controls {
     for (const group of plain) this.place.append(this.fold(group));
     const kinds = [...new Set(DATA.groups.map((group) => group.enters).filter(Boolean))];
     for (const kind of kinds) {
-      const heading = element("h3", { textContent: ENTERS[kind] || `Effects: ${kind}` });
+      const heading = live.element("h3", {}, ENTERS[kind] || `Effects: ${kind}`);
       this.place.append(heading);
       for (const group of DATA.groups) if (group.enters === kind) this.place.append(this.fold(group));
     }
   }
 
   fold(group) {
-    const title = element("span", { textContent: group.title });
-    const mark = element("span", { className: "mark" });
-    const summary = element("summary", {}, [title, mark]);
+    const mark = live.element("span", { class: "mark" });
+    const summary = live.element("summary", {}, live.element("span", {}, group.title), mark);
     const rows = group.controls.map((control) => this.row(control));
-    const said = group.sentence ? [element("p", { className: "small", textContent: group.sentence })] : [];
-    const fold = element("details", { open: group.open, id: `group-${group.id}` }, [summary, ...said, ...rows]);
+    const said = group.sentence ? [live.element("p", { class: "small" }, group.sentence)] : [];
+    const fold = live.element("details", { id: `group-${group.id}` }, summary, ...said, ...rows);
+    fold.open = group.open;
     this.folds.push({ group, fold, mark });
     return fold;
   }
 
   row(control) {
     const id = `key-${control.key.replace(/\W/g, "-")}`;
-    const label = element("label", { htmlFor: id, textContent: labelOf(control.name) });
-    if (control.switch) label.className = "switch";
-    const said = element("p", { className: "said", id: `${id}-said`, textContent: control.description });
-    const reset = element("button", { type: "button", className: "reset", textContent: "↺", title: `back to what ${control.key} began with` });
-    reset.setAttribute("aria-label", `reset ${control.key}`);
+    const label = live.element("label", { for: id, class: control.switch ? "switch" : "" }, labelOf(control.name));
+    const said = live.element("p", { class: "said", id: `${id}-said` }, control.description);
+    const reset = live.element("button", {
+      type: "button", class: "reset", title: `back to what ${control.key} began with`, "aria-label": `reset ${control.key}`,
+    }, "↺");
     const row = { control, reset, box: null, slider: null };
     const input = control.choices.length || control.kind === "freedom" ? this.choice(row, id) : this.text(row, id);
     input.setAttribute("aria-describedby", said.id);
     row.input = input;
-    const unit = element("span", { className: "unit", textContent: control.spelled });
+    const unit = live.element("span", { class: "unit" }, control.spelled);
     const parts = [label, input, unit, reset];
     if (control.slider) parts.splice(1, 0, this.slider(row, id));
     reset.addEventListener("click", () => this.turned(control.key, undefined));
-    row.box = element("div", { className: control.slider ? "row" : "row without", title: control.key }, [...parts, said]);
+    row.box = live.element("div", { class: control.slider ? "row" : "row without", title: control.key }, ...parts, said);
     this.rows.set(control.key, row);
     return row.box;
   }
 
   slider(row, id) {
     const { control } = row;
-    const slider = element("input", { type: "range", min: 0, max: STEPS, step: 1 });
-    slider.setAttribute("aria-label", `${control.key}, slider`);
-    slider.setAttribute("aria-describedby", `${id}-said`);
+    const slider = live.element("input", {
+      type: "range", min: 0, max: STEPS, step: 1, "aria-label": `${control.key}, slider`, "aria-describedby": `${id}-said`,
+    });
     slider.addEventListener("input", () => this.turned(control.key, atPosition(control, Number(slider.value))));
     row.slider = slider;
     return slider;
@@ -68,8 +68,7 @@ class Controls {
   /* A value that is typed, with or without a unit; Enter or leaving the field takes it. */
   text(row, id) {
     const { control } = row;
-    const input = element("input", { type: "text", id, spellcheck: false, autocomplete: "off" });
-    input.setAttribute("autocapitalize", "off");
+    const input = live.element("input", { type: "text", id, spellcheck: false, autocomplete: "off", autocapitalize: "off" });
     input.addEventListener("change", () => {
       const value = valueOfText(control, input.value);
       if (value === undefined) {
@@ -86,8 +85,8 @@ class Controls {
     const { control } = row;
     const choices = control.kind === "freedom"
       ? [["x", "y", "phi"], ["x", "y"], ["x", "phi"], ["x"]] : control.choices;
-    const options = choices.map((each, i) => element("option", { value: i, textContent: [each].flat().join(", ") }));
-    const select = element("select", { id }, options);
+    const options = choices.map((each, i) => live.element("option", { value: i }, [each].flat().join(", ")));
+    const select = live.element("select", { id }, ...options);
     select.addEventListener("change", () => this.turned(control.key, choices[select.value]));
     row.choices = choices;
     return select;
@@ -193,12 +192,4 @@ function valueOfText(control, text) {
 
 function sameSet(one, other) {
   return [one].flat().slice().sort().join() === [other].flat().slice().sort().join();
-}
-
-/* --- elements ---------------------------------------------------------------------------------- */
-
-function element(name, properties, children = []) {
-  const made = Object.assign(document.createElement(name), properties);
-  made.append(...children);
-  return made;
 }

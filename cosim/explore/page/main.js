@@ -242,12 +242,7 @@ function redraw(run, range) {
 
 /* Numbers of a moment: between two rows on a straight line. */
 function stateAt(run, moment) {
-  let [low, high] = [0, run.rows - 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (run.time[middle] <= moment) low = middle;
-    else high = middle;
-  }
+  const low = live.placeOf(run.time.subarray(0, run.rows), moment), high = Math.min(low + 1, run.rows - 1);
   const span = run.time[high] - run.time[low];
   const part = span > 0 ? Math.min(Math.max((moment - run.time[low]) / span, 0), 1) : 0;
   const state = {};
@@ -262,7 +257,7 @@ function stateAt(run, moment) {
 function ledger(now) {
   const came = now.surface_work + now.external_work;
   const small = 1e-9 * Math.max(Math.abs(came), now.heat); // below that it is rounding
-  const joules = (value) => `${shown(Math.abs(value) < small ? 0 : value, 4)} J`;
+  const joules = (value) => `${live.told(Math.abs(value) < small ? 0 : value, 4)} J`;
   const gained = came - now.heat - now.damping_heat + now.energy_residual;
   return `Work of the surface ${joules(came)} = friction heat ${joules(now.heat)} + damping ` +
     `${joules(now.damping_heat)} + gained by block and springs ${joules(gained)}; residual ` +
@@ -276,23 +271,23 @@ explorer.statistics = (run = explorer.seen) => statistics(run);
 function showStatistics(run) {
   const numbers = statistics(run);
   const before = explorer.kept ? statistics(explorer.kept) : null;
-  const mm = (value) => `${shown(MM * value, 3)} mm`;
+  const mm = (value) => `${live.told(MM * value, 3)} mm`;
   const rows = [
     ["the block", (n) => regime(n)],
-    ["stick-slip frequency", (n) => `${shown(n.mean_period ? 1 / n.mean_period : 0, 4)} Hz`],
-    ["break-aways", (n) => `${n.break_aways} in ${shown(n.duration, 4)} s`],
-    ["share in slip", (n) => `${shown(100 * n.slip_share, 3)} %`],
+    ["stick-slip frequency", (n) => `${live.told(n.mean_period ? 1 / n.mean_period : 0, 4)} Hz`],
+    ["break-aways", (n) => `${n.break_aways} in ${live.told(n.duration, 4)} s`],
+    ["share in slip", (n) => `${live.told(100 * n.slip_share, 3)} %`],
     ["x, mean", (n) => mm(n.mean_x)],
-    ["x, from … to", (n) => `${shown(MM * n.min_x, 3)} … ${mm(n.max_x)}`],
-    ["y, from … to", (n) => `${shown(MM * still(n.min_y), 3)} … ${mm(still(n.max_y))}`],
-    ["largest rotation", (n) => `${shown(still(n.max_rotation_deg), 3)}°`],
-    ["friction heat, mean", (n) => `${shown(n.mean_heat_flow, 3)} W`],
-    ["interface, warmest", (n, of) => `${shown(warmest(of), 4)} °C`],
+    ["x, from … to", (n) => `${live.told(MM * n.min_x, 3)} … ${mm(n.max_x)}`],
+    ["y, from … to", (n) => `${live.told(MM * still(n.min_y), 3)} … ${mm(still(n.max_y))}`],
+    ["largest rotation", (n) => `${live.told(still(n.max_rotation_deg), 3)}°`],
+    ["friction heat, mean", (n) => `${live.told(n.mean_heat_flow, 3)} W`],
+    ["interface, warmest", (n, of) => `${live.told(warmest(of), 4)} °C`],
   ];
   const entries = rows.map(([name, text]) => {
-    const parts = [element("dt", { textContent: name }), element("dd", { textContent: text(numbers, run) })];
-    if (before) parts.push(element("dd", { className: "kept", textContent: `kept: ${text(before, explorer.kept)}` }));
-    return element("div", {}, parts);
+    const parts = [live.element("dt", {}, name), live.element("dd", {}, text(numbers, run))];
+    if (before) parts.push(live.element("dd", { class: "kept" }, `kept: ${text(before, explorer.kept)}`));
+    return live.element("div", {}, ...parts);
   });
   byId("statistics").replaceChildren(...entries);
   const all = run.rows === run.time.length;
@@ -322,7 +317,7 @@ explorer.values = () => kernelValues(explorer.scenario);
 explorer.read = (key, text) => valueOfText(CONTROLS.get(key), text);
 
 function prepareBar() {
-  DATA.presets.forEach((each, i) => byId("preset").append(element("option", { value: i, textContent: each.name })));
+  DATA.presets.forEach((each, i) => byId("preset").append(live.element("option", { value: i }, each.name)));
   byId("preset").addEventListener("change", (event) => begin(DATA.presets[event.target.value]));
   byId("reset").addEventListener("click", () => begin(explorer.scenario.preset));
   byId("freeze").addEventListener("click", keep);
@@ -372,7 +367,7 @@ function save() {
     return;
   }
   const address = URL.createObjectURL(new Blob([toml(scenario)], { type: "application/toml" }));
-  const link = element("a", { href: address, download: `${scenario.name}.toml` });
+  const link = live.element("a", { href: address, download: `${scenario.name}.toml` });
   link.click();
   setTimeout(() => URL.revokeObjectURL(address), 10000);
   say(`saved as ${scenario.name}.toml: stickslip simulate ${scenario.name}.toml`);

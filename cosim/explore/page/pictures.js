@@ -41,7 +41,7 @@ class Pictures {
     const still = [];
     for (const name of Object.keys(this.over)) {
       const at = this.overTime(name, run, kept, range);
-      if (at !== null) still.push(`${name} stays at ${shown(at, 3)} ${SIGHT[name][1]}`);
+      if (at !== null) still.push(`${name} stays at ${live.told(at, 3)} ${SIGHT[name][1]}`);
     }
     document.getElementById("flat").textContent = still.length ? `Nothing to draw in the time shown: ${still.join(", ")}.` : "";
     this.drawPhase(run, kept);

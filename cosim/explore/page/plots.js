@@ -106,13 +106,13 @@ class Plot {
     context.textBaseline = "top";
     for (const value of ticks(spec.x, (box.right - box.left) / 70)) {
       stroke(context, this.px(value), box.top, this.px(value), box.bottom);
-      context.fillText(shown(value, 6), this.px(value), box.bottom + 4);
+      context.fillText(live.told(value, 6), this.px(value), box.bottom + 4);
     }
     context.textAlign = "right";
     context.textBaseline = "middle";
     for (const value of ticks(spec.y, (box.bottom - box.top) / 32)) {
       stroke(context, box.left, this.py(value), box.right, this.py(value));
-      context.fillText(shown(value, 6), box.left - 5, this.py(value));
+      context.fillText(live.told(value, 6), box.left - 5, this.py(value));
     }
     context.strokeStyle = AXIS;
     stroke(context, box.left, box.bottom, box.right, box.bottom);

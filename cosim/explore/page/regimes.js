@@ -57,11 +57,7 @@ class RegimeMap {
     this.plot.show(null, [{ x: this.here[0], y: this.here[1], colour: ORANGE, radius: 6 }]);
     const there = REGIMES.filter((_, regime) => this.regimes.includes(regime));
     const computed = Math.floor((100 * this.regimes.length) / (this.cells.length || 1));
-    this.legend.replaceChildren(...there.flatMap(([words, colour]) => {
-      const swatch = element("span", { className: "swatch" });
-      swatch.style.background = colour;
-      return [swatch, `${words}; `];
-    }), computed < 100 ? `computing, ${computed} %` : "dot: here; a click goes there");
+    this.legend.replaceChildren(...there.flatMap(([words, colour]) => [live.swatch(colour), `${words}; `]), computed < 100 ? `computing, ${computed} %` : "dot: here; a click goes there");
   }
 }
 

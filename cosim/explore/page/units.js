@@ -58,14 +58,3 @@ function typedValue(text, unit) {
   // to the digits that were typed: 67 mm is 0.067, not 0.06700000000000001
   return Number((number * (one.factor / other.factor)).toPrecision(15));
 }
-
-/* A number with so many significant digits, and no more zeros than it needs. */
-function shown(value, digits = 4) {
-  if (!Number.isFinite(value)) return "–";
-  if (value === 0) return "0";
-  const size = Math.abs(value);
-  const text = size < 1e-4 || size >= 1e6
-    ? value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e")
-    : String(Number(value.toPrecision(digits)));
-  return text.replace(/^-/, "−");
-}

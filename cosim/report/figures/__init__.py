@@ -16,11 +16,11 @@ from cosim.report.style import displayed, png
 from ..contents import material_of, mechanics_of
 from ..material import figure_of_material, live_of_material
 from ..quantities import TABLES
-from .belt_map import belt_temperature_live, draw_belt_temperature
+from .belt_map import belt_temperature
 from .friction_table import draw_friction_table
 from .heat import heat, melting, temperatures
 from .motion import draw_phase_portrait, friction_force, motion
-from .over_time import over_time
+from .over_time import drawn_and_live, over_time
 from .top_view import draw_top_view, top_view_live
 
 
@@ -62,7 +62,7 @@ _DRAWN: dict[str, tuple[Callable[[Data], Figure], Callable[[Data], Live] | None]
     "heat": over_time(heat),
     "temperatures": over_time(temperatures),
     "melting": over_time(melting),
-    "belt_temperature": (draw_belt_temperature, belt_temperature_live),
+    "belt_temperature": drawn_and_live(belt_temperature),
     "friction_table": (draw_friction_table, None),
 }
 #: In the order of a page; the last is of a run whose friction is a table.

@@ -13,16 +13,15 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosim.report.columns import Data
 from cosim.report.contents import thermal_of, value_of
 from cosim.report.heat_numbers import ambient_degC
-from cosim.report.live import Live, packed
-from cosim.report.style import HEAT_MAP, SKY, colour_table, plain_ticks, readable, styled
+from cosim.report.live import Curve, Map, Panel, TimeFigure
+from cosim.report.style import HEAT_MAP, SKY, readable
 
-from .over_time import title
+from .over_time import titled
 
 Array = NDArray[np.float64]
 
@@ -30,7 +29,6 @@ Array = NDArray[np.float64]
 MOST_TIMES, MOST_PLACES = 500, 400
 # below this (K) a rise is rounding
 SMALLEST_RISE = 1e-9
-LEVELS = 255
 
 
 class BeltMap(NamedTuple):
@@ -146,60 +144,21 @@ def surface_word(dataset: Data) -> str:
     return str(value_of(dataset, "rig", "surface") or "belt")
 
 
-@styled
-def draw_belt_temperature(dataset: Data) -> Figure:
+def belt_temperature(dataset: Data) -> TimeFigure:
     """The map, and the way of the middle of the block."""
     found = belt_map(dataset)
     scaled = readable(found.rise.ravel(), "K", SMALLEST_RISE)
-    figure = Figure(figsize=(11.0, 5.0), layout="constrained")
-    axes = figure.subplots()
-    mesh = axes.pcolormesh(
-        *_edges(found),
-        scaled(found.rise).T,
-        cmap=HEAT_MAP,
-        vmin=min(0.0, scaled.factor * float(found.rise.min())),
-        vmax=scaled.factor * max(float(found.rise.max()), SMALLEST_RISE),
-        rasterized=True,
+    surface = surface_word(dataset)
+    least = scaled.factor * SMALLEST_RISE
+    panel = Panel(
+        f"place on the {surface} [m]",
+        [Curve("middle of the block", found.contact, SKY)],
+        shaded=False,
+        from_zero=True,
+        top=found.length,
+        map=Map(
+            scaled(found.rise), found.length, "rise over the air", scaled.unit, HEAT_MAP, least
+        ),
     )
-    figure.colorbar(mesh, ax=axes, label=f"rise over the air [{scaled.unit}]")
-    way = found.contact.copy()
-    way[1:][np.abs(np.diff(found.contact)) > 0.5 * found.length] = np.nan
-    axes.plot(found.time, way, color=SKY, linewidth=1.0, label="middle of the block")
-    axes.set_xlabel("time [s]")
-    axes.set_ylabel(f"place on the {surface_word(dataset)} [m]")
-    axes.grid(visible=False)
-    plain_ticks(axes)
-    title(figure, f"Temperature of the {surface_word(dataset)}", dataset)
-    figure.legend(loc="outside upper right")
-    return figure
-
-
-def _edges(found: BeltMap) -> tuple[Array, Array]:
-    """Borders of the cells: times (n + 1,) and places (m + 1,)."""
-    if found.time.size == 1:
-        times = found.time[0] + np.array([-0.5, 0.5])
-    else:
-        middles = 0.5 * (found.time[1:] + found.time[:-1])
-        times = np.concatenate([found.time[:1], middles, found.time[-1:]])
-    return times, np.linspace(0.0, found.length, found.place.size + 1)
-
-
-def belt_temperature_live(dataset: Data) -> Live:
-    """The map for the page, which the top view takes the belt's colours from, too."""
-    found = belt_map(dataset)
-    scaled = readable(found.rise.ravel(), "K", SMALLEST_RISE)
-    low = min(0.0, float(found.rise.min()))
-    high = max(float(found.rise.max()), SMALLEST_RISE)
-    return {
-        "kind": "belt_map",
-        "surface": surface_word(dataset),
-        "time": packed(found.time, "f8"),
-        "contact": packed(found.contact),
-        "levels": packed(np.rint(LEVELS * (found.rise - low) / (high - low)), "u1"),
-        "shape": list(found.rise.shape),
-        "low": scaled.factor * low,
-        "high": scaled.factor * high,
-        "unit": scaled.unit,
-        "length": found.length,
-        "colours": colour_table(HEAT_MAP),
-    }
+    title = titled(f"Temperature of the {surface}", dataset)
+    return TimeFigure(found.time, [panel], title=title, height=4.1)

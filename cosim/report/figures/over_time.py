@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -48,10 +49,17 @@ def time_figure(describe: Describe, dataset: Data) -> TimeFigure:
 def over_time(
     describe: Describe,
 ) -> tuple[Callable[[Data], Figure], Callable[[Data], Live]]:
-    """How a run's figure is drawn, and what the page's scripts draw of it."""
+    """How a run's figure is drawn, and what the page's scripts draw, with the run's events."""
+    return drawn_and_live(partial(time_figure, describe))
+
+
+def drawn_and_live(
+    describe: Describe,
+) -> tuple[Callable[[Data], Figure], Callable[[Data], Live]]:
+    """The same of a figure as it is described."""
     return (
-        lambda dataset: draw_over_time(time_figure(describe, dataset)),
-        lambda dataset: time_figure(describe, dataset).live(),
+        lambda dataset: draw_over_time(describe(dataset)),
+        lambda dataset: describe(dataset).live(),
     )
 
 

@@ -11,17 +11,28 @@ const live = (() => {
     return new KINDS[packed.type](bytes.buffer);
   }
 
-  function element(tag, attributes = {}, text = "") {
+  function element(tag, attributes = {}, ...children) {
     const made = document.createElement(tag);
     for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
-    made.textContent = text;
+    made.append(...children);
     return made;
   }
 
-  // Four significant digits with a true minus, as the rest of the page has them.
+  // The colour of a curve or of a phase, for a legend.
+  function swatch(colour) {
+    const made = element("span", { class: "swatch" });
+    made.style.background = colour;
+    return made;
+  }
+
+  // A number with so many significant digits and a true minus, as the rest of the page has them.
   function told(value, digits = 4) {
-    if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-    return String(Number(value.toPrecision(digits))).replace("-", "−").replace("e-", "e−");
+    if (!Number.isFinite(value)) return "–";
+    const size = Math.abs(value);
+    const text = size !== 0 && (size < 1e-4 || size >= 1e6)
+      ? value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e")
+      : String(Number(value.toPrecision(digits)));
+    return text.replaceAll("-", "−");
   }
 
   // Each figure of a kind with its data and an empty stage; none where its script fails.
@@ -93,13 +104,13 @@ const live = (() => {
   }
 
   // The scale of a colour table: lowest value, colours, highest value.
-  function scale(map, words) {
+  function scale(map) {
     const bar = element("div", { class: "bar" });
     const stops = colours(map.colours).filter((_, i) => i % 15 === 0);
     const ramp = element("span", { class: "ramp", role: "presentation" });
     ramp.style.background = `linear-gradient(to right, ${stops.map((c) => `rgb(${c})`)})`;
     bar.append(
-      element("span", {}, words), element("span", {}, told(map.low, 3)), ramp,
+      element("span", {}, map.label), element("span", {}, told(map.low, 3)), ramp,
       element("span", {}, `${told(map.high, 3)} ${map.unit}`));
     return bar;
   }
@@ -112,16 +123,6 @@ const live = (() => {
       if (array[middle] <= value) low = middle; else high = middle - 1;
     }
     return low;
-  }
-
-  // About so many round numbers from low to high.
-  function ticks(low, high, count) {
-    const raw = (high - low) / Math.max(count, 1) || 1;
-    const size = 10 ** Math.floor(Math.log10(raw));
-    const step = size * [1, 2, 5, 10].find((each) => each * size >= raw * 0.999);
-    const found = [];
-    for (let n = Math.ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; n++) found.push(n * step);
-    return found;
   }
 
   // The time that the animation shows, for whoever draws over time.
@@ -137,5 +138,5 @@ const live = (() => {
     },
   };
 
-  return { numbers, element, told, each, dataOf, onPaper, onWidth, sized, colours, scale, placeOf, ticks, clock };
+  return { numbers, element, swatch, told, each, dataOf, onPaper, onWidth, sized, colours, scale, placeOf, clock };
 })();

@@ -2,7 +2,7 @@
 // figures of a page that are over the same time, from begin to end, zoom and point together.
 "use strict";
 (() => {
-  const HEIGHT = 190, PAPER = 0.6, INK = "#222", SOFT = "#5c5c5c", GRID = "#e3e3e3", SHADE = "#f8ead0";
+  const HEIGHT = 190, MAP_HEIGHT = 340, PAPER = 0.6, INK = "#222", SOFT = "#5c5c5c", GRID = "#e3e3e3", SHADE = "#f8ead0";
   const ON_A_SCREEN = 3, DASH = [5, 4], FONT = '12px system-ui, "DejaVu Sans", sans-serif';
   const plots = [];
   let sharing = false;
@@ -109,6 +109,49 @@
     };
   }
 
+  // A map below the curves, which the dark does not turn over: one pixel for each number.
+  function floorOf({ map, curves }, data) {
+    const [times, places] = map.shape, levels = live.numbers(map.levels), colours = live.colours(map.colours);
+    const picture = live.element("canvas", { width: times, height: places });
+    const inside = picture.getContext("2d"), image = inside.createImageData(times, places);
+    levels.forEach((level, at) => {
+      const [t, place] = [Math.floor(at / places), at % places];
+      image.data.set([...colours[level], 255], 4 * ((places - 1 - place) * times + t));
+    });
+    inside.putImageData(image, 0, 0);
+    const floor = live.element("canvas", { class: "map" }), way = live.numbers(curves[0].values);
+    return {
+      paint(plot) {
+        if (!floor.parentNode) plot.under.append(floor);
+        const { left, top, width, height } = plot.bbox, dense = devicePixelRatio || 1;
+        // on paper what is cleared is white, and covers what is below
+        const context = live.onPaper() ? plot.ctx : live.sized(floor, width / dense, height / dense);
+        const px = (row) => plot.valToPos(data.time[row], "x", true);
+        context.save();
+        context.setTransform(1, 0, 0, 1, ...(live.onPaper() ? [0, 0] : [-left, -top]));
+        context.imageSmoothingEnabled = false;
+        context.drawImage(picture, px(0), top, px(times - 1) - px(0) || 1, height);
+        context.strokeStyle = curves[0].colour;
+        context.lineWidth = 1.2 * dense;
+        context.beginPath();
+        way.forEach((place, t) => {
+          const jump = t === 0 || Math.abs(place - way[t - 1]) > 0.5 * map.length;
+          context[jump ? "moveTo" : "lineTo"](px(t), plot.valToPos(place, "y", true));
+        });
+        context.stroke();
+        context.restore();
+      },
+      // What is at the pointer.
+      read({ cursor, posToVal }) {
+        const time = posToVal(cursor.left, "x"), place = posToVal(cursor.top, "y");
+        const column = Math.max(0, Math.min(places - 1, Math.floor(place / map.length * places)));
+        const level = levels[live.placeOf(data.time, time) * places + column];
+        return `${live.told(time, 3)} s, ${live.told(place, 3)} m: ` +
+          `${live.told(map.low + (map.high - map.low) * level / 255, 3)} ${map.unit}`;
+      },
+    };
+  }
+
   // Logarithmic, or linear near 0 and logarithmic beyond, or linear.
   function scaleOf(panel) {
     if (panel.linear_to) return { range: range(panel), distr: 4, asinh: panel.linear_to };
@@ -129,7 +172,7 @@
   const isAbove = (panel, data) => data.columns > 1 || panel.label.length > 20;
   const unitOf = (panel) => (panel.label.match(/\[(.*)\]/) || ["", ""])[1];
 
-  function options(panel, data, first, last, onCursor, holder) {
+  function options(panel, data, first, last, onCursor, holder, floor) {
     const series = panel.curves.map((curve) => ({
       label: curve.label,
       stroke: curve.fill ? undefined : curve.colour,
@@ -138,13 +181,13 @@
       dash: curve.dash ? DASH : undefined,
       pxAlign: 0,
       points: { show: curve.dots || data.time.length < 3, size: 4, fill: curve.colour },
-      paths: curve.dots ? () => null : curve.steps ? uPlot.paths.stepped({ align: -1 }) : undefined,
+      paths: curve.dots || floor ? () => null : curve.steps ? uPlot.paths.stepped({ align: -1 }) : undefined,
     }));
-    const look = { stroke: INK, font: FONT, labelFont: FONT, grid: { stroke: GRID, width: 1 },
+    const look = { stroke: INK, font: FONT, labelFont: FONT, grid: { show: !floor, stroke: GRID, width: 1 },
       ticks: { stroke: "#8a8a8a", width: 1, size: 5 }, values: axisTold };
     return {
       width: 300,
-      height: HEIGHT + (first && data.marks.length ? 14 : 0) + (last ? 18 : 0),
+      height: (floor ? MAP_HEIGHT : HEIGHT) + (first && data.marks.length ? 14 : 0) + (last ? 18 : 0),
       padding: [first && data.marks.length ? 20 : 6, besidePlots(data), 0, 0],
       legend: { show: false },
       scales: { x: { time: false }, y: scaleOf(panel) },
@@ -157,7 +200,7 @@
       cursor: { sync: { key: data.group }, drag: { x: true, y: false }, points: { size: 7 } },
       series: [{}, ...series],
       hooks: {
-        drawClear: [(plot) => panel.shaded && shade(plot, data.phases)],
+        drawClear: [(plot) => (floor ? floor.paint(plot) : panel.shaded && shade(plot, data.phases))],
         draw: [(plot) => annotate(plot, panel, data.marks, first)],
         setCursor: [onCursor],
         setScale: [(plot, key) => {
@@ -177,8 +220,7 @@
     if (above && !lone) box.append(live.element("div", { class: "small" }, panel.label));
     const found = panel.curves.map((curve) => {
       const key = live.element("button", { type: "button", class: "key", "aria-pressed": "true" });
-      const swatch = live.element("span", { class: "swatch" });
-      swatch.style.background = curve.colour;
+      const swatch = live.swatch(curve.colour);
       if (curve.dash) swatch.style.height = ".15rem";
       const value = live.element("span");
       key.append(swatch, `${above && lone ? panel.label : curve.label} `, value);
@@ -199,10 +241,12 @@
     const last = many || number === data.panels.length - 1;
     const onCursor = (plot) => {
       const at = plot.cursor.idx;
-      shown.forEach(({ value }, n) => {
-        value.textContent = at === null || at === undefined ? "" : `${live.told(values[n][at])} ${unit}`;
-      });
+      const isThere = at !== null && at !== undefined;
+      shown.forEach(({ value }, n) => (value.textContent = isThere ? `${live.told(values[n][at])} ${unit}` : ""));
+      if (floor) said.textContent = isThere ? floor.read(plot) : "";
     };
+    const floor = panel.map && floorOf(panel, data), said = live.element("output", { class: "small" });
+    if (floor) box.append(live.scale(panel.map), said);
     const drawn = panel.stacked ? stacked(panel.curves, values) : values;
     // filled ones from the highest down, so that each covers the lower part of the one before
     const order = panel.curves.map((_, n) => n);
@@ -219,7 +263,7 @@
     box.append(holder);
     room.append(box);
     const columns = [data.time, ...order.map((n) => Array.from(drawn[n], (v) => (Number.isFinite(v) ? v : null)))];
-    const plot = new uPlot(options(sorted, data, number === 0, last, onCursor, holder), columns, holder);
+    const plot = new uPlot(options(sorted, data, number === 0, last, onCursor, holder, floor), columns, holder);
     const { time } = data;
     const lone = time[0] === time[time.length - 1] ? 0.5 : 0;
     plots.push({ plot, group: data.group, begin: time[0] - lone, end: time[time.length - 1] + lone });
@@ -231,14 +275,15 @@
       key.setAttribute("aria-pressed", String(show));
       plot.setSeries(order.indexOf(n) + 1, { show });
     }));
-    holder.addEventListener("keydown", (event) => onKey(event, data.group, plot, time));
+    holder.addEventListener("keydown", (event) => onKey(event, data.group, plot, Boolean(floor)));
     return plot;
   }
 
-  function onKey(event, group, plot, time) {
-    const shift = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+  function onKey(event, group, plot, mapped) {
+    const shift = { ArrowLeft: -1, ArrowRight: 1 }[event.key], rise = { ArrowUp: -1, ArrowDown: 1 }[event.key];
     if (shift && event.shiftKey) zoomBy(group, plot, 1, 0.25 * shift);
-    else if (shift) point(plot, time, shift);
+    else if (shift) point(plot, shift);
+    else if (rise && mapped) point(plot, 0, rise);
     else if (event.key === "+" || event.key === "=") zoomBy(group, plot, 0.5);
     else if (event.key === "-") zoomBy(group, plot, 2);
     else if (event.key === "Home" || event.key === "0" || event.key === "Escape") zoomTo(group, -Infinity, Infinity);
@@ -247,11 +292,12 @@
   }
 
   // The pointer a hundredth of what is seen further; it begins in the middle.
-  function point(plot, time, step) {
-    const { min, max } = plot.scales.x, width = plot.bbox.width / (devicePixelRatio || 1);
-    const at = plot.cursor.left >= 0 ? plot.cursor.left : 0.5 * width;
-    const left = Math.max(0, Math.min(width, at + 0.01 * step * width));
-    plot.setCursor({ left, top: 0.5 * plot.bbox.height / (devicePixelRatio || 1) }, true);
+  function point(plot, across, down = 0) {
+    const [left, top] = [["left", "width", across], ["top", "height", down]].map(([edge, size, step]) => {
+      const length = plot.bbox[size] / (devicePixelRatio || 1), at = plot.cursor[edge];
+      return Math.max(0, Math.min(length, (at >= 0 ? at : 0.5 * length) + 0.01 * step * length));
+    });
+    plot.setCursor({ left, top }, true);
   }
 
   function controls(stage, data, plot) {
@@ -268,12 +314,9 @@
     add("◀", "earlier", () => zoomBy(group, plot(), 1, -0.5));
     add("▶", "later", () => zoomBy(group, plot(), 1, 0.5));
     if (data.phases.length && data.phase) {
-      const word = live.element("span");
-      const swatch = live.element("span", { class: "swatch" });
-      swatch.style.background = SHADE;
+      const swatch = live.swatch(SHADE);
       swatch.style.outline = "1px solid #c9b48a";
-      word.append(swatch, data.phase);
-      bar.append(word);
+      bar.append(live.element("span", {}, swatch, data.phase));
     }
     const [rows, all] = data.rows;
     if (rows < all) bar.append(live.element("span", { class: "soft" },
