@@ -62,7 +62,7 @@ FOUND_RISE = 2
 MINUS = str.maketrans("-", "−")
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 # units that are read more easily with a prefix than with a power of ten
-PREFIXED = {"m", "K", "W", "N", "s", "J"}
+PREFIXED = {"m", "K", "W", "N", "s", "J", "m/s", "rad", "rad/s", "N.m"}
 
 
 def worded(key: str) -> str:
@@ -95,7 +95,7 @@ def told(
         return f"{value:z.2f}°".translate(MINUS)
     if unit in PREFIXED and 1e-6 <= abs(value) < 0.1:
         factor, prefix = (1e3, "m") if abs(value) >= 1e-3 else (1e6, "µ")
-        return f"{digits(factor * value, count)} {prefix}{unit}"
+        return f"{digits(factor * value, count)} {prefix}{spelled(unit)}"
     return with_unit(digits(value, count), spelled(unit))
 
 

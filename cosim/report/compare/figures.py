@@ -56,6 +56,8 @@ STROKES = ((ORANGE, 3.0), (BLUE, 1.1))
 COUNTED = ("mode", "slip_count")
 #: Periods at the end that are drawn enlarged, and the part of the run where there are none.
 CYCLES, PART = 4.0, 0.1
+#: Panels that are below each other on a page.
+MOST_BELOW = 3
 
 
 class Drawn(NamedTuple):
@@ -140,7 +142,8 @@ def overlay(both: Comparison) -> Picture:
         " same. What is flat in both is left out; where there is one line only, the other has no"
         " such quantity.",
         "Both runs over time, one over the other.",
-        TimeFigure(times, shown, part=part, own_scale=True),
+        # of many, two beside each other: the figures below them stay on the first screen
+        TimeFigure(times, shown, part=part, own_scale=True, columns=1 + (len(shown) > MOST_BELOW)),
     )
 
 

@@ -2,8 +2,10 @@
 // scroll can be reached with the keyboard.
 "use strict";
 (() => {
-  for (const table of document.querySelectorAll("table.listed")) {
-    const heads = [...table.querySelectorAll("th")].map((head) => head.textContent.trim());
+  // of more columns than two, where the window is narrow each row is a list
+  for (const table of document.querySelectorAll("#content table:has(thead th:nth-child(3))")) {
+    table.classList.add("listed");
+    const heads = [...table.tHead.rows[0].cells].map((head) => head.textContent.trim());
     for (const { cells } of table.tBodies[0].rows) {
       if (cells.length !== heads.length) continue; // some go over several columns
       // a name in the first column says what it is; a number does not

@@ -11,6 +11,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
+from matplotlib.patheffects import withStroke
 from stickslip import friction_coefficient
 
 from cosim.files import write_bytes, write_text
@@ -48,7 +49,7 @@ NAMED = 0.3
 )
 def draw_map(found: FrictionMap) -> Figure:
     """Lines: the law at the ambient temperature. Points: coupled runs, interface warmer."""
-    figure, ((ax,),) = panels(1, 1, height=4.6, width=8.0)
+    figure, ((ax,),) = panels(1, 1, height=5.2, width=9.0)
     speeds = [point.speed for point in found.points]
     wide = np.geomspace(min(speeds) / BELOW, max(speeds) * ABOVE, 400)
     laws = [_law(found, ambient, wide) for ambient in found.ambients]
@@ -61,22 +62,27 @@ def draw_map(found: FrictionMap) -> Figure:
             _name_regimes(ax, wide, law)
         if index == len(found.ambients) - 1:
             _mark_slopes(ax, wide, law)
+    alike = "at all temperatures of the air" if is_flat else "at the ambient temperature"
     ax.set(
         xscale="log",
         xlabel="sliding speed [m/s]",
         ylabel="friction coefficient [1]",
-        title="lines: the law at the ambient temperature; points: coupled runs",
+        title=f"lines: the law {alike}; points: coupled runs",
     )
-    for each in measured_beside(found):
+    measured = measured_beside(found)
+    for each in measured:
         _draw_measured(ax, each, is_own=each == own_point(found))
     low, high = ax.dataLim.intervaly
+    ax.set_xlim(left=min(speeds) / BELOW)
     if is_flat:
         logarithmic_x(ax)
         ax.set_ylim(0.0, 1.4 * high)
     else:
         logarithmic_y(ax)
         ax.set_ylim(low / 1.5, 2.5 * high)  # room for words
-    figure.legend(loc="outside right upper", title="ambient")
+    for each in measured:
+        _name_range(ax, each)
+    figure.legend(loc="outside lower center", ncols=len(found.ambients))
     return figure
 
 
@@ -93,7 +99,7 @@ def _draw_ambient(
     """The law at an ambient temperature, degC, over speeds (n,), and the runs; the law (n,)."""
     points = found.at(ambient)
     law = _law(found, ambient, speeds)
-    ax.plot(speeds, law, color=colour, label=f"{ambient:g} °C".replace("-", "−"))
+    ax.plot(speeds, law, color=colour, label=f"air at {ambient:g} °C".replace("-", "−"))
     ax.plot([p.speed for p in points], [p.friction for p in points], "o", color=colour)
     return law
 
@@ -106,24 +112,33 @@ def _draw_measured(ax: Axes, measured: Measured, is_own: bool) -> None:
     if measured.is_range:
         box = Rectangle((slow, low), fast - slow, high - low, color=PALE_GREY, zorder=0)
         ax.add_artist(box)  # which, unlike a patch, leaves the axes' limits alone
-        ax.annotate(
-            measured.what,
-            (fast, low),
-            xytext=(-3, 3),
-            textcoords="offset points",
-            color=GREY,
-            fontsize=8.0,
-            ha="right",
-            va="bottom",
-            annotation_clip=True,
-            clip_on=True,
-        )
         return
     style = "*" if is_own else "s:"
     size = 12.0 if is_own else 5.0
     label = f"measured: {measured.what}"
     line = ax.plot(measured.speeds, measured.friction, style, color=INK, ms=size, label=label)
     line[0].set_zorder(4)
+
+
+def _name_range(ax: Axes, measured: Measured) -> None:
+    """In the upper left corner of a box that begins within the axes, else in the lower right."""
+    if not measured.is_range:
+        return
+    begins = measured.speeds[0] > ax.get_xlim()[0]
+    place = (measured.speeds[0 if begins else -1], min(measured.friction))
+    if begins:
+        place = (place[0], min(max(measured.friction), ax.get_ylim()[1]))
+    ax.annotate(
+        measured.what,
+        place,
+        xytext=(3, -3) if begins else (-3, 3),
+        textcoords="offset points",
+        color=INK,
+        fontsize=8.0,
+        ha="left" if begins else "right",
+        va="top" if begins else "bottom",
+        path_effects=[withStroke(linewidth=2.5, foreground=PALE_GREY)],
+    )
 
 
 def _local_slope(speed: np.ndarray, value: np.ndarray) -> np.ndarray:
@@ -190,7 +205,7 @@ def sentence(found: FrictionMap) -> str:
     if found.is_flat(ambient):
         told = number(first.friction, AT_TOP)
         alike = [a for a in found.ambients if found.is_flat(a) and len(found.at(a)) == len(points)]
-        air = f"in air of {', '.join(map(number, alike))}\u00a0°C"
+        air = f"in air of {' and '.join(map(number, alike))}\u00a0°C"
         dry = "" if laws_of(found) else ": the contact is dry"
         return f"Friction is {told} at all {len(points)} speeds {speeds}, {air}{dry}."
     lowest = found.regimes(ambient)["minimum"]
@@ -219,7 +234,7 @@ def tiles(found: FrictionMap) -> list[tuple[str, str]]:
     if falls:
         told.append(("steepest slope over a decade", _slope(min(falls), 2)))
     warmest = max(point.interface_degC for point in found.points)
-    return [*told, ("warmest contact", f"{number(warmest, AT_TOP)} °C")]
+    return [*told, ("warmest contact", f"{warmest:z.2f} °C".replace("-", "−"))]
 
 
 def _row(found: FrictionMap, ambient: float) -> dict[str, Any]:
