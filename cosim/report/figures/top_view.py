@@ -72,7 +72,7 @@ def coil(begin: Array, end: Array) -> Array:
 
 
 MARGIN = 0.03  # m around everything drawn
-SHEET_WIDTH, SHEET_HEIGHT = 11.0, 8.5  # inches at most
+SHEET_WIDTH, SHEET_HEIGHT = 9.5, 6.0  # of all panels, inches at most
 ARROW = 0.06  # m, length of the arrow for the surface's direction
 WORDS = 0.015  # m, for what stands below the rig
 
@@ -86,56 +86,47 @@ def draw_top_view(dataset: Data) -> Figure:
     poses = extreme_poses(dataset)
     box = _box(parameters, [pose for _, pose in poses])
     width, height = box[1] - box[0], box[3] - box[2]
-    stacked = width > 1.6 * height
-    figure = Figure(figsize=_sheet(width, height, len(poses), stacked), layout="compressed")
-    panels = figure.subplots(
-        *((len(poses), 1) if stacked else (1, len(poses))), squeeze=False, sharex=True, sharey=True
-    )
-    for panel, (text, pose) in zip(panels.flat, poses, strict=True):
-        _draw_surface(panel, dataset, parameters, box)
-        if pose != REST:
-            _draw_outline(panel, parameters)
-        _draw_rig(panel, parameters, pose)
-        _frame(panel, text, box)
-    for panel in panels[-1]:
-        panel.set_xlabel("x [m]")
-    for panel in panels[:, 0]:
-        panel.set_ylabel("y [m]")
+    across, down = (1, len(poses)) if width > 1.6 * height else (len(poses), 1)
+    # beside panels of equal scale there is room for labels, for titles of two lines, for the title
+    scale = min(SHEET_WIDTH / across / width, SHEET_HEIGHT / down / height)
+    size = across * (scale * width + 0.8), down * (scale * height + 0.6) + 0.8
+    figure = Figure(figsize=size, layout="compressed")
+    panels = figure.subplots(down, across, squeeze=False, sharex=True, sharey=True)
+    for axes, (text, pose) in zip(panels.flat, poses, strict=True):
+        _draw_surface(axes, dataset, parameters, box)
+        _draw_rig(axes, parameters, pose)
+        axes.set(title=text, xlim=box[:2], ylim=box[2:], aspect="equal")
+        axes.grid(visible=False)
+        plain_ticks(axes)
+        axes.label_outer()
+        axes.set(xlabel="x [m]", ylabel="y [m]")
     title(figure, "Block and springs from above, to scale", dataset)
     return figure
 
 
-def _is_known(dataset: Data) -> NDArray[np.bool_]:
-    """In which rows the block's place is known."""
-    known = [np.isfinite(dataset[name].values) for name in ("x", "y", "phi")]
-    return np.asarray(np.all(known, axis=0))
+def _known(dataset: Data) -> Data:
+    """The rows in which the block's place is known."""
+    known = [np.isfinite(dataset[name].values) for name in Pose._fields]
+    return dataset.isel(time=np.all(known, axis=0))
 
 
 def extreme_poses(dataset: Data) -> list[tuple[str, Pose]]:
     """At rest, furthest along +-x, and the largest rotation where the block turns."""
-    poses = [("at rest", REST)]
-    finite = _is_known(dataset)
-    known = dataset.isel(time=finite)
-    if known.sizes["time"] == 0:
-        return poses
-    row = known.isel(time=int(np.abs(known["x"].values).argmax()))
-    poses.append((f"furthest from rest, {_told(row)}", _pose(row)))
-    row = known.isel(time=int(np.abs(known["phi"].values).argmax()))
-    if abs(np.degrees(float(row["phi"]))) > SMALLEST_ANGLE_DEG:
-        poses.append((f"largest rotation, {_told(row)}", _pose(row)))
-    return poses
+    known = _known(dataset)
+    times, poses = known["time"].values, [known[name].values for name in Pose._fields]
+    found = [("at rest", REST)]
+    for what, values in (("furthest from rest", poses[0]), ("largest rotation", poses[2])):
+        turns = np.max(np.abs(np.degrees(poses[2])), initial=0.0) > SMALLEST_ANGLE_DEG
+        if values.size and (turns or values is poses[0]):
+            row = int(np.abs(values).argmax())
+            pose = Pose(*(float(each[row]) for each in poses))
+            found.append((f"{what}, t = {times[row]:.2f} s\n{_told(pose)}", pose))
+    return found
 
 
-def _pose(row: Data) -> Pose:
-    return Pose(float(row["x"]), float(row["y"]), float(row["phi"]))
-
-
-def _told(row: Data) -> str:
-    x, y, phi = _pose(row)
-    return (
-        f"t = {float(row['time']):.2f} s\n"
-        f"x = {1e3 * x:z.1f} mm, y = {1e3 * y:z.1f} mm, φ = {np.degrees(phi):z.1f}°"
-    ).replace("-", "−")
+def _told(pose: Pose) -> str:
+    x, y, phi = 1e3 * pose.x, 1e3 * pose.y, np.degrees(pose.phi)
+    return f"x = {x:z.1f} mm, y = {y:z.1f} mm, φ = {phi:z.1f}°".replace("-", "−")
 
 
 def centre_of(parameters: Parameters) -> tuple[float, float] | None:
@@ -153,27 +144,6 @@ def _box(parameters: Parameters, poses: list[Pose]) -> Box:
     low, high = np.min(points, axis=0) - MARGIN, np.max(points, axis=0) + MARGIN
     # room for the words on the surface below the rig
     return low[0], high[0], low[1] - WORDS, high[1]
-
-
-def _sheet(width: float, height: float, panels: int, stacked: bool) -> tuple[float, float]:
-    """Size of the figure, inches, that leaves little beside panels of equal scale."""
-    across, down = (1, panels) if stacked else (panels, 1)
-    # for labels and titles of two lines: left of a column, over a row, and once for the sheet
-    left, over, sheet = (0.9, 0.6, 0.7) if stacked else (0.75, 0.6, 0.95)
-    scale = min(
-        (SHEET_WIDTH - left * across) / (across * width),
-        (SHEET_HEIGHT - over * down - sheet) / (down * height),
-    )
-    return left * across + scale * across * width, sheet + over * down + scale * down * height
-
-
-def _frame(axes: Axes, text: str, box: Box) -> None:
-    axes.set_title(text)
-    axes.set_xlim(box[0], box[1])
-    axes.set_ylim(box[2], box[3])
-    axes.set_aspect("equal")
-    axes.grid(False)
-    plain_ticks(axes)
 
 
 def belt_width(dataset: Data) -> float | None:
@@ -194,25 +164,14 @@ def _draw_surface(axes: Axes, dataset: Data, parameters: Parameters, box: Box) -
         radius = abs(centre[1])
         axes.add_patch(Arc(centre, 2 * radius, 2 * radius, color=RED, linewidth=0.8, linestyle=":"))
     # the lower left corner: neither springs nor block ever come there
-    left, y = box[0] + 0.012, box[2] + 0.012
-    speed = parameters.surface.speed
+    left, y, speed = box[0] + 0.012, box[2] + 0.012, parameters.surface.speed
     if speed != 0.0:
-        _draw_arrow(axes, left, y, forwards=speed > 0.0)
-    axes.annotate(
-        surface_words(dataset, " (grey)"),
-        (left + (ARROW if speed else 0.0), y),
-        xytext=(6, 0),
-        textcoords="offset points",
-        va="center",
-        color=DARK_RED,
-        fontsize=9,
-    )
-
-
-def _draw_arrow(axes: Axes, left: float, y: float, forwards: bool) -> None:
-    ends = (left, left + ARROW) if forwards else (left + ARROW, left)
-    look = {"arrowstyle": "-|>", "color": RED, "linewidth": 1.8, "shrinkA": 0, "shrinkB": 0}
-    axes.annotate("", (ends[1], y), (ends[0], y), arrowprops=look)
+        ends = ((left, y), (left + ARROW, y))[:: 1 if speed > 0.0 else -1]
+        look = {"arrowstyle": "-|>", "color": RED, "linewidth": 1.8, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", ends[1], ends[0], arrowprops=look)
+    place = (left + (ARROW if speed else 0.0) + 0.005, y)
+    words = surface_words(dataset, " (grey)")
+    axes.annotate(words, place, va="center", color=DARK_RED, fontsize=9)
 
 
 def surface_words(dataset: Data, look: str = "") -> str:
@@ -237,43 +196,22 @@ def _compared(dataset: Data) -> str:
     return f"; the block stands {0.5e3 * (block - width):.3g} mm over each edge of the belt"
 
 
-def _draw_outline(axes: Axes, parameters: Parameters) -> None:
-    """Where the block is at rest."""
-    axes.add_patch(
-        Circle(
-            (0.0, 0.0),
-            parameters.rig.contact_radius,
-            fill=False,
-            edgecolor=GREY,
-            linestyle=":",
-            linewidth=1.0,
-            zorder=4,
-        )
-    )
-
-
 def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
-    """Anchors, springs, the contact disc, its arms and a mark that turns with it."""
+    """Anchors, springs, the contact disc and where it is at rest, its arms and a mark that turns
+    with it.
+    """
     fixed, moving = anchors(parameters), attachments(parameters, pose)
-    middle = np.array([pose.x, pose.y])
+    middle, radius = np.array(pose[:2]), parameters.rig.contact_radius
     springs = [coil(begin, end) for begin, end in zip(fixed, moving, strict=True)]
     axes.add_collection(LineCollection(springs, colors=INK, linewidths=1.0, zorder=3))
     arms = [np.array([middle, end]) for end in moving]
     axes.add_collection(LineCollection(arms, colors=BLUE, linewidths=2.2, zorder=1))
-    axes.add_patch(
-        Circle(
-            (pose.x, pose.y),
-            parameters.rig.contact_radius,
-            facecolor=PALE_BLUE,
-            edgecolor=BLUE,
-            linewidth=1.6,
-            zorder=2,
-        )
-    )
-    tip = middle + 0.8 * parameters.rig.contact_radius * np.array(
-        [np.cos(pose.phi), np.sin(pose.phi)]
-    )
-    axes.plot([middle[0], tip[0]], [middle[1], tip[1]], color=BLUE, linewidth=1.4, zorder=4)
+    look = {"facecolor": PALE_BLUE, "edgecolor": BLUE, "linewidth": 1.6, "zorder": 2}
+    axes.add_patch(Circle(pose[:2], radius, **look))
+    if pose != REST:
+        axes.add_patch(Circle((0.0, 0.0), radius, fill=False, edgecolor=GREY, ls=":", zorder=4))
+    tip = middle + 0.8 * radius * np.array([np.cos(pose.phi), np.sin(pose.phi)])
+    axes.plot(*np.array([middle, tip]).T, color=BLUE, linewidth=1.4, zorder=4)
     axes.plot(*middle, "o", color=BLUE, markersize=4, zorder=5)
     axes.plot(*moving.T, "o", color=INK, markersize=4, zorder=5)
     axes.plot(*fixed.T, "s", color=INK, markersize=7, zorder=5)
@@ -290,8 +228,7 @@ def top_view_live(dataset: Data) -> Live:
     """
     parameters = mechanics_of(dataset)
     poses = extreme_poses(dataset)
-    finite = _is_known(dataset)
-    known = dataset.isel(time=finite)
+    known = _known(dataset)
     every = max(-(-known.sizes["time"] // MOST_FRAMES), 1)
     rows = known.isel(time=slice(None, None, every))
     curvature = parameters.pack()[P_CURVATURE]

@@ -11,6 +11,7 @@
       // a name in the first column says what it is; a number does not
       const first = cells[0].classList.contains("n") ? 0 : 1;
       for (let n = first; n < cells.length; n++) cells[n].dataset.head = heads[n];
+      for (const cell of cells) cell.classList.toggle("none", /^–?$/.test(cell.textContent.trim()));
     }
   }
   for (const table of document.querySelectorAll("table")) {
