@@ -135,6 +135,19 @@ class Columns:
             {**self.data_vars, **other.data_vars}, {**self.coords, **other.coords}, self.attrs
         )
 
+    def with_rows(self, *others: Columns) -> Columns:
+        """With the rows of others, all of the same columns over the same rising axis."""
+        (axis,) = self.coords
+        parts = (self, *others)
+        order = np.argsort(np.concatenate([part[axis].values for part in parts]), kind="stable")
+        joined = {
+            name: Column(
+                each.dims, np.concatenate([part[name].values for part in parts])[order], each.attrs
+            )
+            for name, each in self.variables.items()
+        }
+        return Columns(joined, {axis: joined.pop(axis)}, self.attrs)
+
     def to_xarray(self) -> xr.Dataset:
         """The same as a dataset."""
         import xarray as xr

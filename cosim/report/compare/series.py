@@ -15,15 +15,14 @@ import xarray as xr
 from numpy.typing import NDArray
 from stickslip.units import UNITS
 
-from cosim.coupling.conversion import BASE_UNITS, told_dimension
+from cosim.coupling.conversion import BASE_UNITS, between, told_dimension
+from cosim.coupling.participant import UnitDefinition
 
 Array = NDArray[np.float64]
 #: What is no quantity of its own: a system's inputs repeat outputs.
 INPUT = "input"
 #: Attributes of a variable: its unit by base units, value in them = factor * value + offset.
 BASE, FACTOR, OFFSET = "base_units", "si_factor", "si_offset"
-#: Parts of a size that two definitions of one unit may be apart.
-SAME = 1e-12
 
 
 PICKS: dict[str, Callable[[Array], float]] = {
@@ -130,25 +129,23 @@ def _single_ports(names: Iterable[str]) -> dict[str, str]:
 
 def _into(source: Mapping[str, Any], sink: Mapping[str, Any]) -> tuple[float, float] | None:
     """Factor and offset from one variable's unit to the other's; None: another kind of unit."""
-    start, end = _definition(source), _definition(sink)
-    if start is None or end is None:
-        return (1.0, 0.0) if source.get("units", "1") == sink.get("units", "1") else None
-    if start[0] != end[0] or not end[1]:
+    (kind, start), (other, end) = _definition(source), _definition(sink)
+    if kind != other or not end.factor:
         return None
-    factor, offset = start[1] / end[1], (start[2] - end[2]) / end[1]
-    same = math.isclose(factor, 1.0, rel_tol=SAME), abs(offset) <= SAME
-    return (1.0 if same[0] else factor, 0.0 if same[1] else offset)
+    found = between(start, end)
+    return found.factor, found.offset
 
 
-def _definition(attributes: Mapping[str, Any]) -> tuple[str, float, float] | None:
-    """Base units, factor, offset: as the variable states them, or of a unit that is ours."""
+def _definition(attributes: Mapping[str, Any]) -> tuple[str, UnitDefinition]:
+    """What a unit is of, in base units, and its factor and offset: as the variable states them, of
+    a unit that is ours, or else by its name.
+    """
+    unit = str(attributes.get("units", "1"))
     if BASE in attributes:
-        return str(attributes[BASE]), float(attributes[FACTOR]), float(attributes[OFFSET])
-    known = UNITS.get(str(attributes.get("units", "1")))
-    if known is None:
-        return None
-    return (
-        told_dimension([int(known.get(base, 0)) for base in BASE_UNITS]),
-        float(known.get("factor", 1.0)),
-        float(known.get("offset", 0.0)),
-    )
+        kind, size = str(attributes[BASE]), (attributes[FACTOR], attributes[OFFSET])
+    elif (known := UNITS.get(unit)) is not None:
+        kind = told_dimension([int(known.get(base, 0)) for base in BASE_UNITS])
+        size = known.get("factor", 1.0), known.get("offset", 0.0)
+    else:
+        kind, size = unit, (1.0, 0.0)
+    return kind, UnitDefinition((0,) * 8, *map(float, size))

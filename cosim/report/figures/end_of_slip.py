@@ -69,7 +69,7 @@ def moments(
         for way, rows in zip(ways, outputs, strict=True)
         if _meets(over_time, way, rows)
     ]
-    return _joined(found) if found else nothing
+    return nothing.with_rows(*found) if found else nothing
 
 
 def _ways(over_time: Columns, times: Array, slips: NDArray[np.bool_]) -> list[Way]:
@@ -158,13 +158,3 @@ def _between(over_time: Columns, way: Way, rows: Array) -> Columns:
             values = np.interp(at, time, variable.values.astype(float))
         filled[name] = Column(("time",), values)
     return Columns(filled, {"time": Column(("time",), at)})
-
-
-def _joined(parts: list[Columns]) -> Columns:
-    """All rows, one part behind the other."""
-    columns = {
-        name: Column(("time",), np.concatenate([part[name].values for part in parts]))
-        for name in parts[0].variables
-    }
-    at = columns.pop("time")
-    return Columns(columns, {"time": at})

@@ -108,15 +108,7 @@ def _with_moments(
     for name in MEANS:
         if name in over_time:
             found.data_vars[name] = Column(("time",), over_time[name].values[row])
-    order = np.argsort(np.concatenate([time, found["time"].values]), kind="stable")
-    joined = {
-        name: Column(
-            ("time",), np.concatenate([each.values, found[name].values])[order], each.attrs
-        )
-        for name, each in over_time.variables.items()
-    }
-    at = joined.pop("time")
-    return Columns(joined, {"time": at}, over_time.attrs)
+    return over_time.with_rows(found)
 
 
 def _positions(dataset: Columns, times: Array) -> dict[str, Array]:
