@@ -120,9 +120,14 @@
     });
     inside.putImageData(image, 0, 0);
     const floor = live.element("canvas", { class: "map" }), way = live.numbers(curves[0].values);
+    let painted = "";
     return {
       paint(plot) {
         if (!floor.parentNode) plot.under.append(floor);
+        // while the animation plays, nothing of it changes
+        const asked = JSON.stringify([live.onPaper(), plot.bbox, plot.scales.x.min, plot.scales.x.max]);
+        if (asked === painted && !live.onPaper()) return;
+        painted = asked;
         const { left, top, width, height } = plot.bbox, dense = devicePixelRatio || 1;
         // on paper what is cleared is white, and covers what is below
         const context = live.onPaper() ? plot.ctx : live.sized(floor, width / dense, height / dense);
