@@ -25,7 +25,7 @@ live.rig = (() => {
     context.fillRect(0, top, view.width, bottom - top);
     for (let column = 0; colour && column < view.width; column++) {
       context.fillStyle = colour(metres(column + 0.5) - pose.x);
-      context.fillRect(column, top, 1.5, bottom - top);
+      context.fillRect(column, top, 2, bottom - top); // without seams on paper
     }
     context.strokeStyle = colour ? "rgba(255,255,255,.75)" : "#8a8a8a";
     context.lineWidth = 1.5;

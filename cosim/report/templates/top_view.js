@@ -80,7 +80,7 @@ live.each("top_view", (stage, data) => {
     view = { scale, width, height, x: (metres) => (metres - left) * scale, y: (metres) => (high - metres) * scale };
     context = live.sized(canvas, width, height);
     // on paper what is cleared is white, and covers what is below
-    if (map) floor.hidden = live.onPaper();
+    if (map) floor.style.display = live.onPaper() ? "none" : "";
     ground = map && !live.onPaper() ? live.sized(floor, width, height) : context;
     draw(now);
   });
