@@ -12,7 +12,13 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from stickslip import Parameters
 
-from cosim.gap.data.campaign_file import FILE_NAME, CampaignTable, RunTable, read_tables
+from cosim.gap.data.campaign_file import (
+    FILE_NAME,
+    CampaignTable,
+    MeasuredRunTable,
+    RunTable,
+    read_tables,
+)
 from cosim.gap.data.columns import Reading
 from cosim.gap.data.errors import CampaignError, within
 from cosim.gap.data.friction_table import read_friction_table
@@ -39,22 +45,16 @@ def read_campaign(path: str | Path) -> Campaign:
 
     Raises CampaignError in one line: file, key or column, what is wrong, what is allowed.
     """
-    path = Path(path)
-    path = path / FILE_NAME if path.is_dir() else path
-    table, run_tables, catalogue = read_tables(path)
-    law = read_friction_table(path, table, [run.surface_speed for run in run_tables])
+    path, table, run_tables, campaign = stated_in(path)
+    law = campaign.friction_table
     if law is not None and not any(run.file for run in run_tables):
         alone = "of runs of which only figures are known the law is mu_s and mu_k"
         raise CampaignError(f"{path}: friction.table: {alone}; allowed with a file in a [[run]]")
-    campaign = Campaign(
-        table.name, path.parent, table.rig, table.model.scheme, {}, (), (), (),
-        table.friction.given, table.errors, law, table.limits.given, catalogue,
-    )  # fmt: skip
     runs, remarks = [], [] if law is None else [law.text]
     converted: dict[str, list[str]] = {}
     for number, run_table in enumerate(run_tables, 1):
         with within(f"{path}: run {number}"):
-            run, reading = _run_of(campaign, run_table, number), _reading(table, run_table)
+            run, reading = run_of(campaign, run_table, number), _reading(table, run_table)
         if run.file is not None:
             track, notes, units = read_track(run.file, reading)
             run = replace(run, track=track)
@@ -74,6 +74,20 @@ def read_campaign(path: str | Path) -> Campaign:
     )  # fmt: skip
 
 
+def stated_in(
+    path: str | Path, kind: type[RunTable] = MeasuredRunTable
+) -> tuple[Path, CampaignTable, list[RunTable], Campaign]:
+    """A file, also of a folder; its tables, and the campaign that it states, still without runs."""
+    path = Path(path)
+    path = path / FILE_NAME if path.is_dir() else path
+    table, run_tables, catalogue = read_tables(path, kind)
+    law = read_friction_table(path, table, [run.surface_speed for run in run_tables])
+    return path, table, run_tables, Campaign(
+        table.name, path.parent, table.rig, table.model.scheme, {}, (), (), (),
+        table.friction.given, table.errors, law, table.limits.given, catalogue,
+    )  # fmt: skip
+
+
 def _reading(table: CampaignTable, run: RunTable) -> Reading:
     """Columns and units of a run's file: its own, else those of the campaign."""
     columns = {**table.columns.given, **run.columns.given}
@@ -85,7 +99,7 @@ def _reading(table: CampaignTable, run: RunTable) -> Reading:
     return Reading(columns, {**table.units.given, **run.units.given})
 
 
-def _run_of(campaign: Campaign, table: RunTable, number: int) -> MeasuredRun:
+def run_of(campaign: Campaign, table: RunTable, number: int) -> MeasuredRun:
     """A run as it is stated; what only rig and block together can show is checked."""
     run = MeasuredRun(
         Path(table.file).stem if table.file else f"run {number}",
@@ -162,6 +176,13 @@ def _same_data(run: MeasuredRun, other: MeasuredRun) -> bool:
     return any(np.array_equal(long[start : start + len(short)], short) for start in starts)
 
 
+def check_fit_runs(runs: Sequence[MeasuredRun], source: str) -> None:
+    """CampaignError where nothing is left to fit."""
+    if all(run.hold_out for run in runs):
+        nothing = "hold_out: true in every run, there is nothing to fit"
+        raise CampaignError(f"{source}: {nothing}; allowed is false in at least one")
+
+
 def with_hold_outs(
     runs: tuple[MeasuredRun, ...], source: str
 ) -> tuple[tuple[MeasuredRun, ...], list[str]]:
@@ -172,9 +193,7 @@ def with_hold_outs(
     fast ones are both judged. Of two runs the faster one is held out; a single run is not. Runs of
     which only figures are known stay for the fit.
     """
-    if all(run.hold_out for run in runs):
-        nothing = "hold_out: true in every run, there is nothing to fit"
-        raise CampaignError(f"{source}: {nothing}; allowed is false in at least one")
+    check_fit_runs(runs, source)
     if any(run.hold_out for run in runs):
         return runs, []
     tracks = [run for run in runs if run.track is not None]

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from typing import Any
 
 import numpy as np
 from stickslip.effects.candidate import Candidate
@@ -54,13 +55,13 @@ class Law:
 
     argument: str
     candidate: Candidate
-    neutral: float
-    most: float
     unknown: Unknown
     sizes: Callable[[float], np.ndarray]
+    neutral: float
+    most: float
+    unit: str
     part: float = 1.0
     wave: Option | None = None
-    unit: str = "1"
 
     @property
     def key(self) -> str:
@@ -135,18 +136,16 @@ def _starts(candidate: Candidate) -> dict[str, float]:
     return {**free, **candidate.settings}
 
 
-def _range(effect: Effect, candidate: Candidate) -> tuple[float, float]:
-    """Of the size: where it is nothing, and what the catalogue has as its most."""
-    free = candidate.free_parameters[0]
-    neutral = effect.table.model_fields[free.key.rpartition(".")[2]].default
-    return neutral, free.high if free.start > neutral else free.low
+def _own_name(candidate: Candidate) -> str:
+    """The parameter that is its size, without its block."""
+    return candidate.free_parameters[0].key.rpartition(".")[2]
 
 
-def _unit(effect: Effect, candidate: Candidate) -> str:
-    """Of the size."""
-    name = candidate.free_parameters[0].key.rpartition(".")[2]
-    unit: str = details(effect.table.model_fields[name])["unit"]
-    return unit
+def _range(effect: Effect, candidate: Candidate) -> dict[str, Any]:
+    """Of the size: where it is nothing, what the catalogue has as its most, and its unit."""
+    free, field = candidate.free_parameters[0], effect.table.model_fields[_own_name(candidate)]
+    most = free.high if free.start > field.default else free.low
+    return {"neutral": field.default, "most": most, "unit": details(field)["unit"]}
 
 
 def _of_load(
@@ -155,8 +154,8 @@ def _of_load(
     """A power of the normal force is a trend with its logarithm."""
     for unknown in unknowns.get("load_dependence", ()):
         span = np.array([-unknown.settings["span"]])
-        yield Law("load_dependence", candidate, *_range(effect, candidate), unknown,
-                  partial(np.multiply, span), unit=_unit(effect, candidate))  # fmt: skip
+        size = _range(effect, candidate)
+        yield Law("load_dependence", candidate, unknown, partial(np.multiply, span), **size)
 
 
 def _along_curves(
@@ -182,11 +181,11 @@ def _along_curves(
         known = {key: field.default for key, field in effect.table.model_fields.items()}
         known |= {key.rpartition(".")[2]: value for key, value in starts.items()}
         known["relaxation_time"] = unknown.settings.get("memory", memory)
-        own, ends = candidate.free_parameters[0].key.rpartition(".")[2], _range(effect, candidate)
+        size = _range(effect, candidate)
 
-        sizes = partial(_curve, law, nodes, known, own, ends[0], unit)
+        sizes = partial(_curve, law, nodes, known, _own_name(candidate), size["neutral"], unit)
         part = unit / force if unknown.curve.per == "N" else 1.0
-        yield Law(name, candidate, *ends, unknown, sizes, part, unit=_unit(effect, candidate))
+        yield Law(name, candidate, unknown, sizes, part=part, **size)
 
 
 def _curve(
@@ -215,6 +214,5 @@ def _waves(system: System, effect: Effect, candidate: Candidate) -> Iterator[Law
                 Added(one) for one in (wave.shape(), *wave.moves(first, system.fitted, speeds))
             ]
             option = option_of_wave(parts, system, SCALES_ASKED)
-            yield Law(effect.id, candidate, *_range(effect, candidate), parts[0].unknown,
-                      partial(np.multiply, first), wave=option,
-                      unit=_unit(effect, candidate))  # fmt: skip
+            size, sizes = _range(effect, candidate), partial(np.multiply, first)
+            yield Law(effect.id, candidate, parts[0].unknown, sizes, wave=option, **size)

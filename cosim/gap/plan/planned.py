@@ -9,19 +9,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from pydantic import ValidationError
 from stickslip import Parameters, simulate
 
 from cosim.gap.data import Campaign, MeasuredRun, Track
-from cosim.gap.data.campaign_file import FILE_NAME, RunTable, read_tables
-from cosim.gap.data.errors import CampaignError
-from cosim.gap.data.friction_table import read_friction_table
+from cosim.gap.data.campaign import check_fit_runs, run_of, stated_in
+from cosim.gap.data.campaign_file import RunTable
+from cosim.gap.data.errors import CampaignError, within
 from cosim.gap.data.units import COARSEST
 from cosim.gap.naming import Unknowns, asked_of
 from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth, thinned
-from cosim.scenario.validation import describe_faults
 
 #: Ice on steel or ice at the temperatures and speeds of a cold room slides at about 0.1 (Marmo et
 #: al. 2005); a usual break-away takes 1.3 times as much.
@@ -71,13 +69,10 @@ def read_plan(path: str | Path) -> PlannedCampaign:
     a ``file``, which need not be there. CampaignError in one line: file, key, what is wrong, what
     is allowed.
     """
-    path = Path(path)
-    path = path / FILE_NAME if path.is_dir() else path
-    table, tables, catalogue = read_tables(path, RunTable)
+    path, table, tables, campaign = stated_in(path, RunTable)
     noise = {"x": NOISE, **table.noise.given}
     remarks = [] if "x" in table.noise.given else [f"noise.x is not given: {NOISE:g} m"]
-    own = read_friction_table(path, table, [run.surface_speed for run in tables])
-    named = table.friction.expected
+    own, named = campaign.friction_table, table.friction.expected
     if own is not None:
         remarks.append(own.text)
         # a block that holds no more than it slides with does not stick
@@ -95,18 +90,12 @@ def read_plan(path: str | Path) -> PlannedCampaign:
             f'model.scheme = "{table.model.scheme}": what a scheme lacks is no question to a rig'
         )
         raise CampaignError(f'{path}: {fault}, allowed is "exact"')
-    campaign = Campaign(
-        table.name, path.parent, table.rig, table.model.scheme, noise, (), (),
-        friction=table.friction.given, errors=table.errors, friction_table=own,
-        limits=table.limits.given, catalogue=catalogue,
-    )  # fmt: skip
+    campaign = replace(campaign, noise=noise)
     runs = [_planned(path, campaign, run, number) for number, run in enumerate(tables, 1)]
-    if all(run.setting.hold_out for run in runs):
-        fault = "hold_out: true in every run, there is nothing to fit"
-        raise CampaignError(f"{path}: {fault}; allowed is false in at least one")
+    settings = tuple(run.setting for run in runs)
+    check_fit_runs(settings, str(path))
     if any(table.file for table in tables):
         remarks.append("files of runs are not read: planned with duration and rate")
-    settings = tuple(run.setting for run in runs)
     campaign = replace(campaign, runs=settings, remarks=tuple(remarks))
     return PlannedCampaign(campaign, tuple(runs), expected)
 
@@ -116,16 +105,9 @@ def _planned(path: Path, campaign: Campaign, table: RunTable, number: int) -> Pl
     where = f"{path}: run {number}"
     if table.summary.given:
         raise CampaignError(f"{where}: summary: figures of a run that is planned, allowed is none")
-    setting = MeasuredRun(
-        f"run {number}", None, table.mass, table.stiffness, table.surface_speed,
-        table.ambient_degC, table.hold_out, noise=campaign.noise,
-    )  # fmt: skip
-    try:
-        with warnings.catch_warnings(action="ignore"):
-            kind = Parameters.of(campaign.catalogue)
-            kind.model_validate(campaign.parameters(setting), strict=True)
-    except ValidationError as report:
-        raise CampaignError(f"{where}: {describe_faults(report, Parameters)}") from None
+    with within(where):
+        setting = run_of(campaign, table.model_copy(update={"file": ""}), number)
+    setting = replace(setting, noise=campaign.noise)
     period = 2.0 * np.pi / setting.natural_frequency
     if table.rate * COARSEST * period < 1.0:
         raise CampaignError(

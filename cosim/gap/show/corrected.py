@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import numpy as np
+import pandas as pd
 import tomli_w
 
 from cosim.files import write_text
@@ -53,13 +53,11 @@ def write_corrected(gap: Gap, folder: Path) -> list[Path]:
 def _csv(track: Track, numbers: Mapping[str, float]) -> str:
     """Rows in SI units, with a word on what was done."""
     columns = {"t": track.time + track.time_offset} | {name: track[name] for name in track.channels}
-    lines = [
+    said = [
         f"# {quantity(key, number, None).text}: "
-        f"{'undone' if key.startswith(UNDONE) else 'still in the data, as it cannot be undone'}"
+        f"{'undone' if key.startswith(UNDONE) else 'still in the data, as it cannot be undone'}\n"
         for key, number in numbers.items()
         if key in BESIDE_THE_MODEL and numbers.get(f"{key}_in", 1.0)
     ]  # fmt: skip
-    lines.append(",".join(columns))
-    for row in np.stack(list(columns.values()), axis=1):
-        lines.append(",".join("" if np.isnan(number) else f"{number:.12g}" for number in row))
-    return "\n".join(lines) + "\n"
+    table = pd.DataFrame(columns)
+    return "".join(said) + table.to_csv(index=False, float_format="%.12g", lineterminator="\n")

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 from stickslip.catalogue import Catalogue
 
@@ -108,17 +107,6 @@ def _if(truth: str) -> str:
     return "nothing were missing" if truth == NONE else f"it were {truth}"
 
 
-def next_experiment(proposed: Mapping[str, Any]) -> str:
-    """The run that would tell most."""
-    units = {"mass": "kg", "stiffness": "N/m", "surface_speed": "m/s", "hold": "s"}
-    parts = [
-        f"{key.replace('_', ' ')} {proposed[key]:.4g} {unit}"
-        for key, unit in units.items()
-        if key in proposed
-    ]
-    return str(proposed.get("text") or ", ".join(parts))
-
-
 def assumptions(gap: Gap) -> list[str]:
     """What was taken as the campaign states it."""
     campaign, errors = gap.campaign, gap.campaign.errors
@@ -146,7 +134,7 @@ def closing_lines(gap: Gap) -> list[str]:
     said = {
         "gap": f"{gap_line(gap)} (1 is noise)",
         "runner-up": runner_up(gap),
-        "next": next_experiment(gap.next_experiment) if gap.next_experiment else "",
+        "next": gap.next_experiment["text"] if gap.next_experiment else "",
     }
     lines += [f"  {word:<10} {text}" for word, text in said.items() if text]
     return lines + [f"  doubt      {doubt.text}" for doubt in gap.doubts]

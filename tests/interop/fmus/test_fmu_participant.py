@@ -1,8 +1,6 @@
 """FmuParticipant on the real units: what it declares, what it refuses, failures and teardown."""
 
-import tempfile
 import zipfile
-from pathlib import Path
 
 import pytest
 
@@ -83,14 +81,3 @@ def test_an_input_that_is_refused_in_the_run_says_so(unit):
         block.step(0.0, 0.1)
         with pytest.raises(FmuCallError, match="^surface_speed = nan: must be a finite number"):
             block.write({"surface_speed": float("nan")})
-
-
-def test_nothing_is_left_behind(fmu, tmp_path, monkeypatch):
-    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
-    block = FmuParticipant(fmu, "block", inputs=HELD)
-    assert list(tmp_path.iterdir()) == []
-    block.enter_initialisation(0.0, 1.0)
-    assert len(list(Path(tmp_path).iterdir())) == 1
-    block.close()
-    block.close()
-    assert list(tmp_path.iterdir()) == []

@@ -22,8 +22,6 @@ from cosim.fmu.build import PYTHON, build_fmu
 
 SPEED, STEP, COUNT = 0.2, 0.01, 300
 HOSTS = Path(__file__).with_name("hosts")
-# numbers of six places in the files of `ecos`
-SIX_PLACES = 5.1e-7
 
 
 def needs(module):
@@ -120,17 +118,6 @@ def test_ecospy(fmu, expected, ecos_environment):
 
 def test_ecospy_with_the_unit_for_fmi_3(fmu3, expected, ecos_environment):
     same(x_by("in_ecospy.py", fmu3, env=ecos_environment), expected)
-
-
-def test_ecos_which_has_no_python(fmu, tmp_path, ecos_environment):
-    options = ["--path", fmu, "--stopTime", COUNT * STEP, "--stepSize", STEP]
-    bare = {"LD_LIBRARY_PATH": ecos_environment["LD_LIBRARY_PATH"]}
-    output([tool("ecospy", "ecos"), "simulate", *options], cwd=tmp_path, env=bare)
-    (table,) = tmp_path.glob("*.csv")
-    names = table.read_text().splitlines()[0].split(", ")
-    rows = np.loadtxt(table, delimiter=",", skiprows=1, usecols=names.index("instance::x[REAL]"))
-    result = fmpy.simulate_fmu(str(fmu), stop_time=COUNT * STEP, output_interval=STEP, output=["x"])
-    same(rows[-COUNT:], result["x"][-COUNT:], SIX_PLACES)
 
 
 def test_fmuloader(fmu, expected):

@@ -1,6 +1,5 @@
 """A run as dataset and files: units everywhere, and every number comes back as it was."""
 
-import csv
 import errno
 import json
 import os
@@ -129,13 +128,6 @@ def mechanics_dataset(surface: str = "belt") -> xr.Dataset:
     return trajectory_dataset(trajectory(surface), case, case.to_toml(), wall_time=0.25)
 
 
-def table_of(path) -> dict[str, np.ndarray]:
-    """Columns of a CSV file, every cell read with all its digits; an empty one is NaN."""
-    header, *rows = csv.reader(path.read_text(encoding="utf-8").splitlines())
-    cells = [[float(cell) if cell else np.nan for cell in row] for row in rows]
-    return dict(zip(header, np.array(cells).T, strict=True))
-
-
 BOTH = pytest.mark.parametrize("make", [coupled_dataset, mechanics_dataset])
 
 
@@ -192,26 +184,6 @@ def test_netcdf_round_trip_is_exact(make, tmp_path):
     write_data(dataset, tmp_path)
     with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as back:
         xr.testing.assert_identical(back.load(), dataset)
-
-
-@BOTH
-def test_csv_round_trip_is_exact(make, tmp_path):
-    dataset = make()
-    write_data(dataset, tmp_path)
-    table = table_of(tmp_path / "result.csv")
-    over_time = [name for name in dataset.data_vars if dataset[name].dims == ("time",)]
-    assert list(table) == ["time", *over_time]
-    for name in table:
-        np.testing.assert_array_equal(table[name], dataset[name], err_msg=name)
-
-
-def test_missing_numbers_survive_both_files(tmp_path):
-    dataset = coupled_dataset().copy(deep=True)
-    dataset["x"][3] = np.nan
-    write_data(dataset, tmp_path)
-    table = table_of(tmp_path / "result.csv")
-    with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as back:
-        assert np.isnan(back["x"][3]) and np.isnan(table["x"][3])
 
 
 @pytest.mark.parametrize(

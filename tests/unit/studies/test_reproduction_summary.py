@@ -10,7 +10,6 @@ import pytest
 
 from cosim.gap.data import Campaign, MeasuredRun, read_campaign
 from cosim.gap.data.campaign_file import Rig
-from cosim.gap.data.errors import CampaignError
 from cosim.studies.reproduction.motion import Motion
 from cosim.studies.reproduction.summary import find, find_summary_gap
 from cosim.studies.reproduction.summary.candidates import (
@@ -127,14 +126,3 @@ def test_an_effect_is_found_in_figures_of_the_exact_model(monkeypatch):
     assert answer.found[0] == "static_strengthening"
     assert answer.gap_before[0] > 2.0 > 1.0 > answer.gap_after[0]
     assert answer.chance["p"] <= 0.05
-
-
-def test_known_friction_is_read_and_checked(tmp_path):
-    text = "[friction]\nmu_s = [0.3, {}]\n[[run]]\nmass = 1.0\nstiffness = 20.0\n"
-    text += "surface_speed = 0.1\nsummary = {{ mean_x = [0.02, 0.002] }}\n"
-    path = tmp_path / "campaign.toml"
-    path.write_text(text.format("0.01"))
-    assert read_campaign(path).friction == {"mu_s": (0.3, 0.01)}
-    path.write_text(text.format("-0.01"))
-    with pytest.raises(CampaignError, match="friction.*deviation > 0"):
-        read_campaign(path)

@@ -78,29 +78,6 @@ def test_order_in_the_macro_step(speed):
     assert np.log2(errors[:-1] / errors[1:]) == pytest.approx(ORDER_IN_THE_MACRO_STEP, abs=0.35)
 
 
-@pytest.mark.parametrize("macro_step", [0.01, 0.1, 1.0])
-def test_long_macro_steps_on_a_fast_belt_agree(macro_step):
-    """Internal steps follow the movement: 2 s at 0.82 m/s within 0.5 % of the rise."""
-
-    def rise(step):
-        model = BeltIceModel(ThermalParameters(belt=Belt(cell_length=2e-3)))
-        for _ in range(round(2.0 / step)):
-            model.step(step, 4.03 * 0.82 * step, 0.82 * step)
-        outputs = model.outputs()
-        return np.array(
-            [
-                outputs[name] + 8.0
-                for name in (
-                    "interface_temperature",
-                    "belt_entry_temperature",
-                    "belt_exit_temperature",
-                )
-            ]
-        )
-
-    assert rise(macro_step) == pytest.approx(rise(1e-3), rel=5e-3)
-
-
 def ice_only(flux, macro_step, steps):
     """All heat into the ice: a belt that takes next to nothing."""
     model = BeltIceModel(

@@ -123,15 +123,6 @@ def test_the_border_of_stability_is_where_theory_has_it(name):
     assert growth(0.99 * border) < 1.0 < growth(1.01 * border)
 
 
-def test_two_masses_are_where_one_solver_has_them():
-    result = run(
-        two_mass(), Iterated(ORDER, "quadratic", tolerance=TIGHT), stop=10.0, macro_step=0.01
-    )
-    # third order: a few 0.01^3 of a motion of size 1
-    assert result["s1.x"][-1] == pytest.approx(-0.27690212, abs=3e-7)
-    assert result["s2.x"][-1] == pytest.approx(-0.25230670, abs=3e-7)
-
-
 def test_the_quarter_car_has_its_peaks():
     scheme = Iterated(ORDER, "quadratic", tolerance=TIGHT)
     result = run(quarter_car(), scheme, stop=1.0, macro_step=1e-3)

@@ -86,16 +86,3 @@ def test_it_goes_on_straight_beyond_its_ends():
         np.testing.assert_allclose(np.diff(steps, n=2), 0.0, atol=1e-13)
         just_inside = (curve_force(p, end) - curve_force(p, end - 1e-7 * outward)) / 1e-7
         assert just_inside == pytest.approx(steps[1] - steps[0], rel=1e-4)
-
-
-def test_a_rig_on_a_curve_keeps_its_ledger():
-    run = simulate(
-        Parameters(
-            rig={"spring_natural_length": 0.18},
-            springs={"force_curve_extension": CURVED[0], "force_curve_force": CURVED[1]},
-            lateral_friction={"ratio": 1.0},
-        ),
-        10.0,
-    )
-    assert run.complete
-    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]

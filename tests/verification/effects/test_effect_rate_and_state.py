@@ -63,9 +63,3 @@ def test_a_slip_that_gathers_slowly(ratio):
     )
     assert run.complete and len(run.slip_starts) >= 2
     assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]
-
-
-def test_ledger():
-    run = simulate(slow_belt(1e-2, 2000.0, 0.01, 0.03), 10.0)
-    assert len(run.events) > 100
-    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from kernel_steps import largest_step_difference, memory_of
 from scipy.interpolate import PchipInterpolator
-from stickslip import Parameters, friction_coefficient, simulate
+from stickslip import Parameters, simulate
 from stickslip.catalogue import CATALOGUE
 from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.friction.table import table_coefficient
@@ -41,12 +41,6 @@ def test_between_its_points_it_is_scipys_pchip(spans, first, draw):
     p, peer = Parameters(**table(speed, mu)).pack(), PchipInterpolator(speed, mu)
     for at in [*speed, *(draw.uniform(speed[0], speed[-1]) for _ in range(20))]:
         assert table_coefficient(p, at, -8.0) == pytest.approx(float(peer(at)), abs=1e-14)
-
-
-def test_beyond_its_ends_it_is_constant():
-    parameters = Parameters(**table(SPEED[1:-1], MU[1:-1]))
-    below, above = friction_coefficient(parameters, [1e-9, SPEED[1], SPEED[-2], 50.0])[[0, 3]]
-    assert below == pytest.approx(MU[1], rel=1e-15) and above == pytest.approx(MU[-2], rel=1e-15)
 
 
 def test_at_rest_the_contact_holds_the_larger_of_mu_s_and_the_first_point():
@@ -80,19 +74,6 @@ def test_over_the_disc():
         found = -w[W_FRICTION] / NORMAL, -w[W_FRICTION + 2] / (NORMAL * RADIUS)
         there = law_over_disc(lambda v: float(law(v)), sliding, spinning, 1e-5)
         assert np.max(np.abs(np.subtract(found, there))) < 1.6e-2 * MU[0]
-
-
-def test_a_linear_table_is_the_linear_law():
-    """mu_k (1 - a v) from two points, up to where it ends."""
-    slope, mu_k, fastest = 0.6, 0.2, 1.5
-    straight = Parameters(**table((0.0, fastest), (mu_k, mu_k * (1.0 - slope * fastest))), **PLANAR)
-    law = Parameters(
-        friction={"mu_s": 0.5, "mu_k": mu_k}, velocity_weakening={"linear": slope}, **PLANAR
-    )
-    first, second = (simulate(each, 3.0) for each in (straight, law))
-    assert len(first.events) >= 3
-    for name in ("x", "y", "phi", "heat"):
-        np.testing.assert_allclose(first[name], second[name], rtol=0, atol=1e-8)
 
 
 def test_what_else_acts_on_mu_k_multiplies_it():

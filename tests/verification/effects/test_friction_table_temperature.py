@@ -62,14 +62,6 @@ def test_it_is_scipys_pchip_of_pchips(spans, steps, draw):
         assert table_coefficient(p, v, degrees) == pytest.approx(there(v, degrees), abs=1e-14)
 
 
-def test_between_two_temperatures_it_stays_between_them():
-    """Monotone over the temperature at every speed, as the points are."""
-    p = Parameters(**table()).pack()
-    for v in np.linspace(0.0, 0.7, 15):
-        over = [table_coefficient(p, v, degrees) for degrees in np.linspace(-25.0, 2.0, 200)]
-        assert np.all(np.diff(over) <= 1e-15)
-
-
 def test_the_temperature_is_felt_only_through_it():
     with_it, without = (
         Parameters(**each).pack() for each in (table(), table(temperature=(), mu=MU[:5]))

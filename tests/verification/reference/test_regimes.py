@@ -1,7 +1,5 @@
 """Which regime a run comes to, and which exist beside it: closed form against simulation."""
 
-import math
-
 import numpy as np
 import pytest
 from brute_regimes import by_force, drawn_rig, missed, searched
@@ -87,15 +85,6 @@ def test_nor_is_one_with_damping(damping):
         for ratio in np.linspace(1.05, 1.9, 6):
             found = from_its_line(rig(speed, ratio * MU_K, damping))
             assert found == closed_form(speed, ratio * MU_K, damping)
-
-
-def test_from_rest_it_sticks_up_to_the_speed_of_the_swing():
-    """v = F_k / (m omega), the first velocity peak of a free vibration about F_k/K."""
-    border = MU_K * 9.81 / math.sqrt(STIFFNESS / 0.67)
-    start = BeltStart(CoulombOscillator(0.67, STIFFNESS, 0.15, 0.2815 * LOAD, MU_K * LOAD))
-    assert start.fastest_from_rest == pytest.approx(border, rel=1e-12)
-    below, above = (from_its_line(rig(factor * border))[REST] for factor in (0.999, 1.001))
-    assert (below, above) == (STICK_SLIP, SLIDING)
 
 
 def test_at_a_fifth_of_a_metre_a_second_two_regimes_exist():

@@ -10,13 +10,6 @@ from plain_start import PLAIN
 
 SPEED = 0.15
 SLIDING = {"surface_speed": SPEED, **PLAIN}
-CREEPING = {"surface_speed": 0.03, "initial.vx": 0.03, "friction.stick_creep": 4e-3}
-SHEARED = {
-    "surface_speed": 0.03,
-    "initial.vx": 0.03,
-    "friction.transition_speed": 5e-3,
-    "friction.presliding_distance": 1e-4,
-}
 
 
 class Instance:

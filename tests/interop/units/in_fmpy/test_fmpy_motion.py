@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from fmpy_instance import CREEPING, SHEARED, SPEED, instance
+from fmpy_instance import SPEED, instance
 
 
 def trajectory(block, size, stop=3.0, **values):
@@ -15,17 +15,6 @@ def trajectory(block, size, stop=3.0, **values):
         block.slave.doStep(n * size, size)
         x.append(block.get("x"))
     return np.array(x)
-
-
-@pytest.mark.parametrize("contact", [{}, CREEPING, SHEARED])
-def test_the_communication_step_does_not_change_the_motion(block, contact):
-    often = trajectory(block, 0.002, **contact)
-    for size in (0.01, 0.5):
-        stride = round(size / 0.002)
-        np.testing.assert_allclose(
-            trajectory(block, size, **contact), often[stride - 1 :: stride], rtol=0, atol=1e-10
-        )
-    assert block.get("slip_count") > 0
 
 
 def test_heat_flow_is_the_difference_quotient_of_heat(block):
@@ -80,14 +69,6 @@ def test_friction_can_be_tuned_in_the_run(unit, tmp_path):
         block.march(100, 50, 0.01)
         assert block.everything() == as_it_was
         block.slave.freeFMUState(state)
-
-
-def test_the_ledger_is_closed_at_every_point_of_the_speed_ramp(block):
-    """Also where an internal step of the kernel spans several of the host."""
-    block.initialise(**RAMP_AND_RIPPLE)
-    for n in range(100):
-        block.slave.doStep(n * 0.01, 0.01)
-        assert abs(block.get("energy_residual")) < 1e-10
 
 
 def test_the_ledger_has_the_work_of_forces_from_outside(block):
