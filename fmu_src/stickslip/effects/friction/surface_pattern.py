@@ -45,8 +45,8 @@ def phase(phase_deg: float) -> float:
     return radians(phase_deg)
 
 
-# B sin(2 a + b) = B cos b sin 2 a + B sin b cos 2 a: what is a harmonic's own is worked out once; the
-# sines and cosines of multiples of a follow from those of a, at a twentieth of their price.
+# B sin(2 a + b) = B cos b sin 2 a + B sin b cos 2 a: what is a harmonic's own is worked out once,
+# and sines and cosines of multiples of a follow from those of a, at a twentieth of their price.
 
 
 def second_cosine(second_amplitude: float, second_phase_deg: float) -> float:
