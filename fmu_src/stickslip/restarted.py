@@ -6,7 +6,7 @@ contact, the distance slid, the place on the surface - goes on from the model's 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -67,8 +67,7 @@ def simulate_restarted(
     p : kernel vector of `packing.pack`; speed, m/s and temperature, degC: the inputs, constant.
     Rows are NaN from where the model gave up to the next restart.
     """
-    run = _begin(p, speed, temperature, times)
-    return _simulated(run, times, restarts, run.kernel.record_restarted, O_SIZE)
+    return _simulated(p, speed, temperature, times, restarts, CATALOGUE, True)
 
 
 def track_restarted(
@@ -83,27 +82,23 @@ def track_restarted(
 
     catalogue : of ``p``.
     """
-    run = _begin(p, speed, temperature, times, catalogue)
-    return _simulated(run, times, restarts, run.kernel.track_restarted, TRACKED)
+    return _simulated(p, speed, temperature, times, restarts, catalogue, False)
 
 
-def _begin(
+def _simulated(
     p: Sequence[float] | np.ndarray,
     speed: float,
     temperature: float,
     times: np.ndarray,
-    catalogue: Catalogue = CATALOGUE,
-) -> RunArrays:
-    return RunArrays.begin(
-        p, inputs(speed, temperature), start=float(times[0]), catalogue=catalogue
-    )
-
-
-def _simulated(
-    run: RunArrays, times: np.ndarray, restarts: Restarts, write: Callable[..., None], width: int
+    restarts: Restarts,
+    catalogue: Catalogue,
+    whole: bool,
 ) -> np.ndarray:
-    """Rows (n, width) as ``write`` of the kernel writes them."""
+    """Rows, of all outputs or of what a tracker sees."""
     times = np.ascontiguousarray(times, dtype=float)
+    u, start = inputs(speed, temperature), float(times[0])
+    run = RunArrays.begin(p, u, start=start, catalogue=catalogue)
+    width = O_SIZE if whole else TRACKED
     o, r = np.full(width * len(times), np.nan), restarts.flat(run.p)
-    write(*run.all, times, o, len(times), r, len(restarts.rows))
+    run.kernel.record_restarted(*run.all, times, o, len(times), r, len(restarts.rows), whole)
     return o.reshape(-1, width)

@@ -103,7 +103,7 @@ class _Run:
         span = int(np.searchsorted(self.times, within, side="right")) - self.rows
         wanted = min(max(span, 1), ROWS_AT_ONCE, len(self.times) - self.rows)
         record = self.arrays.kernel.record
-        done = record(*self.arrays.all, self.t, self.o, self.rows, wanted)
+        done = record(*self.arrays.all, self.t, self.o, self.rows, wanted, True)
         self.rows += done
         self._drain_events()
         if done < wanted:

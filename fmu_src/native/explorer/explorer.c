@@ -61,7 +61,7 @@ CALLED(begin) const char *explorer_begin(void)
 /* Go on to the first so many `times`, a row of `outputs` at each; the number of rows that came. */
 CALLED(record) int explorer_record(int count)
 {
-    return (int)stickslip_record(p, u, z, w, e, times, o, 0, count);
+    return (int)stickslip_record(p, u, z, w, e, times, o, 0, count, true);
 }
 
 /* Why fewer rows came, and the time that was reached. */
@@ -122,7 +122,7 @@ CALLED(regime) int explorer_regime(double begin, double end)
         return ENDS_EARLY;
     }
     forget_events(begin);
-    if (stickslip_record(p, u, z, w, e, times, o, 1, 1) < 1) {
+    if (stickslip_record(p, u, z, w, e, times, o, 1, 1, true) < 1) {
         return ENDS_EARLY;
     }
     double share = time_in_slip(begin, end) / (end - begin);

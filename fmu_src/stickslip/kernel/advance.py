@@ -10,18 +10,30 @@ from __future__ import annotations
 from math import isfinite
 
 from . import Floats
-from .bristles.events import settle_bristles
 from .bristles.law import has_bristles
-from .bristles.step import choose_bristles, fast_slip_bound, finish_bristle_step, stable_step
+from .bristles.step import (
+    choose_bristles,
+    fast_slip_bound,
+    finish_bristle_step,
+    settle_bristles,
+    stable_step,
+)
 from .contact import rest_speed, scaled_sliding_speed
-from .events import break_away, choose_sliding, keep_direction_steady, set_direction, settle
+from .events import (
+    break_away,
+    choose_sliding,
+    keep_direction_steady,
+    look_at,
+    set_direction,
+    settle,
+    time_to_rest,
+)
 from .friction.coefficient import holding_coefficient, is_felt
 from .interpolant import copy_instant, look_inside, set_interpolant
 from .layout import *
 from .motion import block_energy
-from .rest import look_at, time_to_rest
+from .rig.drive import set_surface_phase
 from .rig.springs import shortest_spring
-from .rig.surface import set_surface_phase
 from .runge_kutta import begin_step, load_instant, take_step
 from .steady_sliding import direction_is_free
 from .terms import set_starting_states

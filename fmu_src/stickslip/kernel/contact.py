@@ -8,9 +8,8 @@ from . import Floats
 from .friction.coefficient import holding_coefficient, onset_coefficient
 from .friction.disc import disc_friction
 from .layout import *
-from .rig.drive import external_moment, force_across, force_along
+from .rig.drive import input_at, surface_motion
 from .rig.springs import add_damping, add_spring_forces
-from .rig.surface import surface_motion
 
 
 def set_sliding_velocity(w: Floats, state: int) -> None:
@@ -242,9 +241,8 @@ def rest_speed(p: Floats, u: Floats) -> float:
 
 def set_loads(p: Floats, u: Floats, w: Floats, state: int) -> None:
     """Springs, damping and external loads on the block into ``w[W_LOAD:]`` (N, N, N m)."""
-    w[W_LOAD] = force_along(u, w[state + TIME])
-    w[W_LOAD + 1] = force_across(u, w[state + TIME])
-    w[W_LOAD + 2] = external_moment(u, w[state + TIME])
+    for i in range(3):
+        w[W_LOAD + i] = input_at(u, U_FORCE_X + i, w[state + TIME])
     add_spring_forces(p, w, state)
     add_damping(p, w, state)
 

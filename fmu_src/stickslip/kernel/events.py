@@ -1,16 +1,28 @@
-"""Stick and slip as events: where a slip begins, where it ends, and what the contact does then."""
+"""Stick and slip: the load that a contact at rest holds, where a slip begins and where it ends.
+
+Both are events, located to rounding. How what slides comes to rest, and what the contact does then.
+"""
 
 from __future__ import annotations
 
-from math import sqrt
+from math import log, sqrt
 
 from . import Floats
-from .contact import rest_speed, scaled_sliding_speed, set_holding_load, set_onset_direction
+from .bristles.law import has_bristles, set_bristle_friction, yielding_share
+from .contact import (
+    holding_ratio,
+    rest_speed,
+    scaled_sliding_speed,
+    set_contact,
+    set_holding_load,
+    set_onset_direction,
+)
 from .friction.coefficient import age_left, holding_coefficient
+from .friction.force import friction_in_slip
 from .layout import *
 from .motion import kinetic_energy
-from .rest import come_to_rest, excess_load, look_at, set_contact_in_phase
-from .runge_kutta import begin_step, load_instant, take_step
+from .rig.drive import set_surface_phase
+from .runge_kutta import begin_step, follow_surface, load_instant, take_step
 from .steady_sliding import (
     may_slide_quasi_steadily,
     set_steady_direction,
@@ -18,17 +30,152 @@ from .steady_sliding import (
     sliding_energy,
     turn_to_steady_direction,
 )
-from .stick import fastest_presliding
+from .stick import fastest_presliding, set_stick_velocity
+
+# Of v_s: sliding slower than this is a stick of a contact with bristles.
+STICK_SPEED = 0.1
 
 
-def log_event(z: Floats, e: Floats, instant: int) -> None:
-    """Note time, new mode and x; events beyond the capacity are counted only."""
-    count = int(e[E_COUNT])
-    if count < int(e[E_CAPACITY]):
-        e[E_FIRST + E_WIDTH * count] = z[instant + TIME]
-        e[E_FIRST + E_WIDTH * count + 1] = z[instant + MODE]
-        e[E_FIRST + E_WIDTH * count + 2] = z[instant + X]
-    e[E_COUNT] = count + 1.0
+def look_at(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
+    """Loads, surface and sliding velocity at an instant in ``z``."""
+    load_instant(p, z, w, instant)
+    set_contact(p, u, w, W_STATE)
+
+
+def set_contact_in_phase(
+    p: Floats, u: Floats, z: Floats, w: Floats, instant: int, phase: float
+) -> None:
+    """Loads, surface and sliding velocity at an instant in ``z``, in a phase of the surface.
+
+    ``phase`` is a time in the phase that counts: the end of the speed ramp belongs to the step that
+    ends there as well as to the one that begins there, and the load differs.
+    """
+    load_instant(p, z, w, instant)
+    set_surface_phase(p, w, phase)
+    set_contact(p, u, w, W_STATE)
+
+
+def excess_load(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, phase: float) -> float:
+    """Friction demand over friction capacity, less 1: the function whose zero is the break-away.
+
+    ``phase`` as in `set_contact_in_phase`. A stick ratio below 1 judges stick by a part of the
+    load (stick_stiffness, the study's fault).
+    """
+    set_contact_in_phase(p, u, z, w, instant, phase)
+    set_holding_load(p, w)
+    for i in range(3):
+        w[W_FRICTION + i] *= p[P_STICK_RATIO]
+    return holding_ratio(p, u, w) - 1.0
+
+
+def stop_sliding(
+    p: Floats, u: Floats, z: Floats, w: Floats, instant: int, presliding: float
+) -> None:
+    """Take away what is left of the sliding velocity in ``w``, as friction would.
+
+    What a stick has by ``presliding`` per load, m/(s N), is left. The impulse -M d that takes d
+    away makes heat of M d^2 / 2, all of the sliding's energy where there is no presliding, and does
+    work on the velocity that is left: the ledger stays closed.
+    """
+    dx = w[W_SLIDING]
+    dy = 0.0
+    dr = 0.0
+    if p[P_LATERAL] > 0.0:
+        dy = p[P_FREE_Y] * w[W_SLIDING + 1]
+        dr = p[P_FREE_PHI] * w[W_SLIDING + 2]
+    m = p[P_MASS]
+    j = p[P_INERTIA]
+    follow_surface(p, u, z, w, instant, presliding)
+    if presliding != 0.0:
+        dx -= w[W_SLIDING]
+        if p[P_LATERAL] > 0.0:
+            dy -= p[P_FREE_Y] * w[W_SLIDING + 1]
+            dr -= p[P_FREE_PHI] * w[W_SLIDING + 2]
+    z[instant + HEAT] += 0.5 * (m * (dx * dx + dy * dy) + j * dr * dr)
+    work = m * (dx * z[instant + VX] + dy * z[instant + VY]) + j * dr * z[instant + OMEGA]
+    z[instant + WORK_SURFACE] -= work
+
+
+def stick_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
+    """`excess_load` of a block that were to stick, with the presliding that it would then have."""
+    load_instant(p, z, w, instant)
+    set_stick_velocity(p, u, w, p[P_PRESLIDING])
+    for i in range(3):
+        w[W_FRICTION + i] *= p[P_STICK_RATIO]
+    return holding_ratio(p, u, w) - 1.0
+
+
+def come_to_rest(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
+    """Bring a block that hardly slides to rest on the surface, or to presliding; its `excess_load`.
+
+    One that is not to stick preslides no longer, but keeps what velocity it had from that. Leaves
+    the contact there in ``w``.
+    """
+    presliding = p[P_PRESLIDING]
+    if presliding != 0.0:
+        if stick_excess(p, u, z, w, instant) >= 0.0:
+            presliding = 0.0
+        look_at(p, u, z, w, instant)
+    if presliding == p[P_PRESLIDING] or z[instant + MODE] == SLIP:
+        stop_sliding(p, u, z, w, instant, presliding)
+    return excess_load(p, u, z, w, instant, z[instant + TIME])
+
+
+def stopping_time(p: Floats, w: Floats) -> float:
+    """Time in which the scaled sliding speed would vanish at its present rate, s; -1 if it grows.
+
+    With the slopes of `begin_step` and the contact in ``w``.
+    """
+    rate = sliding_rate(p, w, w[W_SLOPES + VX - 1], w[W_SLOPES + VY - 1], w[W_SLOPES + OMEGA - 1])
+    if rate >= 0.0:
+        return -1.0
+    speed = scaled_sliding_speed(p, w)
+    return speed * speed / -rate
+
+
+def time_to_rest(p: Floats, u: Floats, w: Floats) -> float:
+    """As `stopping_time`, with the friction of the speeds on the way, where it depends on speed.
+
+    When the end is near, ds / (-ds/dt) is integrated by Gauss-Legendre's three points, the other
+    loads as they are now: the nearer to the end a step may go, the fewer are needed. Leaves the
+    friction of a slower slip in ``w``.
+    """
+    rest = stopping_time(p, w)
+    speed = scaled_sliding_speed(p, w)
+    far = rest < 0.0 or rest > p[P_LONGEST_STEP]
+    if p[P_LOCAL_LAW] == 0.0 or far or speed <= rest_speed(p, u):
+        return rest
+    time = 0.0
+    for i in range(3):
+        part = 0.5 + 0.5 * (i - 1) * sqrt(0.6)
+        weight = (5.0 + 3.0 * (i % 2)) / 18.0
+        rate = slower_sliding_rate(p, u, w, part)
+        if rate >= 0.0:
+            return rest
+        time += weight * speed * speed / -rate
+    return time
+
+
+def sliding_rate(p: Floats, w: Floats, ax: float, ay: float, ar: float) -> float:
+    """Scaled sliding velocity in ``w`` times its rate, m^2/s^3, where the block accelerates so."""
+    kappa = p[P_LATERAL]
+    arm = kappa * p[P_RADIUS]
+    rate = w[W_SLIDING] * (ax - w[W_SURFACE + 3])
+    rate += kappa * kappa * w[W_SLIDING + 1] * (ay - w[W_SURFACE + 4])
+    rate += arm * arm * w[W_SLIDING + 2] * (ar - w[W_SURFACE + 5])
+    return rate
+
+
+def slower_sliding_rate(p: Floats, u: Floats, w: Floats, part: float) -> float:
+    """As `sliding_rate`, with the friction of a part of the sliding velocity in ``w``."""
+    kappa = p[P_LATERAL]
+    sy = kappa * w[W_SLIDING + 1]
+    sr = kappa * p[P_RADIUS] * w[W_SLIDING + 2]
+    friction_in_slip(p, u, w, part * w[W_SLIDING], part * sy, part * sr)
+    ax = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
+    ay = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]
+    ar = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
+    return sliding_rate(p, w, ax, ay, ar)
 
 
 def set_direction(p: Floats, z: Floats, w: Floats, instant: int, speed: float) -> None:
@@ -38,11 +185,23 @@ def set_direction(p: Floats, z: Floats, w: Floats, instant: int, speed: float) -
     z[instant + DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
 
 
-def note_break_away(z: Floats, instant: int) -> None:
-    """Count a break-away at an instant, and note how old the contact is that gives way."""
-    z[instant + SLIPS] += 1.0
-    z[instant + AGE_AWAY] = z[instant + TIME] - z[instant + HOLD_SINCE]
-    z[instant + DISTANCE_AWAY] = z[instant + DISTANCE]
+def note_mode(p: Floats, z: Floats, w: Floats, e: Floats, instant: int) -> None:
+    """Note that the contact at an instant has just changed its mode: age, count and log.
+
+    How old is the contact that gives way? Events beyond the log's capacity are counted only.
+    """
+    if z[instant + MODE] == SLIP:
+        z[instant + SLIPS] += 1.0
+        z[instant + AGE_AWAY] = z[instant + TIME] - z[instant + HOLD_SINCE]
+        z[instant + DISTANCE_AWAY] = z[instant + DISTANCE]
+    else:
+        z[instant + HOLD_SINCE] = z[instant + TIME] - age_left(p, w)
+    count = int(e[E_COUNT])
+    if count < int(e[E_CAPACITY]):
+        e[E_FIRST + E_WIDTH * count] = z[instant + TIME]
+        e[E_FIRST + E_WIDTH * count + 1] = z[instant + MODE]
+        e[E_FIRST + E_WIDTH * count + 2] = z[instant + X]
+    e[E_COUNT] = count + 1.0
 
 
 def release(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
@@ -84,40 +243,70 @@ def settle(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int) 
     else:
         release(p, u, z, w, instant)
     if z[instant + MODE] != before:
-        if z[instant + MODE] == SLIP:
-            note_break_away(z, instant)
-        else:
-            z[instant + HOLD_SINCE] = z[instant + TIME] - age_left(p, w)
-        log_event(z, e, instant)
+        note_mode(p, z, w, e, instant)
 
 
-def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
-    """Move NEXT back to the break-away, if the contact gives way in the step from HERE.
+def mode_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
+    """How far a contact with bristles is beyond its mode at an instant: above 0 it has changed.
+
+    The instant's mode says whether a break-away or a new stick is looked for.
+    """
+    look_at(p, u, z, w, instant)
+    speed = scaled_sliding_speed(p, w) / p[P_TRANSITION_SPEED]
+    if z[instant + MODE] == STICK:
+        grown = log(max(speed, 1e-9))  # it grows by e in a time
+        if grown < 0.0:
+            return grown
+        set_bristle_friction(p, u, w)
+        return min(grown, yielding_share(p, w) - 1.0)
+    slow = 1.0 - speed / STICK_SPEED
+    if speed > 1.0 or slow >= 0.0:
+        return slow
+    set_bristle_friction(p, u, w)
+    return max(slow, -yielding_share(p, w))
+
+
+def event_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
+    """The function whose zero, in the step from HERE, is the break-away or the change of mode."""
+    if has_bristles(p):
+        return mode_excess(p, u, z, w, instant)
+    return excess_load(p, u, z, w, instant, z[HERE + TIME])
+
+
+def step_to_event(p: Floats, u: Floats, z: Floats, w: Floats) -> bool:
+    """Move NEXT back to the event, if there is one in the step from HERE.
 
     Illinois iteration on the size of the step until time itself has no finer resolution, or the
     load is at the limit by far better than a step's error: every trial is a step of full order
     from HERE, so the event is as exact as the motion. NEXT ends at the side where the load has
-    reached the limit.
+    reached the limit. With bristles nothing that moves depends on the event but the age.
     """
-    excess = excess_load(p, u, z, w, NEXT, z[HERE + TIME])
+    excess = event_excess(p, u, z, w, NEXT)
     if excess < 0.0:
-        return
+        return False
     load_instant(p, z, w, HERE)  # the trials belong to the surface phase of HERE
     low = 0.0
     high = z[NEXT + TIME] - z[HERE + TIME]
-    excess_low = excess_load(p, u, z, w, HERE, z[HERE + TIME])
+    excess_low = event_excess(p, u, z, w, HERE)
     excess_high = excess
     finest = 4e-16 * max(abs(z[NEXT + TIME]), high)
+    enough = p[P_TOLERANCE] * sqrt(p[P_TOLERANCE])
+    lack = 0.0
     side = 0
     sweep = 0
-    enough = p[P_TOLERANCE] * sqrt(p[P_TOLERANCE])
-    while high - low > finest and not 0.0 <= excess <= enough and sweep < 200:
+    if has_bristles(p):
+        enough = max(1e-9, p[P_TOLERANCE])
+        lack = enough
+        finest = enough * high
+        if excess_low >= 0.0:  # beyond its mode from the beginning
+            sweep = 200
+    while high - low > finest and not -lack <= excess <= enough and sweep < 200:
         h = 0.5 * (low + high)
         if excess_low < 0.0 and sweep % 4 != 3:
             h = high - excess_high * (high - low) / (excess_high - excess_low)
         load_instant(p, z, w, HERE)
         take_step(p, u, z, w, HERE, NEXT, h)
-        excess = excess_load(p, u, z, w, NEXT, z[HERE + TIME])
+        excess = event_excess(p, u, z, w, NEXT)
         if excess < 0.0:
             low = h
             excess_low = excess
@@ -131,13 +320,25 @@ def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
                 excess_low = 0.5 * excess_low
             side = 1
         sweep += 1
-    if excess < 0.0:
+    if excess < -lack:
         load_instant(p, z, w, HERE)
         take_step(p, u, z, w, HERE, NEXT, high)
-    set_contact_in_phase(p, u, z, w, NEXT, z[HERE + TIME])
-    release(p, u, z, w, NEXT)
-    note_break_away(z, NEXT)
-    log_event(z, e, NEXT)
+    return True
+
+
+def break_away(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
+    """Let the contact slide from NEXT on, moved back to the break-away, if there is one."""
+    if step_to_event(p, u, z, w):
+        set_contact_in_phase(p, u, z, w, NEXT, z[HERE + TIME])
+        release(p, u, z, w, NEXT)
+        note_mode(p, z, w, e, NEXT)
+
+
+def switch_mode(p: Floats, z: Floats, w: Floats, e: Floats, instant: int) -> None:
+    """Give a contact with bristles its other mode."""
+    load_instant(p, z, w, instant)
+    z[instant + MODE] = SLIP + STICK - z[instant + MODE]
+    note_mode(p, z, w, e, instant)
 
 
 def turn(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:

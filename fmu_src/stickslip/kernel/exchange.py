@@ -32,7 +32,6 @@ from __future__ import annotations
 
 from . import Floats
 from .advance import settle_contact, sliding_along
-from .bristles.events import mode_excess
 from .bristles.law import has_bristles
 from .contact import (
     holding_ratio,
@@ -42,12 +41,21 @@ from .contact import (
     set_holding_load,
     speed_scale,
 )
-from .events import log_event, note_break_away, release, set_direction, settle
-from .friction.coefficient import age_left, holding_coefficient
+from .events import (
+    excess_load,
+    look_at,
+    mode_excess,
+    note_mode,
+    release,
+    set_direction,
+    settle,
+    stop_sliding,
+    switch_mode,
+)
+from .friction.coefficient import holding_coefficient
 from .layout import *
 from .motion import set_slopes
 from .outputs import show
-from .rest import excess_load, look_at, stop_sliding
 from .rig.springs import shortest_spring
 from .runge_kutta import load_instant, state_scale
 from .steady_sliding import LOOK_AHEAD
@@ -314,8 +322,7 @@ def end_stick(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> None:
     if excess_load(p, u, z, w, SHOWN, z[SHOWN + TIME]) < -AT_THE_LIMIT:
         return
     release(p, u, z, w, SHOWN)
-    note_break_away(z, SHOWN)
-    log_event(z, e, SHOWN)
+    note_mode(p, z, w, e, SHOWN)
     settle_sliding(p, u, z, w)
 
 
@@ -353,14 +360,7 @@ def change_bristle_mode(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -
     """Give the contact with bristles at SHOWN its other mode if it is beyond the present one."""
     if mode_excess(p, u, z, w, SHOWN) < -AT_THE_LIMIT:
         return
-    load_instant(p, z, w, SHOWN)
-    if z[SHOWN + MODE] == STICK:
-        z[SHOWN + MODE] = SLIP
-        note_break_away(z, SHOWN)
-    else:
-        z[SHOWN + MODE] = STICK
-        z[SHOWN + HOLD_SINCE] = z[SHOWN + TIME] - age_left(p, w)
-    log_event(z, e, SHOWN)
+    switch_mode(p, z, w, e, SHOWN)
 
 
 def update_event(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, anew: bool) -> None:

@@ -40,20 +40,20 @@ def set_interpolant(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     for stage in range(STAGES, ALL_STAGES):
         add_stage(p, u, z, w, HERE, stage)
     for i in range(STATES):
-        change = p[P_TABLEAU + T_B] * w[W_SLOPES + i]
+        change = STAGE_WEIGHTS[END_OF_STEP] * w[W_SLOPES + i]
         for stage in range(LATE, STAGES):
-            change += p[P_TABLEAU + T_B + stage] * w[W_SLOPES + stage * STATES + i]
+            change += STAGE_WEIGHTS[END_OF_STEP + stage] * w[W_SLOPES + stage * STATES + i]
         first = w[W_SLOPES + i]
         last = w[W_SLOPES + STAGES * STATES + i]
         z[Z_DENSE + i] = h * change
         z[Z_DENSE + STATES + i] = h * (first - change)
         z[Z_DENSE + 2 * STATES + i] = h * (2.0 * change - first - last)
     for power in range(EXTRA_POWERS):
-        row = P_TABLEAU + T_D + power * ALL_STAGES
+        row = power * ALL_STAGES
         for i in range(STATES):
-            total = p[row] * w[W_SLOPES + i]
+            total = INTERPOLANT_WEIGHTS[row] * w[W_SLOPES + i]
             for stage in range(LATE, ALL_STAGES):
-                total += p[row + stage] * w[W_SLOPES + stage * STATES + i]
+                total += INTERPOLANT_WEIGHTS[row + stage] * w[W_SLOPES + stage * STATES + i]
             z[Z_DENSE + (POWERS - EXTRA_POWERS + power) * STATES + i] = h * total
     z[Z_SMOOTH] = 0.0
     if defect(p, u, z, w, 0.7) < 80.0:

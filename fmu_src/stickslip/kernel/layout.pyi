@@ -12,6 +12,7 @@ TEMPERATURE_LIMIT: int
 TABLE_LIMIT: int
 STAGES: int
 ALL_STAGES: int
+END_OF_STEP: int
 POWERS: int
 EXTRA_POWERS: int
 LATE: int
@@ -97,10 +98,7 @@ U_FORCE_Y: int
 U_MOMENT: int
 U_FILM: int
 U_SINCE: int
-U_SPEED_RATE: int
-U_FORCE_X_RATE: int
-U_FORCE_Y_RATE: int
-U_MOMENT_RATE: int
+U_RATE: int
 U_SPEED_CURVE: int
 U_SIZE: int
 P_MASS: int
@@ -128,8 +126,6 @@ P_SPEED_SCALE: int
 P_SHORTEST: int
 P_INITIAL: int
 P_FEEDING: int
-P_QUADRATURE: int
-P_TABLEAU: int
 P_PRESLIDING: int
 P_RELATIVE_STIFFNESS: int
 P_TRANSITION_SPEED: int
@@ -381,22 +377,17 @@ D_SURFACE_SCATTER: int
 D_SIZE: int
 DRAW_SEED: tuple[float, ...]
 DRAW_UNIFORM: tuple[float, ...]
-T_A: int
-T_B: int
-T_C: int
-T_E5: int
-T_E3: int
-T_D: int
-T_SIZE: int
 STAGE_WEIGHTS: tuple[float, ...]
 NODES: tuple[float, ...]
 ERROR_WEIGHTS_5: tuple[float, ...]
 ERROR_WEIGHTS_3: tuple[float, ...]
 INTERPOLANT_WEIGHTS: tuple[float, ...]
-Q_STRIP: int
-Q_RAY: int
-Q_DEPTH: int
-Q_SIZE: int
+STRIP_COSINES: tuple[float, ...]
+STRIP_SQUARED_SINES: tuple[float, ...]
+RAY_COSINES: tuple[float, ...]
+RAY_SQUARED_SINES: tuple[float, ...]
+DEPTH_NODES: tuple[float, ...]
+DEPTH_WEIGHTS: tuple[float, ...]
 W_STATE: int
 W_SLOPES: int
 W_LOAD: int

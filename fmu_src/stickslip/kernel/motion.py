@@ -7,9 +7,8 @@ from .bristles.law import bristle_energy, has_bristles, set_bristle_friction, st
 from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load
 from .friction.force import friction_at_onset, friction_in_slip
 from .layout import *
-from .rig.drive import external_moment, force_across, force_along
+from .rig.drive import input_at, surface_speed
 from .rig.springs import damping_power, elastic_energy
-from .rig.surface import surface_speed
 from .steady_sliding import set_quasi_steady_motion
 from .stick import set_presliding
 from .terms import set_state_rates
@@ -104,8 +103,9 @@ def set_slopes(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> None:
     work += w[W_FRICTION] * w[W_SURFACE] + w[W_FRICTION + 1] * w[W_SURFACE + 1]
     work += w[W_FRICTION + 2] * w[W_SURFACE + 2]
     t = w[W_STATE + TIME]
-    external = force_along(u, t) * w[W_STATE + VX] + force_across(u, t) * w[W_STATE + VY]
-    external += external_moment(u, t) * w[W_STATE + OMEGA]
+    external = input_at(u, U_FORCE_X, t) * w[W_STATE + VX]
+    external += input_at(u, U_FORCE_Y, t) * w[W_STATE + VY]
+    external += input_at(u, U_MOMENT, t) * w[W_STATE + OMEGA]
     w[out + HEAT - 1] = heat
     w[out + DISTANCE - 1] = w[W_MEAN_SPEED]
     w[out + TRAVEL - 1] = surface_speed(p, u, w, w[W_STATE + TIME])

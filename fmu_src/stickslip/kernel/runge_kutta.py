@@ -1,4 +1,4 @@
-"""One explicit Runge-Kutta step with an error estimate (tableau in the parameter vector)."""
+"""One explicit Runge-Kutta step with an error estimate (tableau: ``dormand_prince.toml``)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .bristles.law import has_bristles
 from .contact import speed_scale
 from .layout import *
 from .motion import set_slopes
-from .rig.surface import set_surface_phase
+from .rig.drive import set_surface_phase
 from .stick import held_energy, set_stick_velocity
 from .terms import with_state_scale
 
@@ -56,13 +56,13 @@ def add_stage(p: Floats, u: Floats, z: Floats, w: Floats, start: int, stage: int
     start.
     """
     h = w[W_SPAN]
-    row = P_TABLEAU + T_A + stage * ALL_STAGES
-    w[W_STATE + TIME] = z[start + TIME] + h * p[P_TABLEAU + T_C + stage]
+    row = stage * ALL_STAGES
+    w[W_STATE + TIME] = z[start + TIME] + h * NODES[stage]
     feeding = int(p[P_FEEDING])
     for i in range(feeding):
         w[W_STATE + 1 + i] = z[start + 1 + i]
     for before in range(stage):
-        weight = h * p[row + before]
+        weight = h * STAGE_WEIGHTS[row + before]
         if weight != 0.0:
             for i in range(feeding):
                 w[W_STATE + 1 + i] += weight * w[W_SLOPES + before * STATES + i]
@@ -95,14 +95,14 @@ def close_step(p: Floats, u: Floats, z: Floats, w: Floats, end: int, h: float) -
     error3 = 0.0
     for i in range(STATES):
         slope = w[W_SLOPES + i]
-        change = p[P_TABLEAU + T_B] * slope
-        e5 = p[P_TABLEAU + T_E5] * slope
-        e3 = p[P_TABLEAU + T_E3] * slope
+        change = STAGE_WEIGHTS[END_OF_STEP] * slope
+        e5 = ERROR_WEIGHTS_5[0] * slope
+        e3 = ERROR_WEIGHTS_3[0] * slope
         for stage in range(LATE, STAGES):
             slope = w[W_SLOPES + stage * STATES + i]
-            change += p[P_TABLEAU + T_B + stage] * slope
-            e5 += p[P_TABLEAU + T_E5 + stage] * slope
-            e3 += p[P_TABLEAU + T_E3 + stage] * slope
+            change += STAGE_WEIGHTS[END_OF_STEP + stage] * slope
+            e5 += ERROR_WEIGHTS_5[stage] * slope
+            e3 += ERROR_WEIGHTS_3[stage] * slope
         z[end + 1 + i] += h * change
         scale = state_scale(p, u, i + 1, z[end + 1 + i])
         error5 += (e5 / scale) * (e5 / scale)

@@ -26,8 +26,8 @@ from .contact import set_contact, set_holding_load, set_sliding_velocity
 from .friction.coefficient import holding_coefficient
 from .friction.disc import disc_friction
 from .layout import *
+from .rig.drive import surface_motion
 from .rig.springs import damping_per_speed
-from .rig.surface import surface_motion
 
 # Each multiplies what the presliding velocity is off by by the presliding speed per load times the
 # damping per speed: hundredths where a contact sticks.

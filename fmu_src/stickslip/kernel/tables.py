@@ -32,6 +32,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
+from math import cos, pi, sin, sqrt
 from pathlib import Path
 
 from ..effects import EFFECTS
@@ -54,6 +55,7 @@ TEMPERATURE_LIMIT = 6  # of a table of friction
 TABLE_LIMIT = CURVE_LIMIT * TEMPERATURE_LIMIT  # coefficients of a table
 STAGES = 12  # of a step
 ALL_STAGES = 16  # with the slope at its end and those that only the interpolant needs
+END_OF_STEP = STAGES * ALL_STAGES  # where the weights of the end of a step are in STAGE_WEIGHTS
 POWERS = 7  # coefficients of the interpolant for each state
 EXTRA_POWERS = 4  # those that need the further stages
 LATE = 5  # stages 1 ... LATE - 1 feed later stages only: no result takes their slopes
@@ -104,6 +106,7 @@ DISCRETE_STATES = (
 )
 
 # --- u: inputs --------------------------------------------------------------------------------
+GIVEN_INPUTS = 6  # those that have values
 INPUTS = (
     ("U_SPEED", 1),  # m/s
     ("U_TEMPERATURE", 1),  # interface temperature, degC
@@ -112,16 +115,11 @@ INPUTS = (
     ("U_MOMENT", 1),
     ("U_FILM", 1),  # water between block and surface, mean over the contact, m
     ("U_SINCE", 1),  # time at which the inputs have the values above, s
-    ("U_SPEED_RATE", 1),  # of those that go on from there linearly in time, the rates
-    ("U_FORCE_X_RATE", 1),
-    ("U_FORCE_Y_RATE", 1),
-    ("U_MOMENT_RATE", 1),
+    ("U_RATE", GIVEN_INPUTS),  # with which those above go on from there, per s
     ("U_SPEED_CURVE", 1),  # the rate of that of the speed, m/s^3
 )
 
-# --- g: inputs as a host of the FMU gives them, see rig.drive and rig.history; those of `INPUTS`
-# that have values
-GIVEN_INPUTS = 6
+# --- g: inputs as a host of the FMU gives them, see rig.drive and rig.history
 MOMENTS = 16  # times at which inputs are remembered in model exchange
 DEGREES = 4  # of the polynomials through some of them
 GIVEN = (
@@ -160,21 +158,6 @@ GIVEN = (
     ("G_TABLE", DEGREES + 2),  # divided differences
 )
 
-# --- inside parts of p ------------------------------------------------------------------------
-TABLEAU = (  # the Runge-Kutta coefficients
-    ("T_A", STAGES * ALL_STAGES),  # row by row
-    ("T_B", (ALL_STAGES - STAGES) * ALL_STAGES),  # its first row gives the end of the step
-    ("T_C", ALL_STAGES),
-    ("T_E5", STAGES),
-    ("T_E3", STAGES),
-    ("T_D", EXTRA_POWERS * ALL_STAGES),
-)
-QUADRATURE = (
-    ("Q_STRIP", 2 * RAYS),  # cos and sin^2 of the strips' angle
-    ("Q_RAY", 2 * RAYS),  # cos and sin^2 of the rays' angle about the centre of rotation
-    ("Q_DEPTH", 2 * DEPTHS),  # Gauss-Legendre nodes, then weights
-)
-
 # --- p: parameters; those of the effects follow -----------------------------------------------
 PARAMETERS = (
     ("P_MASS", 1),
@@ -202,8 +185,6 @@ PARAMETERS = (
     ("P_SHORTEST", 1),  # length below which a spring counts as collapsed, m
     ("P_INITIAL", 6),  # x, y, phi, vx, vy, omega
     ("P_FEEDING", 1),  # integrated numbers that the motion depends on: MOVING, SHEARED, REMEMBERED
-    ("P_QUADRATURE", sum(size for _, size in QUADRATURE)),  # see friction.disc
-    ("P_TABLEAU", sum(size for _, size in TABLEAU)),  # see packing.tableau
     ("P_PRESLIDING", 1),  # sliding speed of a stick per load, m/(s N), see stick
     ("P_RELATIVE_STIFFNESS", 4),  # of each spring: what its force is multiplied by
     ("P_TRANSITION_SPEED", 1),  # over which friction falls from mu_s to mu_k, m/s; 0: at once
@@ -392,9 +373,33 @@ def drawn(effects: Sequence[Effect], places: Mapping[str, int]) -> dict[str, tup
 
 
 def tableau() -> dict[str, tuple[float, ...]]:
-    """The method's coefficients, row after row."""
-    rows = tomllib.loads(Path(__file__).with_name("dormand_prince.toml").read_text("utf-8"))
-    return {name: tuple(number for row in table for number in row) for name, table in rows.items()}
+    """The method's coefficients, row after row; each stage's row is filled up with zeros."""
+    found = tomllib.loads(Path(__file__).with_name("dormand_prince.toml").read_text("utf-8"))
+    found["STAGE_WEIGHTS"] = [
+        row + [0.0] * (ALL_STAGES - len(row)) for row in [[], *found["STAGE_WEIGHTS"]]
+    ]
+    return {name: tuple(number for row in table for number in row) for name, table in found.items()}
+
+
+def quadrature() -> dict[str, tuple[float, ...]]:
+    """By which `friction.disc` integrates over the contact.
+
+    Angles of strips and of rays about the centre of rotation (midpoint rule), and the four nodes of
+    Gauss and Legendre, in pairs from the inner to the outer, with their weights.
+    """
+    found: dict[str, tuple[float, ...]] = {}
+    for name, parts in (("STRIP", 2 * RAYS), ("RAY", RAYS)):  # parts of half a turn
+        angles = [(j + 0.5) * pi / parts for j in range(RAYS)]
+        found[f"{name}_COSINES"] = tuple(map(cos, angles))
+        found[f"{name}_SQUARED_SINES"] = tuple(sin(angle) * sin(angle) for angle in angles)
+    pairs = [
+        (sqrt(3.0 / 7.0 + inner * 2.0 / 7.0 * sqrt(6.0 / 5.0)), inner) for inner in (-1.0, 1.0)
+    ]
+    found["DEPTH_NODES"] = tuple(node for root, _ in pairs for node in (-root, root))
+    found["DEPTH_WEIGHTS"] = tuple(
+        (18.0 - inner * sqrt(30.0)) / 36.0 for _, inner in pairs for _ in range(2)
+    )
+    return found
 
 
 def constants(
@@ -424,9 +429,8 @@ def constants(
         **_sized(given, "V_SIZE"),
         **_sized(_placed([*DRAWS, *draw_slots(effects)]), "D_SIZE"),
         **drawn(effects, given),
-        **_sized(_placed(TABLEAU), "T_SIZE"),
         **tableau(),
-        **_sized(_placed(QUADRATURE), "Q_SIZE"),
+        **quadrature(),
         **_sized(_placed(scratch(size, states)), "W_SIZE"),
         **_sized(_placed(EVENTS), "E_FIRST"),
         **_sized(_placed(GIVEN), "G_SIZE"),

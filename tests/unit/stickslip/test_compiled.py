@@ -153,7 +153,7 @@ def test_threads_compute_at_the_same_time():
     o = np.zeros(O_SIZE * len(times))
 
     def record():
-        run.kernel.record(*run.all, times, o, 0, len(times))
+        run.kernel.record(*run.all, times, o, 0, len(times), True)
         ended.set()
 
     thread = threading.Thread(target=record)

@@ -9,22 +9,19 @@ from stickslip.generation.stubs import stubs
 from stickslip.kernel import layout, tables
 
 
-def test_the_tables_have_the_room_that_is_declared():
-    """None is cut off by what follows, and each row of stages is whole: its sum is its node."""
-    p = Parameters().pack()
-    tableau, stages = np.array(p[layout.P_TABLEAU :][: layout.T_SIZE]), layout.ALL_STAGES
-    rows = tableau[: layout.T_C].reshape(stages, stages)
-    np.testing.assert_allclose(rows.sum(axis=1), tableau[layout.T_C :][:stages], atol=1e-14)
+def test_the_tables_are_those_of_the_methods():
+    """Each row of stages is whole: its sum is its node."""
+    stages = layout.ALL_STAGES
+    rows = np.reshape(layout.STAGE_WEIGHTS, (stages, stages))
+    np.testing.assert_allclose(rows.sum(axis=1), layout.NODES, atol=1e-14)
     assert np.all(np.triu(rows) == 0.0)
-    disc = np.array(p[layout.P_QUADRATURE :][: layout.Q_SIZE])
     nodes, weights = np.polynomial.legendre.leggauss(layout.DEPTHS)
-    given = disc[layout.Q_DEPTH :].reshape(2, -1)
-    order = np.argsort(given[0])
-    np.testing.assert_allclose(given[:, order], [nodes, weights], rtol=1e-14)
-    for at, whole in ((layout.Q_STRIP, np.pi / 2.0), (layout.Q_RAY, np.pi)):
+    given = np.array([layout.DEPTH_NODES, layout.DEPTH_WEIGHTS])
+    np.testing.assert_allclose(given[:, np.argsort(given[0])], [nodes, weights], rtol=1e-14)
+    for name, whole in (("STRIP", np.pi / 2.0), ("RAY", np.pi)):
         angles = (np.arange(layout.RAYS) + 0.5) * whole / layout.RAYS
-        about = disc[at:][: 2 * layout.RAYS]
-        np.testing.assert_allclose(about, [*np.cos(angles), *np.sin(angles) ** 2], atol=1e-15)
+        about = [getattr(layout, f"{name}_{of}") for of in ("COSINES", "SQUARED_SINES")]
+        np.testing.assert_allclose(about, [np.cos(angles), np.sin(angles) ** 2], atol=1e-15)
 
 
 def test_two_numbers_of_one_name_are_refused():

@@ -1,7 +1,14 @@
-"""One internal step of a contact with bristles.
+"""Events of a contact with bristles, where these are left out, and one internal step.
 
-They are stiff only as their own vibration is, so that the explicit method follows them. At sliding
-speeds far above v_s they would be the stiffer the faster the slip, and have nothing left to say.
+Nothing jumps there, so the words are given to what an experimenter would call so. The block breaks
+away where it slides faster than v_s, so that friction has lost most of its excess, and the bristles
+follow no further; it sticks again where it slides at less than a tenth of v_s, or the bristles
+spring back. The ringing of a block that has come to rest on its bristles is no slip. Only the count
+of slips and the age of the contact depend on these words.
+
+Bristles are stiff only as their own vibration is, so that the explicit method follows them. At
+sliding speeds far above v_s they would be the stiffer the faster the slip, and have nothing left to
+say.
 """
 
 from __future__ import annotations
@@ -10,11 +17,78 @@ from math import sqrt
 
 from .. import Floats
 from ..contact import scaled_sliding_speed, speed_scale
+from ..events import (
+    STICK_SPEED,
+    look_at,
+    note_mode,
+    step_to_event,
+    stopping_time,
+    switch_mode,
+)
 from ..layout import *
-from ..rest import look_at, stopping_time
 from ..runge_kutta import begin_step, load_instant, take_step
-from .events import FAST_SLIP_BEGINS, FAST_SLIP_ENDS, change_mode, slide_steadily
-from .law import yielding_share
+from .law import (
+    bristle_energy,
+    set_holding_shear,
+    set_presliding_shear,
+    set_sliding_shear,
+    yielding_share,
+)
+
+# Of P_FAST_SLIP: a fast slip ends between it and this, and begins above the second. In between
+# either way of reckoning is good.
+FAST_SLIP_ENDS = 1.1
+FAST_SLIP_BEGINS = 1.25
+
+
+def slide_steadily(
+    p: Floats, u: Floats, z: Floats, w: Floats, instant: int, bristles: float
+) -> None:
+    """Give the bristles the shear of steady sliding at an instant whose contact is in ``w``.
+
+    ``bristles`` as of BRISTLES from there on. What their energy changes by is friction heat.
+    """
+    energy = bristle_energy(p, z, instant)
+    set_sliding_shear(p, u, z, w, instant)
+    z[instant + HEAT] += energy - bristle_energy(p, z, instant)
+    z[instant + BRISTLES] = bristles
+
+
+def settle_bristles(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int) -> None:
+    """Make an instant consistent at which a run begins, is set to a state, or its inputs change.
+
+    Where the shear is not known, it is that of steady sliding in slip, and in stick what the
+    load asks for; the run's energy then counts from there. A block that is known to have been HELD
+    has the velocity of its presliding, too.
+    """
+    look_at(p, u, z, w, instant)
+    speed = scaled_sliding_speed(p, w)
+    fast = FAST_SLIP_ENDS * p[P_FAST_SLIP]
+    if z[instant + BRISTLES] < 0.0:
+        held = z[instant + BRISTLES] == HELD
+        z[Z_ENERGY] -= bristle_energy(p, z, instant)
+        z[instant + BRISTLES] = 1.0
+        before = z[instant + MODE]
+        slow = p[P_TRANSITION_SPEED]
+        if before == SLIP:
+            slow *= STICK_SPEED
+        if speed > slow:
+            z[instant + MODE] = SLIP
+            load_instant(p, z, w, instant)
+            set_sliding_shear(p, u, z, w, instant)
+            if speed > fast:
+                z[instant + BRISTLES] = 0.0
+        else:
+            z[instant + MODE] = STICK
+            set_holding_shear(p, u, z, w, instant)
+            if held:
+                set_presliding_shear(p, u, z, w, instant)
+        if z[instant + MODE] != before:
+            note_mode(p, z, w, e, instant)
+        z[Z_ENERGY] += bristle_energy(p, z, instant)
+    elif z[instant + BRISTLES] == 0.0 and speed <= fast:  # another surface speed, at once
+        slide_steadily(p, u, z, w, instant, 1.0)
+
 
 # Rate times step up to which DOP853 is stable for bristles of any usual damping; it would find out
 # by itself, and reject every other step.
@@ -134,5 +208,5 @@ def finish_bristle_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -
     """Events of a contact with bristles in the step from HERE to NEXT."""
     if z[HERE + BRISTLES] == 0.0:
         end_fast_slip(p, u, z, w)
-        return
-    change_mode(p, u, z, w, e)
+    elif step_to_event(p, u, z, w):
+        switch_mode(p, z, w, e, NEXT)

@@ -22,23 +22,7 @@ from math import exp
 from .. import Floats
 from ..layout import *
 from ..rig.drive import varies
-from ..terms import (
-    feels_film,
-    feels_temperature,
-    has_state_law,
-    with_dry_factor,
-    with_film_friction,
-    with_flooded_share,
-    with_kinetic_factor,
-    with_kinetic_temperature_factor,
-    with_melting,
-    with_mixed,
-    with_place_variation,
-    with_state_law,
-    with_static_factor,
-    with_static_growth,
-    with_static_temperature_factor,
-)
+from ..terms import *
 from .table import table_coefficient
 
 

@@ -18,7 +18,7 @@ from __future__ import annotations
 from math import pi, sqrt
 
 from .. import Floats
-from ..layout import DEPTHS, P_FEW_POINTS, P_QUADRATURE, Q_DEPTH, Q_RAY, Q_STRIP, RAYS, W_PAIR
+from ..layout import *
 from .coefficient import sliding_coefficient
 
 
@@ -189,13 +189,13 @@ def add_law_over_strips(
     force = 0.0
     moment = 0.0
     for j in range(RAYS):
-        c = p[P_QUADRATURE + Q_STRIP + j]
-        along = sqrt(max(0.0, 1.0 - k * k * p[P_QUADRATURE + Q_STRIP + RAYS + j]))
+        c = STRIP_COSINES[j]
+        along = sqrt(max(0.0, 1.0 - k * k * STRIP_SQUARED_SINES[j]))
         for i in range(DEPTHS):
-            tau = p[P_QUADRATURE + Q_DEPTH + i]
+            tau = DEPTH_NODES[i]
             q = along + k * tau * c
             excess = max(0.0, sliding_coefficient(p, u, w, mu, sliding * q) + aged) - reference
-            share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * c * c * excess / RAYS
+            share = DEPTH_WEIGHTS[i] * c * c * excess / RAYS
             force += share * q
             moment += share * c * tau * q / along
     w[W_PAIR] += force
@@ -216,12 +216,12 @@ def add_law_over_rays(
     force = 0.0
     moment = 0.0
     for j in range(RAYS):
-        c = p[P_QUADRATURE + Q_RAY + j]
-        reach = k * c + sqrt(1.0 - k * k * p[P_QUADRATURE + Q_RAY + RAYS + j])
+        c = RAY_COSINES[j]
+        reach = k * c + sqrt(1.0 - k * k * RAY_SQUARED_SINES[j])
         for i in range(DEPTHS):
-            s = 0.5 * reach * (1.0 + p[P_QUADRATURE + Q_DEPTH + i])
+            s = 0.5 * reach * (1.0 + DEPTH_NODES[i])
             excess = max(0.0, sliding_coefficient(p, u, w, mu, spinning * s) + aged) - reference
-            share = p[P_QUADRATURE + Q_DEPTH + DEPTHS + i] * reach * s * excess / RAYS
+            share = DEPTH_WEIGHTS[i] * reach * s * excess / RAYS
             force += share * c
             moment += share * (s - k * c)
     w[W_PAIR] += force

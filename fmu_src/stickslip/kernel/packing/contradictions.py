@@ -8,7 +8,7 @@ from __future__ import annotations
 from .. import Floats
 from ..layout import *
 from ..terms import has_dry_law
-from .points import count_grown, count_points
+from .vector import count_grown, count_points
 
 # what `contradiction` returns
 NO_CONTRADICTION = 0

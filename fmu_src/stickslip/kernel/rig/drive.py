@@ -1,7 +1,8 @@
-"""What the inputs are at a time: constant during a call of `advance`, or going on in time.
+"""What the inputs are at a time, and how the surface moves by them: a belt, or a turning slab.
 
-A host gives inputs at its communication points. What they are in between is a matter of the
-parameter `input.hold`, and of the rates that it may give with them: see `lead_inputs`.
+Inputs are constant during a call of `advance`, or go on in time. A host gives them at its
+communication points. What they are in between is a matter of the parameter `input.hold`, and of the
+rates that it may give with them: see `lead_inputs`.
 
 Where a host gives the rate of the surface's speed at every point, the speed is quadratic in time:
 the acceleration, which decides when a stick ends, is then right to h^2, see `curve_of`.
@@ -17,42 +18,39 @@ from __future__ import annotations
 
 from .. import Floats
 from ..layout import *
+from ..terms import with_surface_acceleration, with_surface_speed
 
 # Of a step: by how much what is left of it behind an event may miss its end, as a host rounds.
 ROUNDING = 1e-9
 
 
+def input_at(u: Floats, i: int, t: float) -> float:
+    """Input i at the time t; of the surface's speed see `driven_speed`."""
+    return u[i] + u[U_RATE + i] * (t - u[U_SINCE])
+
+
 def driven_speed(u: Floats, t: float) -> float:
     """Speed that the surface is driven with, after its ramp, m/s."""
     since = t - u[U_SINCE]
-    return u[U_SPEED] + (u[U_SPEED_RATE] + 0.5 * u[U_SPEED_CURVE] * since) * since
+    return u[U_SPEED] + (u[U_RATE + U_SPEED] + 0.5 * u[U_SPEED_CURVE] * since) * since
 
 
 def driven_acceleration(u: Floats, t: float) -> float:
     """Rate of `driven_speed`, m/s^2."""
-    return u[U_SPEED_RATE] + u[U_SPEED_CURVE] * (t - u[U_SINCE])
-
-
-def force_along(u: Floats, t: float) -> float:
-    """External force on the block along x, N."""
-    return u[U_FORCE_X] + u[U_FORCE_X_RATE] * (t - u[U_SINCE])
-
-
-def force_across(u: Floats, t: float) -> float:
-    """External force on the block along y, N."""
-    return u[U_FORCE_Y] + u[U_FORCE_Y_RATE] * (t - u[U_SINCE])
-
-
-def external_moment(u: Floats, t: float) -> float:
-    """External moment on the block, N m."""
-    return u[U_MOMENT] + u[U_MOMENT_RATE] * (t - u[U_SINCE])
+    return u[U_RATE + U_SPEED] + u[U_SPEED_CURVE] * (t - u[U_SINCE])
 
 
 def varies(u: Floats) -> bool:
     """Does any input go on in time?"""
-    if u[U_SPEED_RATE] != 0.0 or u[U_SPEED_CURVE] != 0.0 or u[U_MOMENT_RATE] != 0.0:
-        return True
-    return u[U_FORCE_X_RATE] != 0.0 or u[U_FORCE_Y_RATE] != 0.0
+    for i in range(GIVEN_INPUTS):
+        if u[U_RATE + i] != 0.0:
+            return True
+    return u[U_SPEED_CURVE] != 0.0
+
+
+def is_mean(i: int) -> bool:
+    """Is input i constant in a step: half way to what it becomes?"""
+    return i == U_TEMPERATURE or i == U_FILM
 
 
 def is_due(g: Floats, end: float) -> bool:
@@ -145,13 +143,13 @@ def lead_anew(g: Floats, u: Floats, i: int, start: float, line: float, h: float)
     if span > h:
         g[G_REACHED + i] = start + (g[G_GOING + i] + half * h) * h
     u[i] = start
-    if i == U_TEMPERATURE or i == U_FILM:
+    if is_mean(i):
         u[i] = line + 0.5 * g[G_SLOPE + i] * h
 
 
 def keep_on(g: Floats, u: Floats, i: int, h: float) -> None:
     """Let input i go on, in a step of size h, as it has before the event."""
-    if i == U_TEMPERATURE or i == U_FILM:
+    if is_mean(i):
         return  # the mean of the whole step, up to its end
     u[i] = g[G_REACHED + i]
     g[G_REACHED + i] = u[i] + (g[G_GOING + i] + 0.5 * curve(g, i) * h) * h
@@ -196,12 +194,10 @@ def lead_inputs(g: Floats, u: Floats, sticks: bool, t: float, h: float) -> None:
         if g[G_CUT] == 0.0:
             g[G_BEFORE + i] = g[G_VALUE + i]
         g[G_HAS_RATE + i] = 0.0
+        if not is_mean(i):
+            u[U_RATE + i] = g[G_GOING + i]
     u[U_SINCE] = t
-    u[U_SPEED_RATE] = g[G_GOING + U_SPEED]
     u[U_SPEED_CURVE] = g[G_CURVE]
-    u[U_FORCE_X_RATE] = g[G_GOING + U_FORCE_X]
-    u[U_FORCE_Y_RATE] = g[G_GOING + U_FORCE_Y]
-    u[U_MOMENT_RATE] = g[G_GOING + U_MOMENT]
     if g[G_CUT] == 0.0:
         g[G_POINT] = t
         g[G_STEP] = h
@@ -211,10 +207,58 @@ def lead_inputs(g: Floats, u: Floats, sticks: bool, t: float, h: float) -> None:
 
 def cut_inputs(g: Floats, u: Floats, t: float) -> None:
     """Note in ``g`` that the step which `lead_inputs` has prepared has ended early, at ``t``."""
+    for i in range(3):
+        g[G_REACHED + U_FORCE_X + i] = input_at(u, U_FORCE_X + i, t)
     g[G_REACHED + U_SPEED] = driven_speed(u, t)
     g[G_GOING + U_SPEED] = driven_acceleration(u, t)
     g[G_SLOPE + U_SPEED] += g[G_CURVE] * (t - u[U_SINCE])
-    g[G_REACHED + U_FORCE_X] = force_along(u, t)
-    g[G_REACHED + U_FORCE_Y] = force_across(u, t)
-    g[G_REACHED + U_MOMENT] = external_moment(u, t)
     g[G_CUT] = 1.0
+
+
+def set_surface_phase(p: Floats, w: Floats, t: float) -> None:
+    """Say whether the internal step that begins at t lies in the speed ramp or behind it.
+
+    No internal step straddles the end of the speed ramp, so the phase belongs to the step and not
+    to the time: the acceleration, which jumps there, is unambiguous at both ends of every step.
+    """
+    w[W_RUNNING_UP] = 0.0
+    if t < p[P_RUN_UP]:
+        w[W_RUNNING_UP] = 1.0
+
+
+def steady_speed(p: Floats, u: Floats, w: Floats, t: float) -> float:
+    """Speed of the surface without ripple, m/s: a linear speed ramp, then constant."""
+    if w[W_RUNNING_UP] == 1.0:
+        return driven_speed(u, t) * t / p[P_RUN_UP]
+    return driven_speed(u, t)
+
+
+def surface_speed(p: Floats, u: Floats, w: Floats, t: float) -> float:
+    """Speed of the surface where the block rests, m/s."""
+    return with_surface_speed(p, u, w, steady_speed(p, u, w, t), t)
+
+
+def surface_acceleration(p: Floats, u: Floats, w: Floats, t: float) -> float:
+    """Rate of `surface_speed`, m/s^2."""
+    rate = driven_acceleration(u, t)
+    if w[W_RUNNING_UP] == 1.0:
+        rate = (driven_speed(u, t) + rate * t) / p[P_RUN_UP]
+    return with_surface_acceleration(p, u, w, rate, steady_speed(p, u, w, t), t)
+
+
+def surface_motion(p: Floats, u: Floats, w: Floats, state: int) -> None:
+    """Motion of the surface under the block's centre, into ``w[W_SURFACE:]``.
+
+    Three velocities and three accelerations (x, y, turning). With curvature c = 1/R the surface
+    turns at v c about (0, R): v_s = (v (1 - c y), v c x). The accelerations are those of a block
+    whose centre moves with (vx, vy) and keeps the velocity of the surface under it.
+    """
+    v = surface_speed(p, u, w, w[state + TIME])
+    a = surface_acceleration(p, u, w, w[state + TIME])
+    c = p[P_CURVATURE]
+    w[W_SURFACE] = v * (1.0 - c * w[state + Y])
+    w[W_SURFACE + 1] = v * c * w[state + X]
+    w[W_SURFACE + 2] = v * c
+    w[W_SURFACE + 3] = a * (1.0 - c * w[state + Y]) - v * c * w[state + VY]
+    w[W_SURFACE + 4] = a * c * w[state + X] + v * c * w[state + VX]
+    w[W_SURFACE + 5] = a * c

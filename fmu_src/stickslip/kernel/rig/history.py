@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from .. import Floats
 from ..layout import *
-from .drive import driven_acceleration, driven_speed, external_moment, force_across, force_along
+from .drive import driven_acceleration, driven_speed, input_at, is_mean
 
 # Of the motion's own time: what lies nearer than that says of a rate nothing but its rounding,
 # which is of some 1e-16 of the input in this time.
@@ -230,13 +230,11 @@ def put_followed(g: Floats, u: Floats, t: float) -> None:
     """Inputs and rates at the time t, into ``u``."""
     for i in range(GIVEN_INPUTS):
         u[i] = g[G_FOLLOWED + i] + g[G_ASIDE + i]
+        if not is_mean(i):
+            u[U_RATE + i] = g[G_TREND + i]
     u[U_FILM] = max(u[U_FILM], 0.0)
     u[U_SINCE] = t
-    u[U_SPEED_RATE] = g[G_TREND + U_SPEED]
     u[U_SPEED_CURVE] = 0.0
-    u[U_FORCE_X_RATE] = g[G_TREND + U_FORCE_X]
-    u[U_FORCE_Y_RATE] = g[G_TREND + U_FORCE_Y]
-    u[U_MOMENT_RATE] = g[G_TREND + U_MOMENT]
 
 
 def follow_inputs(p: Floats, g: Floats, u: Floats, t: float, for_rates: bool) -> None:
@@ -319,15 +317,8 @@ def begin_memory(g: Floats, u: Floats, t: float) -> None:
     g[G_COUNT] = 1.0
     g[G_MOMENT_TIME] = t
     g[G_EVENT_TIME] = t
-    g[G_MOMENT_VALUE + U_SPEED] = driven_speed(u, t)
-    g[G_MOMENT_VALUE + U_TEMPERATURE] = u[U_TEMPERATURE]
-    g[G_MOMENT_VALUE + U_FORCE_X] = force_along(u, t)
-    g[G_MOMENT_VALUE + U_FORCE_Y] = force_across(u, t)
-    g[G_MOMENT_VALUE + U_MOMENT] = external_moment(u, t)
-    g[G_MOMENT_VALUE + U_FILM] = u[U_FILM]
     for i in range(GIVEN_INPUTS):
-        g[G_FIRST_RATE + i] = 0.0
+        g[G_MOMENT_VALUE + i] = input_at(u, i, t)
+        g[G_FIRST_RATE + i] = u[U_RATE + i]
+    g[G_MOMENT_VALUE + U_SPEED] = driven_speed(u, t)
     g[G_FIRST_RATE + U_SPEED] = driven_acceleration(u, t)
-    g[G_FIRST_RATE + U_FORCE_X] = u[U_FORCE_X_RATE]
-    g[G_FIRST_RATE + U_FORCE_Y] = u[U_FORCE_Y_RATE]
-    g[G_FIRST_RATE + U_MOMENT] = u[U_MOMENT_RATE]
