@@ -43,26 +43,17 @@ __all__ = [
     "settle",
 ]
 
-_HOME = {
-    "SinglePass": ".belt.single_pass",
-    "MeshError": ".ice.mesh_file",
-    "BeltIceModel": ".model",
-    "FieldSeries": ".output",
-    "RigView": ".output",
-    "collection": ".output",
-    "rig_view": ".output",
-    "Ambient": ".parameters",
-    "Belt": ".parameters",
-    "Contact": ".parameters",
-    "Ice": ".parameters",
-    "Layer": ".parameters",
-    "ParameterError": ".parameters",
-    "ThermalParameters": ".parameters",
-    "SlidingState": ".steady_sliding",
-    "SteadySliding": ".steady_sliding",
-    "NoSteadyState": ".steady_state",
-    "settle": ".steady_state",
+_NAMES = {
+    ".belt.single_pass": ("SinglePass",),
+    ".ice.mesh_file": ("MeshError",),
+    ".model": ("BeltIceModel",),
+    ".output": ("FieldSeries", "RigView", "collection", "rig_view"),
+    ".parameters": ("Ambient", "Belt", "Contact", "Ice", "Layer", "ParameterError"),
+    ".steady_sliding": ("SlidingState", "SteadySliding"),
+    ".steady_state": ("NoSteadyState", "settle"),
 }
+_HOME = {name: module for module, names in _NAMES.items() for name in names}
+_HOME["ThermalParameters"] = ".parameters"
 
 
 def __getattr__(name: str) -> Any:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
 from typing import Any, Self
 
@@ -45,15 +45,66 @@ class ThermalParameters(Table, strict=False):
     contact: Contact = Contact()
 
     @model_validator(mode="after")
-    def _ice_is_frozen(self) -> Self:
-        air = self.ambient.temperature_degC
+    def _check_together(self) -> Self:
+        for fault in self._faults():
+            raise ValueError(fault)
+        return self
+
+    def _faults(self) -> Iterator[str]:
+        """What the tables contradict each other in, a line each."""
+        belt, contact, air = self.belt, self.contact, self.ambient.temperature_degC
         if air >= self.ice.melting_point_degC:
-            raise ValueError(
+            yield (
                 f"ambient.temperature_degC = {air}: ice melts in air of"
                 f" {self.ice.melting_point_degC:g} degC and more, allowed is less, or a block of"
                 " another material: block.material"
             )
-        return self
+        diameter = 2.0 * contact.radius
+        if belt.length <= diameter:
+            yield (
+                f"belt.length = {belt.length:g} m is shorter than the contact: it must"
+                f" exceed 2 contact.radius = {diameter:g} m"
+            )
+        if belt.length / belt.cell_length > MOST_CELLS:
+            yield (
+                f"belt.cell_length = {belt.cell_length:g} m cuts the belt into more than"
+                f" {MOST_CELLS} cells"
+            )
+        if self.ice.mesh and contact.length:
+            yield (
+                f"contact.length = {contact.length:g} m and ice.mesh are both given: the mesh's"
+                " base is the contact, leave contact.length out"
+            )
+        area = contact.length * min(belt.width, diameter)
+        face = math.pi * contact.radius**2
+        if area > face * (1.0 + 1e-9):
+            yield (
+                f"contact.length = {contact.length:g} m makes a contact of {area:g} m2, more than"
+                f" the ice's face of {face:g} m2: take a larger contact.radius"
+            )
+        try:
+            _ = belt.film
+        except NotLaminar as error:
+            yield f"belt.still_air_speed: {error}"
+        fields = Belt.model_fields
+        given = [key for key in Layer.model_fields if getattr(belt, key) != fields[key].default]
+        if belt.layers and given:
+            yield (
+                f"belt.{given[0]} = {getattr(belt, given[0]):g} and belt.layers are both given:"
+                " the layers say it all, leave one of the two out"
+            )
+        one = belt.railing_length + (belt.roller_arc if belt.rollers else 0.0)
+        if one > belt.length / max(1, belt.rollers):
+            yield (
+                f"belt.length = {belt.length:g} m is too short for a railing of"
+                f" {belt.railing_length:g} m and {belt.rollers} rollers that touch"
+                f" {belt.roller_arc:g} m each"
+            )
+        if belt.railing_friction > 0.0 and belt.railing_length == 0.0:
+            yield (
+                f"belt.railing_friction = {belt.railing_friction:g} and belt.railing_length = 0:"
+                " there is no railing to rub on; allowed is a length above 0"
+            )
 
     @property
     def melting_rise(self) -> float:
@@ -81,84 +132,6 @@ class ThermalParameters(Table, strict=False):
         )
         own = belt.model_copy(update={"air_heat_transfer": film, "still_air_speed": 0.0})
         return self.model_copy(update={"belt": own})
-
-    @model_validator(mode="after")
-    def _belt_carries_contact(self) -> Self:
-        diameter = 2.0 * self.contact.radius
-        if self.belt.length <= diameter:
-            raise ValueError(
-                f"belt.length = {self.belt.length:g} m is shorter than the contact: it must"
-                f" exceed 2 contact.radius = {diameter:g} m"
-            )
-        if self.belt.length / self.belt.cell_length > MOST_CELLS:
-            raise ValueError(
-                f"belt.cell_length = {self.belt.cell_length:g} m cuts the belt into more than"
-                f" {MOST_CELLS} cells"
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _contact_on_ice(self) -> Self:
-        contact = self.contact
-        if self.ice.mesh and contact.length:
-            raise ValueError(
-                f"contact.length = {contact.length:g} m and ice.mesh are both given: the mesh's"
-                " base is the contact, leave contact.length out"
-            )
-        area = contact.length * min(self.belt.width, 2.0 * contact.radius)
-        face = math.pi * contact.radius**2
-        if area > face * (1.0 + 1e-9):
-            raise ValueError(
-                f"contact.length = {contact.length:g} m makes a contact of {area:g} m2, more than"
-                f" the ice's face of {face:g} m2: take a larger contact.radius"
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _air_is_laminar(self) -> Self:
-        try:
-            _ = self.belt.film
-        except NotLaminar as error:
-            raise ValueError(f"belt.still_air_speed: {error}") from None
-        return self
-
-    @model_validator(mode="after")
-    def _layers_or_one(self) -> Self:
-        belt = self.belt
-        given = [
-            key
-            for key in Layer.model_fields
-            if getattr(belt, key) != Belt.model_fields[key].default
-        ]
-        if belt.layers and given:
-            raise ValueError(
-                f"belt.{given[0]} = {getattr(belt, given[0]):g} and belt.layers are both given:"
-                " the layers say it all, leave one of the two out"
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _supports_fit(self) -> Self:
-        belt = self.belt
-        one = belt.railing_length + (belt.roller_arc if belt.rollers else 0.0)
-        room = belt.length / max(1, belt.rollers)
-        if one > room:
-            raise ValueError(
-                f"belt.length = {belt.length:g} m is too short for a railing of"
-                f" {belt.railing_length:g} m and {belt.rollers} rollers that touch"
-                f" {belt.roller_arc:g} m each"
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _railing_to_rub_on(self) -> Self:
-        belt = self.belt
-        if belt.railing_friction > 0.0 and belt.railing_length == 0.0:
-            raise ValueError(
-                f"belt.railing_friction = {belt.railing_friction:g} and belt.railing_length = 0:"
-                " there is no railing to rub on; allowed is a length above 0"
-            )
-        return self
 
     @classmethod
     def checked(cls, tables: Mapping[str, Any]) -> Self:

@@ -9,19 +9,7 @@ from typing import Any, Self
 import numpy as np
 
 from .catalogue import CATALOGUE, Catalogue
-from .kernel.layout import (
-    DONE,
-    E_CAPACITY,
-    E_FIRST,
-    E_WIDTH,
-    STICK,
-    TIME,
-    U_FILM,
-    U_SIZE,
-    U_SPEED,
-    U_TEMPERATURE,
-    X,
-)
+from .kernel import layout as places
 from .parameters import Parameters
 from .status import WHY_NOT
 
@@ -31,8 +19,9 @@ STATE = ("x", "y", "phi", "vx", "vy", "omega")
 
 def inputs(speed: float, temperature: float, film_thickness: float = 0.0) -> np.ndarray:
     """``u`` of a surface's speed (m/s) and an interface (degC, m)."""
-    u = np.zeros(U_SIZE)
-    u[U_SPEED], u[U_TEMPERATURE], u[U_FILM] = speed, temperature, film_thickness
+    u = np.zeros(places.U_SIZE)
+    u[places.U_SPEED], u[places.U_TEMPERATURE] = speed, temperature
+    u[places.U_FILM] = film_thickness
     return u
 
 
@@ -43,11 +32,16 @@ def interface_temperature(parameters: Parameters, temperature: float | None) -> 
     return temperature
 
 
+class RunEnded(ValueError):
+    """The motion cannot be followed any further; the message says when and why."""
+
+
 @dataclass
 class RunArrays:
     """One run of a kernel: parameters, inputs, memory, scratch space and log of events.
 
-    Everything that the run remembers is in ``z``. kernel : the catalogue's compiled one, or the
+    Everything that the run remembers is in ``z``, so that a copy goes on exactly as the original
+    would. kernel : the catalogue's compiled one, or the
     interpreted, whose arrays are lists; layout : where it has what, with the catalogue's effects.
     """
 
@@ -78,8 +72,8 @@ class RunArrays:
         if len(p) != layout.P_SIZE:
             raise ValueError(f"p has {len(p)} numbers, those of this catalogue {layout.P_SIZE}")
         kernel = layout if interpreted else catalogue.compiled
-        e = array(np.zeros(E_FIRST + E_WIDTH * events))
-        e[E_CAPACITY] = float(events)
+        e = array(np.zeros(places.E_FIRST + places.E_WIDTH * events))
+        e[places.E_CAPACITY] = float(events)
         z, w = array(np.zeros(layout.Z_SIZE)), array(np.zeros(layout.W_SIZE))
         run = cls(kernel, layout, array(np.asarray(p, dtype=float)), array(u), z, w, e)
         kernel.initialise(run.p, run.z, start)
@@ -97,17 +91,17 @@ class RunArrays:
     @property
     def time(self) -> float:
         """s"""
-        return float(self.z[self.layout.SHOWN + TIME])
+        return float(self.z[self.layout.SHOWN + places.TIME])
 
     @property
     def sticks(self) -> bool:
         """Does the contact hold?"""
-        return bool(self.z[self.layout.SHOWN + self.layout.MODE] == STICK)
+        return bool(self.z[self.layout.SHOWN + self.layout.MODE] == places.STICK)
 
     @property
     def state(self) -> Any:
         """(6,) x, y, phi, vx, vy, omega: of a compiled run the very numbers."""
-        begin = self.layout.SHOWN + X
+        begin = self.layout.SHOWN + places.X
         return self.z[begin : begin + len(STATE)]
 
     @property
@@ -115,17 +109,27 @@ class RunArrays:
         """Why `advance` gave up, with the remedy."""
         return f"t = {self.time:.9g} s: {WHY_NOT[int(self.z[self.layout.Z_STATUS])]}"
 
-    def advance(self, time: float) -> bool:
-        """Go on to ``time`` (s); False where that cannot be."""
-        return bool(self.kernel.advance(*self.all, time) == DONE)
+    @property
+    def step_size(self) -> float:
+        """The integrator's, s."""
+        return float(self.z[self.layout.Z_STEP])
 
-    def follow_surface(self) -> None:
-        """Give a block that sticks the velocity of the surface."""
-        shown = self.layout.SHOWN
-        self.kernel.look_at(self.p, self.u, self.z, self.w, shown)
-        self.kernel.follow_surface(self.p, self.u, self.z, self.w, shown, 0.0)
+    def of(self, parameters: Parameters) -> Self:
+        """A copy of the same instant, to go on as a rig of other parameters."""
+        return replace(self.copy(), p=np.array(parameters.pack()))
 
-    def settle(self, time: float) -> bool:
-        """Start afresh from what ``z`` shows now, at ``time`` (s); False where that cannot be."""
+    def advance(self, time: float) -> Self:
+        """Go on to ``time`` (s). RunEnded where that cannot be."""
+        if self.kernel.advance(*self.all, time) != places.DONE:
+            raise RunEnded(f"at {self.failure}")
+        return self
+
+    def displace(self, change: np.ndarray) -> Self:
+        """Add ``change`` (6,) to the state; a contact that holds keeps the surface's velocity."""
+        self.state[:] += change
+        if self.sticks:
+            shown = self.layout.SHOWN
+            self.kernel.look_at(self.p, self.u, self.z, self.w, shown)
+            self.kernel.follow_surface(self.p, self.u, self.z, self.w, shown, 0.0)
         self.z[self.layout.Z_STARTED] = self.z[self.layout.Z_HAS_NEXT] = 0.0
-        return self.advance(time)
+        return self.advance(self.time)

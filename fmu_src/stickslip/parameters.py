@@ -344,6 +344,11 @@ class Parameters(EffectTables):
             return self.rig.mass * self.rig.attachment_radius**2
         return self.rig.inertia
 
+    def with_values(self, table: str, **values: Any) -> Self:
+        """The same, but for some values of a table, which are taken as checked."""
+        changed = getattr(self, table).model_copy(update=values)
+        return self.model_copy(update={table: changed})
+
     def pack(self) -> list[float]:
         """The kernel's parameter vector ``p``."""
         return self.catalogue.pack(self.flat())

@@ -5,39 +5,28 @@ from __future__ import annotations
 from math import inf, pi, sqrt
 from typing import TYPE_CHECKING, NamedTuple
 
+from .kernel import layout
 from .kernel.bristles.step import STABLE
-from .kernel.layout import (
-    GRAVITY,
-    NOT_FINITE,
-    P_BRISTLE_STIFFNESS,
-    P_LONGEST_STEP,
-    P_MASS,
-    P_RATE,
-    P_SPEED_SCALE,
-    SPRING_COLLAPSED,
-    STEP_VANISHED,
-    STEPS_PER_SECOND,
-    TOO_STIFF,
-)
 
 if TYPE_CHECKING:
     from .parameters import Parameters
 
 WHY_NOT = {
-    STEP_VANISHED: "the integrator's step fell below the resolution of time; check mass, "
+    layout.STEP_VANISHED: "the integrator's step fell below the resolution of time; check mass, "
     "stiffness, initial state and what is next to nothing, such as rig.contact_radius or "
     "friction.transition_speed, or raise solver.tolerance",
-    NOT_FINITE: "the motion grew beyond all numbers",
-    SPRING_COLLAPSED: "the block was carried into the anchor of a spring; use stiffer or longer "
-    "springs, or less friction",
-    TOO_STIFF: "something answers faster than the motion can be followed in steps that anybody "
-    "would wait for; if the contact creeps, raise mu_s above mu_k, take lateral_friction.ratio 0 "
-    "or 1, or a larger rate_and_state.creep_speed; else check mass, stiffness, damping, lengths "
-    "of the rig and of patterns on the surface, or make shorter communication steps",
+    layout.NOT_FINITE: "the motion grew beyond all numbers",
+    layout.SPRING_COLLAPSED: "the block was carried into the anchor of a spring; use stiffer or "
+    "longer springs, or less friction",
+    layout.TOO_STIFF: "something answers faster than the motion can be followed in steps that "
+    "anybody would wait for; if the contact creeps, raise mu_s above mu_k, take "
+    "lateral_friction.ratio 0 or 1, or a larger rate_and_state.creep_speed; else check mass, "
+    "stiffness, damping, lengths of the rig and of patterns on the surface, or make shorter "
+    "communication steps",
 }
 
 #: Internal steps for a second of motion that the kernel still takes.
-MOST_STEPS_PER_SECOND = STEPS_PER_SECOND
+MOST_STEPS_PER_SECOND = layout.STEPS_PER_SECOND
 
 #: Of the time over which a law of friction changes, what a step can be: a twelfth of a pattern's
 #: period, and the bound of stability of an age that fades.
@@ -66,22 +55,22 @@ def longest_step(parameters: Parameters) -> LongestStep:
     0.0456
     """
     p = parameters.pack()
-    vibration = 0.5 / p[P_RATE]
+    vibration = 0.5 / p[layout.P_RATE]
     rig, springs = parameters.rig, parameters.springs
     found = LongestStep(
         vibration,
         f"springs.stiffness = {springs.stiffness:g} N/m and rig.mass = {rig.mass:g} kg: a free "
-        f"vibration takes {2.0 * pi / p[P_RATE]:.3g} s",
+        f"vibration takes {2.0 * pi / p[layout.P_RATE]:.3g} s",
     )
-    if p[P_LONGEST_STEP] < vibration:
+    if p[layout.P_LONGEST_STEP] < vibration:
         found = LongestStep(
-            p[P_LONGEST_STEP],
+            p[layout.P_LONGEST_STEP],
             f"surface.speed = {parameters.surface.speed:g} m/s over a surface with a pattern, or a "
             "ripple of that speed: the shortest of their periods is "
-            f"{4.0 * pi * p[P_LONGEST_STEP]:.3g} s",
+            f"{4.0 * pi * p[layout.P_LONGEST_STEP]:.3g} s",
         )
-    if p[P_BRISTLE_STIFFNESS] > 0.0:
-        bristles = STABLE / sqrt(p[P_BRISTLE_STIFFNESS] / p[P_MASS])
+    if p[layout.P_BRISTLE_STIFFNESS] > 0.0:
+        bristles = STABLE / sqrt(p[layout.P_BRISTLE_STIFFNESS] / p[layout.P_MASS])
         if bristles < found.size:
             found = LongestStep(
                 bristles,
@@ -114,7 +103,7 @@ def likely_step(parameters: Parameters) -> LongestStep:
         )
         found = min(found, LongestStep(OF_PATTERN * period, reason))
     if law.direct != 0.0 or law.evolution != 0.0:
-        slip = max(speed, parameters.pack()[P_SPEED_SCALE])
+        slip = max(speed, parameters.pack()[layout.P_SPEED_SCALE])
         renewed = law.distance / slip
         reason = (
             f"rate_and_state.distance = {law.distance:g} m: a contact that slips at {slip:.2g} m/s "
@@ -137,7 +126,7 @@ def time_to_slide(parameters: Parameters) -> float:
     stiffness = 4.0 * parameters.springs.stiffness
     if stiffness == 0.0 or speed == 0.0:
         return inf
-    bears = PART_OF_FRICTION * parameters.friction.mu_k * GRAVITY * rig.mass / stiffness
+    bears = PART_OF_FRICTION * parameters.friction.mu_k * layout.GRAVITY * rig.mass / stiffness
     travel = max(bears - abs(initial.x), 0.0)
     if 2.0 * travel < speed * ramp:
         return sqrt(2.0 * travel * ramp / speed)

@@ -171,8 +171,7 @@ def _over_place(asked: _Asked, reach: float) -> LawCurve:
 def _over_load(asked: _Asked, reach: float) -> LawCurve:
     x, y = np.linspace(1.0, 20.0, POINTS // 10), []
     for load in x:
-        rig = asked.parameters.rig.model_copy(update={"mass": float(load) / GRAVITY})
-        loaded = asked.parameters.model_copy(update={"rig": rig})
+        loaded = asked.parameters.with_values("rig", mass=float(load) / GRAVITY)
         (mu,) = friction_coefficient(loaded, [SLIDING], asked.temperature, asked.film)
         y.append(mu)
     return LawCurve("normal force", "N", x, "friction coefficient", "1", np.array(y))

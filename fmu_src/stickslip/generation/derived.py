@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from ..effects.effect import Effect, Term
 from .functions import EffectFunctions, arguments
@@ -22,15 +22,6 @@ def is_on(effect: Effect, function: Term) -> str:
         f"v[{_place(effect, name)}] != {effect.table.model_fields[name].default!r}"
         for name in taken
     )
-
-
-def effect_slot_names(effects: Sequence[Effect]) -> dict[str, str]:
-    """``effect.parameter`` -> its slot, for those that enter the kernel as they are."""
-    return {
-        f"{effect.id}.{name}": slot
-        for effect in effects
-        for name, slot in parameter_slots(effect).items()
-    }
 
 
 def _place(effect: Effect, name: str) -> str:
@@ -66,8 +57,9 @@ def _set_numbers(effects: Sequence[Effect]) -> str:
         f"def set_effect_numbers(v: {ARRAY}, d: {ARRAY}, p: {ARRAY}):",
         '    """Put parameters and derived numbers of the effects where the kernel looks."""',
     ]
-    for name, slot in effect_slot_names(effects).items():
-        lines.append(f"    p[{slot}] = v[{value_slot(name)}]")
+    for effect in effects:
+        for name, slot in parameter_slots(effect).items():
+            lines.append(f"    p[{slot}] = v[{_place(effect, name)}]")
     for effect in effects:
         for function in effect.derived:
             slot, size = derived_slots(effect)[function.__name__]
@@ -80,19 +72,24 @@ def _set_numbers(effects: Sequence[Effect]) -> str:
 
 
 def _packed_function(place: Place, effects: Sequence[Effect]) -> str:
+    terms = [(e, term) for e in effects for term in packed_terms(e) if term.__name__ == place.name]
+    calls = [(is_on(effect, term), _call(effect, term)) for effect, term in terms]
+    return place_function(place, f"p: {ARRAY}, v: {ARRAY}, value: float", calls)
+
+
+def place_function(place: Place, signature: str, calls: Iterable[Sequence[str]]) -> str:
+    """Of a place; calls: condition and call of each term, and lines that follow it."""
+    value = place.so_far or "value"
+    joined = {
+        "add": f"{value} += {{}}",
+        "multiply": f"{value} *= {{}}",
+        "replace": f"{value} = {{}}",
+        "largest": f"{value} = max({value}, {{}})",
+    }[place.joins]
     lines = [
-        f"def with_{place.name}(p: {ARRAY}, v: {ARRAY}, value: float) -> float:",
+        f"def with_{place.name}({signature}) -> float:",
         f'    """Returns with every effect: {place.meaning}."""',
     ]
-    for effect in effects:
-        for term in packed_terms(effect):
-            if term.__name__ != place.name:
-                continue
-            call = _call(effect, term)
-            joined = {
-                "add": f"value += {call}",
-                "multiply": f"value *= {call}",
-                "largest": f"value = max(value, {call})",
-            }
-            lines += [f"    if {is_on(effect, term)}:", f"        {joined[place.joins]}"]
-    return "\n".join([*lines, "    return value"])
+    for condition, call, *more in calls:
+        lines += [f"    if {condition}:", f"        {joined.format(call)}", *more]
+    return "\n".join([*lines, f"    return {value}"])

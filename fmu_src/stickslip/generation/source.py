@@ -27,6 +27,9 @@ _FOR_FILES_ONLY = re.compile(r"(?m)^from (?:\.[\w.]*|__future__) import (?:\([^)
 AS_THEY_ARE = ("draws", "packing", "contradictions", "status")
 _OF_NAMES = "Names of the parameters in the order of the kernel's array ``v``."
 _KERNEL = re.compile(r"(?m)^from (\.|stickslip\.)kernel\.[\w.]+ import")
+_MODULE = re.compile(
+    r"(?m)^from (\.|stickslip)\.?kernel(?:\.\w+)* import (?:\w+ as )?(layout|codes)$"
+)
 
 
 def kernel_source(effects: Sequence[Effect] = EFFECTS) -> str:
@@ -60,6 +63,7 @@ def travelling(effects: Sequence[Effect] = EFFECTS) -> dict[str, str]:
 
 def one_kernel(text: str) -> str:
     """A file of the package where the kernel is one module."""
+    text = _MODULE.sub(r"from \1 import kernel as \2", text)
     return _KERNEL.sub(r"from \1kernel import", text)
 
 

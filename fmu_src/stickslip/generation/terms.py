@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 
 from ..effects.effect import Effect, Term
 from .check import check
-from .derived import is_on, packing_functions
+from .derived import is_on, packing_functions, place_function
 from .functions import EffectFunctions, arguments
 from .places import ARRAY, CONSTANTS, LOCAL, MEMORY, PLACES, RATE, SCALE, WORDS, Place
 from .slots import (
@@ -91,17 +91,12 @@ def _signature(place: Place) -> str:
 
 
 def _place_function(place: Place, effects: Sequence[Effect]) -> str:
-    value = place.so_far or "value"
-    sign = {"add": "+=", "multiply": "*=", "replace": "="}[place.joins]
-    lines = [f"def with_{place.name}({_signature(place)}) -> float:"]
-    lines.append(f'    """Returns with every effect: {place.meaning}."""')
-    terms = _terms_at(place.name, effects)
+    terms, calls = _terms_at(place.name, effects), []
     for number, (effect, term) in enumerate(terms):
-        lines.append(f"    if {guard(effect, term)}:")
-        lines.append(f"        {value} {sign} {_call(effect, term, place)}")
+        calls.append([guard(effect, term), _call(effect, term, place)])
         if place.name == "surface_acceleration" and number + 1 < len(terms):
-            lines += _speed_for_the_next(effect, effects)
-    return "\n".join([*lines, f"    return {value}"])
+            calls[-1] += _speed_for_the_next(effect, effects)
+    return place_function(place, _signature(place), calls)
 
 
 def _speed_for_the_next(effect: Effect, effects: Sequence[Effect]) -> list[str]:
@@ -175,49 +170,34 @@ def _state_functions(effects: Sequence[Effect]) -> list[str]:
 def _questions(effects: Sequence[Effect]) -> list[str]:
     """Functions of ``p`` that say whether any effect is on that takes a word."""
     in_kernel = [(effect, term) for effect in effects for term in functions_in_kernel(effect)]
-    local = [(e, term) for name in LOCAL for e, term in _terms_at(name, effects)]
-    remembers = [
-        (e, term)
-        for e, term in in_kernel
-        if {*MEMORY, *(state.name for state in e.states)} & _taken(e, term)
+
+    def taking(word: str) -> list[tuple[Effect, Term]]:
+        return [(e, term) for e, term in in_kernel if word in _taken(e, term)]
+
+    def remembers(effect: Effect, term: Term) -> bool:
+        return bool({*MEMORY, *(state.name for state in effect.states)} & _taken(effect, term))
+
+    local = [each for name in LOCAL for each in _terms_at(name, effects)]
+    asked = {
+        "feels_temperature": "Does the interface temperature matter to friction?",
+        "feels_film": "Does water in the contact matter to friction?",
+        "has_state_law": "Does a law of speed and state say what the contact holds, from rest on?",
+        "has_local_law": "Does mu_k vary with the local sliding speed?",
+        "has_ageing": "Does what a contact holds grow with its age?",
+        "has_memory": "Does friction depend on place, distance slid or a state of an effect?",
+    }
+    by = (
+        *(taking("temperature"), taking("film_thickness"), _terms_at("state_law", effects)),
+        [each for each in local if "speed" in _taken(*each)],
+        *(_terms_at("static_growth", effects), [each for each in in_kernel if remembers(*each)]),
+    )
+    questions = [
+        _asked(f"{name}(p", meaning, [guard(effect, term) for effect, term in terms])
+        for (name, meaning), terms in zip(asked.items(), by, strict=True)
     ]
-    return [
-        _question(
-            "feels_temperature",
-            "Does the interface temperature matter to friction?",
-            [(e, term) for e, term in in_kernel if "temperature" in _taken(e, term)],
-        ),
-        _question(
-            "feels_film",
-            "Does water in the contact matter to friction?",
-            [(e, term) for e, term in in_kernel if "film_thickness" in _taken(e, term)],
-        ),
-        _question(
-            "has_state_law",
-            "Does a law of speed and state say what the contact holds, from rest on?",
-            _terms_at("state_law", effects),
-        ),
-        _question(
-            "has_local_law",
-            "Does mu_k vary with the local sliding speed?",
-            [(e, term) for e, term in local if "speed" in _taken(e, term)],
-        ),
-        _question(
-            "has_ageing",
-            "Does what a contact holds grow with its age?",
-            _terms_at("static_growth", effects),
-        ),
-        _question(
-            "has_memory",
-            "Does friction depend on place, distance slid or a state of an effect?",
-            remembers,
-        ),
-        _asked(
-            "has_dry_law(v",
-            "Does an effect say how mu_k of the dry contact varies with the local sliding speed?",
-            [is_on(effect, term) for effect, term in _terms_at("dry_factor", effects)],
-        ),
-    ]
+    meaning = "Does an effect say how mu_k of the dry contact varies with the local sliding speed?"
+    dry = [is_on(effect, term) for effect, term in _terms_at("dry_factor", effects)]
+    return [*questions, _asked("has_dry_law(v", meaning, dry)]
 
 
 def _taken(effect: Effect, function: Term) -> set[str]:
@@ -226,10 +206,6 @@ def _taken(effect: Effect, function: Term) -> set[str]:
     for word in names & set(effect.sums):
         names |= set(arguments(effect.sums[word]))
     return names
-
-
-def _question(name: str, meaning: str, terms: list[tuple[Effect, Term]]) -> str:
-    return _asked(f"{name}(p", meaning, [guard(effect, term) for effect, term in terms])
 
 
 def _asked(begins: str, meaning: str, conditions: list[str]) -> str:

@@ -68,20 +68,15 @@ def at_speed(parameters: Parameters, speed: float) -> Parameters:
     """
     surface = parameters.surface
     speed = -abs(speed) if surface.speed < 0.0 else abs(speed)
-    changed = _setting("surface", "speed")(parameters, speed)
-    if parameters.initial.vx == surface.speed:
-        return _setting("initial", "vx")(changed, speed)
-    return changed
+    changed = parameters.with_values("surface", speed=speed)
+    rides = parameters.initial.vx == surface.speed
+    return changed.with_values("initial", vx=speed) if rides else changed
 
 
 def with_ratio(parameters: Parameters, ratio: float) -> Parameters:
     """The same rig with another mu_s/mu_k at its mu_k."""
-    return _setting("friction", "mu_s")(parameters, ratio * parameters.friction.mu_k)
+    return parameters.with_values("friction", mu_s=ratio * parameters.friction.mu_k)
 
 
 def _setting(table: str, key: str) -> Callable[[Parameters, float], Parameters]:
-    def change(parameters: Parameters, value: float) -> Parameters:
-        changed = getattr(parameters, table).model_copy(update={key: value})
-        return parameters.model_copy(update={table: changed})
-
-    return change
+    return lambda parameters, value: parameters.with_values(table, **{key: value})

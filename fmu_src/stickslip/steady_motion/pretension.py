@@ -81,6 +81,5 @@ def pretension_borders(
 
 def with_pretension(parameters: Parameters, pretension: float) -> Parameters:
     """The same rig, its springs stretched by ``pretension`` (m) as installed."""
-    rig = parameters.rig
-    changed = rig.model_copy(update={"spring_natural_length": rig.spring_length - pretension})
-    return parameters.model_copy(update={"rig": changed})
+    natural = parameters.rig.spring_length - pretension
+    return parameters.with_values("rig", spring_natural_length=natural)

@@ -14,7 +14,6 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ..parameters import Parameters
-from ..simulation import simulate
 from ..trajectory import Trajectory, break_away_frequency, slip_share
 from .live import DRY, Interface, RunEnded
 from .starts import BALANCED, OWN, balanced, disturbed, other_starts, started
@@ -233,13 +232,8 @@ def regime_of(
 ) -> Regime:
     """The regime that a run of ``duration`` (s) has come to. RunEnded where it ends early."""
     period = 1.0 / max(parameters.natural_frequency, 0.1)
-    run = simulate(
-        parameters,
-        duration,
-        min(0.05 * period, 0.01 * duration),
-        **interface.inputs,
-        progress=(work or Work()).over(),
-    )
+    interval = min(0.05 * period, 0.01 * duration)
+    run = (work or Work()).simulate(parameters, duration, interval, interface)
     if not run.complete:
         raise RunEnded(run.reason)
     constant = min(parameters.surface.run_up_time, duration)

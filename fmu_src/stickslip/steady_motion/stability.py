@@ -24,10 +24,10 @@ from itertools import pairwise
 
 import numpy as np
 
+from ..arrays import RunArrays
 from ..parameters import Parameters
-from ..simulation import simulate
 from ..trajectory import Trajectory
-from .live import DRY, Interface, LiveRun, RunEnded
+from .live import DRY, Interface, RunEnded, live_run
 from .work import Work
 
 STABLE, NEUTRAL, UNSTABLE, GUIDED = "stable", "neutral", "unstable", "guided"
@@ -140,7 +140,7 @@ def cycle_stability(
     period = float(np.mean(np.diff(moments)))
     if not beside:
         return Stability(np.empty(0), period, np.nan, straight)
-    live = LiveRun(on_line, interface)
+    live = live_run(on_line, interface)
     # of its own mirror image both signs fare alike
     kinds = [
         (size, sign) for size in DISTURBANCES for sign in ((1.0,) if straight else (1.0, -1.0))
@@ -167,8 +167,7 @@ def cycle_stability(
 
 def guided(parameters: Parameters) -> Parameters:
     """The same rig, its block held to the x axis: rounding would carry it off an unstable one."""
-    rig = parameters.rig.model_copy(update={"degrees_of_freedom": ("x",)})
-    return parameters.model_copy(update={"rig": rig})
+    return parameters.with_values("rig", degrees_of_freedom=("x",))
 
 
 def _converged(
@@ -181,13 +180,8 @@ def _converged(
     """Moments, s, of one cycle, or of as many as there are; whether the block sticks there."""
     ramp = parameters.surface.run_up_time
     for doubling in range(DOUBLINGS + 1):
-        run = simulate(
-            on_line,
-            ramp + (duration - ramp) * 2.0**doubling,
-            _sampling(parameters),
-            **interface.inputs,
-            progress=(work or Work()).over(),
-        )
+        length = ramp + (duration - ramp) * 2.0**doubling
+        run = (work or Work()).simulate(on_line, length, _sampling(parameters), interface)
         if not run.complete:
             raise RunEnded(run.reason)
         moments, sticking = _sections(run)
@@ -224,13 +218,8 @@ def _has_line(parameters: Parameters) -> bool:
 
 def _as_drawn(parameters: Parameters) -> Parameters:
     """The same rig without imperfections, started on the x axis."""
-    start = {"y": 0.0, "phi": 0.0, "vy": 0.0, "omega": 0.0}
-    return parameters.model_copy(
-        update={
-            "initial": parameters.initial.model_copy(update=start),
-            "imperfections": type(parameters.imperfections)(),
-        }
-    )
+    started = parameters.with_values("initial", y=0.0, phi=0.0, vy=0.0, omega=0.0)
+    return started.model_copy(update={"imperfections": type(parameters.imperfections)()})
 
 
 def _sampling(parameters: Parameters) -> float:
@@ -281,7 +270,7 @@ def _lowest(run: Trajectory, begin: float) -> np.ndarray:
 
 
 def _transfer(
-    live: LiveRun,
+    live: RunArrays,
     end: float,
     beside: list[int],
     changes: np.ndarray,
@@ -310,23 +299,15 @@ def _amplification(
     for name in ("y", "phi"):
         if name not in parameters.rig.degrees_of_freedom:
             continue
-        start: dict[str, float] = {name: START / (arm if name == "phi" else 1.0)}
-        moved = parameters.model_copy(
-            update={"initial": parameters.initial.model_copy(update=start)}
-        )
-        run = simulate(
-            moved,
-            duration,
-            _sampling(parameters),
-            **interface.inputs,
-            progress=(work or Work()).over(),
-        )
+        start = {name: START / (arm if name == "phi" else 1.0)}
+        moved = parameters.with_values("initial", **start)
+        run = (work or Work()).simulate(moved, duration, _sampling(parameters), interface)
         far = np.hypot(run["y"], arm * run["phi"])
         largest = max(largest, float(far.max()) / START)
     return largest
 
 
-def _course(live: LiveRun, moment: float) -> np.ndarray:
+def _course(live: RunArrays, moment: float) -> np.ndarray:
     """Change of the state (6,) per travel along x of a block that sticks at ``moment`` (s)."""
     span = 1e-3 * (moment - live.time)
     there = live.copy().advance(moment)

@@ -12,8 +12,8 @@ from math import pi
 
 from ..packing import GRAVITY
 from ..parameters import Parameters
-from ..simulation import simulate
 from .live import DRY, Interface, RunEnded
+from .work import Work
 
 OWN, DISTURBED, REST, RIDING, BALANCED = "own", "disturbed", "rest", "riding", "balanced"
 RAMP, SHORT_RAMP, LONG_RAMP, TURNED = "ramp", "short_ramp", "long_ramp", "turned"
@@ -73,11 +73,9 @@ def started(
     """The same rig from another state, less what is guided, and with another ramp, s."""
     guided = {"y", "phi"} - set(parameters.rig.degrees_of_freedom)
     state = {name: value for name, value in state.items() if name not in guided}
-    changed: dict[str, object] = {"initial": parameters.initial.model_copy(update=state)}
     if run_up_time is not None:
-        surface = parameters.surface.model_copy(update={"run_up_time": run_up_time})
-        changed["surface"] = surface
-    return parameters.model_copy(update=changed)
+        parameters = parameters.with_values("surface", run_up_time=run_up_time)
+    return parameters.with_values("initial", **state)
 
 
 def balanced(parameters: Parameters, interface: Interface = DRY) -> Parameters:
@@ -93,11 +91,9 @@ def balanced(parameters: Parameters, interface: Interface = DRY) -> Parameters:
     rate = 2.0 * pi * parameters.natural_frequency
     coefficient = max(2.0 * rig.mass * rate, 4.0 * force / speed)
     relaxation = coefficient / (rig.mass * rate**2)
-    damping = parameters.structural_damping.model_copy(update={"coefficient": coefficient})
-    damped = started(parameters, dict.fromkeys(STATE, 0.0), 0.0).model_copy(
-        update={"structural_damping": damping}
-    )
-    run = simulate(damped, RELAXATIONS * relaxation, relaxation, **interface.inputs)
+    still = started(parameters, dict.fromkeys(STATE, 0.0), 0.0)
+    damped = still.with_values("structural_damping", coefficient=coefficient)
+    run = Work().simulate(damped, RELAXATIONS * relaxation, relaxation, interface)
     if not run.complete:
         raise RunEnded(run.reason)
     place = {name: float(run[name][-1]) for name in ("x", "y", "phi")}

@@ -9,7 +9,9 @@ from collections.abc import Callable
 from math import inf
 
 from ..parameters import Parameters
-from .live import DRY, Interface, LiveRun
+from ..simulation import simulate
+from ..trajectory import Trajectory
+from .live import DRY, Interface, live_run
 
 #: Instants of a run at which the integrator's step is looked at, to know how many there are.
 SAMPLES = 200
@@ -37,8 +39,10 @@ class Work:
         if self.left < 0.0:
             raise OutOfWork
 
-    def over(self) -> Callable[[float], None]:
-        """For `simulate`'s ``progress``: counts what a run advances by."""
+    def simulate(
+        self, parameters: Parameters, duration: float, interval: float, interface: Interface = DRY
+    ) -> Trajectory:
+        """A run, whose motion is counted."""
         reached = 0.0
 
         def progress(time: float) -> None:
@@ -46,14 +50,21 @@ class Work:
             self.spend(time - reached)
             reached = time
 
-        return progress
+        return simulate(
+            parameters,
+            duration,
+            interval,
+            interface_temperature=interface.temperature,
+            film_thickness=interface.film_thickness,
+            progress=progress,
+        )
 
 
 def steps_per_second(parameters: Parameters, duration: float, interface: Interface = DRY) -> float:
     """Internal steps for a second of a run of ``duration`` (s); RunEnded where it ends early."""
-    live = LiveRun(parameters, interface)
+    live = live_run(parameters, interface)
     density = 0.0
     for i in range(SAMPLES):
         live.advance(duration * (i + 1) / SAMPLES)
-        density += 1.0 / live.step
+        density += 1.0 / live.step_size
     return density / SAMPLES

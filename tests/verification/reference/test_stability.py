@@ -18,7 +18,7 @@ from stickslip import (
     simulate,
 )
 from stickslip.steady_motion import stability, with_pretension
-from stickslip.steady_motion.live import LiveRun
+from stickslip.steady_motion.live import live_run
 from stickslip.steady_motion.pretension import pretension_borders
 
 GRAVITY = 9.81
@@ -229,7 +229,7 @@ def test_imperfections_and_the_start_do_not_change_the_line():
 
 def test_a_copy_of_a_run_goes_on_bit_for_bit():
     parameters = rig(0.03, surface=Surface())
-    live = LiveRun(parameters).advance(3.0)
+    live = live_run(parameters).advance(3.0)
     twin = live.copy()
     twin.copy().displace(np.full(6, 1e-3)).advance(4.0)
     assert np.array_equal(live.advance(5.0).state, twin.advance(5.0).state)
