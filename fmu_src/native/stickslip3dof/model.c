@@ -158,9 +158,9 @@ void model_show_inputs(const Model *model, double values[])
 {
     double now = model_time(model);
     values[FIRST_INPUT + U_SPEED] = stickslip_driven_speed(model->u, now);
-    values[FIRST_INPUT + U_FORCE_X] = stickslip_force_along(model->u, now);
-    values[FIRST_INPUT + U_FORCE_Y] = stickslip_force_across(model->u, now);
-    values[FIRST_INPUT + U_MOMENT] = stickslip_external_moment(model->u, now);
+    values[FIRST_INPUT + U_FORCE_X] = stickslip_input_at(model->u, U_FORCE_X, now);
+    values[FIRST_INPUT + U_FORCE_Y] = stickslip_input_at(model->u, U_FORCE_Y, now);
+    values[FIRST_INPUT + U_MOMENT] = stickslip_input_at(model->u, U_MOMENT, now);
 }
 
 bool model_tune(Model *model, double values[], double tolerance, char message[])
