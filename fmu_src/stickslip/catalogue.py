@@ -97,12 +97,14 @@ class Catalogue:
     @cached_property
     def _travelling(self) -> Mapping[str, ModuleType]:
         """What travels inside the unit of these effects, as modules of this process."""
-        package = f"stickslip.of_effects_{id(self):x}"
+        package = ModuleType(f"stickslip.of_effects_{id(self):x}")
+        sys.modules[package.__name__] = package
         made = {}
         for name, text in travelling(self.effects).items():
-            made[name] = module = ModuleType(f"{package}.{name}")
-            module.__package__ = package
+            made[name] = module = ModuleType(f"{package.__name__}.{name}")
+            module.__package__ = package.__name__
             sys.modules[module.__name__] = module
+            setattr(package, name, module)  # for `from . import kernel`
             exec(compile(text, f"<{name} of the effects>", "exec"), vars(module))
         return made
 
