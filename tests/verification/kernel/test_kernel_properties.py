@@ -30,7 +30,7 @@ def run_from(parameters: Parameters, start: float, times: np.ndarray) -> tuple:
     e[layout.E_CAPACITY] = 1000.0
     o = np.zeros(layout.O_SIZE * len(times))
     kernel.initialise(p, z, start)
-    rows = kernel.record(p, u, z, w, e, start + times, o, 0, len(times))
+    rows = kernel.record(p, u, z, w, e, start + times, o, 0, len(times), True)
     count = int(e[layout.E_COUNT])
     end = layout.E_FIRST + layout.E_WIDTH * count
     events = e[layout.E_FIRST : end].reshape(count, layout.E_WIDTH)
