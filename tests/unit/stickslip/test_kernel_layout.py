@@ -36,11 +36,14 @@ def test_every_parameter_of_an_effect_reaches_the_vector():
         on = {name: effect.table.model_fields[name].default for name in effect.switch}
         for name in effect.switch:
             on[name] += 0.125 if effect.id != "stick_stiffness" else -0.125
-        plain = Parameters(**{effect.id: on}).pack()
         for name, field in effect.table.model_fields.items():
             value = on.get(name, field.default)
             changed = value + 1 if isinstance(value, int) else 0.75 * value + 0.03125 * (value == 0)
-            other = Parameters(**{effect.id: on | {name: changed}}).pack()
+            harmonic = name.replace("_phase_deg", "_amplitude")  # whose phase is felt with it
+            given = on | ({harmonic: 0.5} if harmonic != name else {})
+            plain, other = (
+                Parameters(**{effect.id: some}).pack() for some in (given, given | {name: changed})
+            )
             assert other != plain, f"{effect.id}.{name}"
 
 
