@@ -6,53 +6,43 @@
 (501,)
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from .lazy import lazy
+
 if TYPE_CHECKING:
-    from .effects import EFFECTS
-    from .friction.law import friction_coefficient
-    from .friction.parameters import Friction
-    from .parameters import Imperfections, Initial, Parameters, Rig, Solver, Springs, Surface
-    from .simulation import simulate
-    from .trajectory import Trajectory
+    from .effects import EFFECTS as EFFECTS
+    from .friction.law import friction_coefficient as friction_coefficient
+    from .friction.parameters import Friction as Friction
+    from .parameters import Imperfections as Imperfections
+    from .parameters import Initial as Initial
+    from .parameters import Parameters as Parameters
+    from .parameters import Rig as Rig
+    from .parameters import Solver as Solver
+    from .parameters import Springs as Springs
+    from .parameters import Surface as Surface
+    from .simulation import simulate as simulate
+    from .trajectory import Trajectory as Trajectory
 
-__all__ = [
-    "EFFECTS",
-    "Friction",
-    "Imperfections",
-    "Initial",
-    "Parameters",
-    "Rig",
-    "Solver",
-    "Springs",
-    "Surface",
-    "Trajectory",
-    "friction_coefficient",
-    "simulate",
-]
-
-_HOME = dict.fromkeys(
-    ("Friction", "Imperfections", "Initial", "Parameters", "Rig", "Solver", "Springs", "Surface"),
-    ".parameters",
-) | {
-    "EFFECTS": ".effects",
-    "Trajectory": ".trajectory",
-    "friction_coefficient": ".friction.law",
-    "simulate": ".simulation",
-}
+# who only builds a unit needs no numpy
+_named, _, __all__ = lazy(
+    __name__,
+    {
+        ".effects": "EFFECTS",
+        ".friction.law": "friction_coefficient",
+        ".friction.parameters": "Friction",
+        ".parameters": "Imperfections Initial Parameters Rig Solver Springs Surface",
+        ".simulation": "simulate",
+        ".trajectory": "Trajectory",
+    },
+)
 
 
 def __getattr__(name: str) -> Any:
-    """Import on first use: who only builds a unit needs no numpy.
-
-    The effects' tables of parameters have their names here too: VelocityWeakening, FilmDrag, ...
-    """
-    if name in _HOME:
-        return getattr(import_module(_HOME[name], __name__), name)
-    if name[:1].isupper() and name in _tables():
+    """The effects' tables of parameters have their names here, too: VelocityWeakening, FilmDrag."""
+    if name not in __all__ and name[:1].isupper() and name in _tables():
         return _tables()[name]
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return _named(name)
 
 
 def _tables() -> dict[str, Any]:

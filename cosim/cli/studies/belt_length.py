@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 import time
-from argparse import ArgumentTypeError, Namespace
+from argparse import Namespace
 from dataclasses import replace
 from pathlib import Path
 
@@ -18,8 +17,6 @@ from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.scenario import Scenario
 from cosim.studies.belt_length import (
-    AIR,
-    CAMERA,
     Case,
     Options,
     Protocol,
@@ -51,8 +48,6 @@ from cosim.studies.belt_length.show.files import (
 from cosim.studies.belt_length.show.wording import two_digits
 from cosim.studies.belt_length.study import BOUNDS, check_case, check_options, steps
 
-#: Of --limit, K, and of --jobs.
-LIMIT, CORES = CAMERA, os.cpu_count() or 1
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
 STUDY = Case(1.0, 0.82)
 
@@ -70,14 +65,6 @@ HEADINGS = ("as said", "5 %", "median", "95 %", "for ever")
 
 #: Choice -> the study's values; of the others it has the default case's.
 STUDIED = {"length": (1.0, 2.0, 3.0, 4.0), "speed": (0.15, 0.5, 0.82)}
-
-
-def number_or_air(text: str) -> float | str:
-    """A number, or AIR."""
-    try:
-        return AIR if text == AIR else float(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{text}: allowed is a number in W/m2K, or {AIR}") from None
 
 
 def execute(arguments: Namespace) -> int:

@@ -7,10 +7,9 @@ from .required_length import how_long
 from .result import Options, Study
 from .scenario_priors import check_slides, ignored_keys, remarks, scenario_case, with_ranges
 from .show.verdict import verdict
-from .study import AIR, answer_all, cases, work_off
+from .study import answer_all, cases, work_off
 
 __all__ = [
-    "AIR",
     "CAMERA",
     "Case",
     "DriftMap",

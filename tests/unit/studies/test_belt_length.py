@@ -1,6 +1,7 @@
 """`stickslip belt-length`: cases, table, verdict, files, refusals."""
 
 import json
+import re
 from functools import partial
 
 import numpy as np
@@ -8,9 +9,10 @@ import pandas as pd
 import pytest
 from command_line import executed
 
+from cosim.cli import main
+from cosim.cli.arguments import COMMANDS
 from cosim.cli.studies import belt_length as belt_length_command
 from cosim.studies.belt_length import (
-    AIR,
     CAMERA,
     Case,
     Options,
@@ -26,6 +28,7 @@ from cosim.studies.belt_length import (
 from cosim.studies.belt_length.changes import friction_effect, linear_sensitivity
 from cosim.studies.belt_length.drift import drift, run_drift, steady_drift
 from cosim.studies.belt_length.lengths import LENGTHS, SPEEDS
+from cosim.studies.belt_length.study import BOUNDS
 from thermal.belt.air import moving_belt
 from thermal.steady_sliding import SteadySliding
 
@@ -107,7 +110,7 @@ def test_drift_map_rises_with_speed_and_falls_with_length():
 
 
 def test_still_air_takes_its_number_from_speed_and_length():
-    slow, fast = cases(Case(1.0, 0.5, h=3.0), length=(1.0,), speed=(0.15, 0.82), h=(AIR,))
+    slow, fast = cases(Case(1.0, 0.5, h=3.0), length=(1.0,), speed=(0.15, 0.82), h=(None,))
     assert 5.0 < slow.film < fast.film < 12.0
     assert fast.pause_film < moving_belt(0.0, 0.5, -8.0) < fast.film < moving_belt(0.82, 0.5, -8.0)
     assert fast.lasting.film > fast.film, "warmer for ever"
@@ -258,3 +261,22 @@ def test_the_studys_resolution_is_good_to_half_a_percent():
     fine = SteadySliding(case.thermal(fine=True), case.speed, case.force)
     fine.ramp(10.0)
     assert run_drift(case) == pytest.approx(fine.run(20.0).entry, rel=5e-3)
+
+
+def test_the_help_has_the_defaults_that_are_taken(capsys):
+    """They stand in `commands.toml` as text, so that the help needs no heat model."""
+    with pytest.raises(SystemExit):
+        main(["belt-length", "--help"])
+    told = " ".join(capsys.readouterr().out.split())
+    study, protocol = belt_length_command.STUDY, Protocol()
+    assert COMMANDS["belt-length"]["arguments"]["--limit --camera"]["default"] == CAMERA
+    for name, (field, *_) in BOUNDS.items():
+        values = belt_length_command.STUDIED.get(name, (getattr(study, field),))
+        if name in ("conductivity", "conductance", "thickness"):
+            block = "contact" if name == "conductance" else "belt"
+            values = (getattr(getattr(study.thermal(), block), name),)
+        shown = " ".join("air" if value is None else f"{value:g}" for value in values)
+        assert re.search(rf"--{name} .*?\(default: the scenario's, or (.*?)\)", told)[1] == shown
+    for name in ("ramp", "run"):
+        shown = f"{getattr(protocol, name):g}"
+        assert re.search(rf"--{name} S .*?\(default: the scenario's, or (.*?)\)", told)[1] == shown
