@@ -14,7 +14,7 @@ models by themselves.
 
 from typing import TYPE_CHECKING
 
-from stickslip.lazy import lazy
+from cosim.lazy import lazy
 
 if TYPE_CHECKING:
     from cosim.coupling.case import CoupledRun as CoupledRun

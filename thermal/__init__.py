@@ -7,9 +7,8 @@
 True
 """
 
-from typing import TYPE_CHECKING
-
-from stickslip.lazy import lazy
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from .belt.parameters import Belt as Belt
@@ -31,19 +30,28 @@ if TYPE_CHECKING:
     from .steady_state import NoSteadyState as NoSteadyState
     from .steady_state import settle as settle
 
-# who reads parameters needs no finite elements
-__getattr__, __dir__, __all__ = lazy(
-    __name__,
-    {
-        ".belt.parameters": "Belt Layer",
-        ".belt.single_pass": "SinglePass",
-        ".contact.parameters": "Contact",
-        ".ice.mesh_file": "MeshError",
-        ".ice.parameters": "Ice",
-        ".model": "BeltIceModel",
-        ".output": "FieldSeries RigView collection rig_view",
-        ".parameters": "Ambient ParameterError ThermalParameters",
-        ".steady_sliding": "SlidingState SteadySliding",
-        ".steady_state": "NoSteadyState settle",
-    },
-)
+_HOMES = {
+    ".belt.parameters": "Belt Layer",
+    ".belt.single_pass": "SinglePass",
+    ".contact.parameters": "Contact",
+    ".ice.mesh_file": "MeshError",
+    ".ice.parameters": "Ice",
+    ".model": "BeltIceModel",
+    ".output": "FieldSeries RigView collection rig_view",
+    ".parameters": "Ambient ParameterError ThermalParameters",
+    ".steady_sliding": "SlidingState SteadySliding",
+    ".steady_state": "NoSteadyState settle",
+}
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
+__all__ = sorted(_HOME)
+
+
+def __getattr__(name: str) -> Any:
+    """Import on first use: who reads parameters needs no finite elements."""
+    if name in _HOME:
+        return getattr(import_module(_HOME[name], __name__), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -5,7 +5,7 @@
 
 from typing import TYPE_CHECKING
 
-from stickslip.lazy import lazy
+from cosim.lazy import lazy
 
 if TYPE_CHECKING:
     from cosim.files import OutputError as OutputError

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from stickslip.lazy import lazy
+from cosim.lazy import lazy
 
 if TYPE_CHECKING:
     from cosim.scenario.scenario import Scenario as Scenario

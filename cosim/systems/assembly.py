@@ -262,9 +262,7 @@ def _end(
     address = Address.parse(text)
     port = find_port(participants, address)
     unit, definition = units[address.participant].ports.get(address.port, (NO_UNIT, None))
-    if port.unit == NO_UNIT and port.definition is None:
-        return Port(port.name, unit, port.causality, port.nominal, definition)
-    if port.definition is None and port.unit == unit:
+    if port.definition is None and port.unit in (NO_UNIT, unit):
         return Port(port.name, unit, port.causality, port.nominal, definition)
     return port
 

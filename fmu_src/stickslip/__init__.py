@@ -6,9 +6,8 @@
 (501,)
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
-
-from .lazy import lazy
 
 if TYPE_CHECKING:
     from .effects import EFFECTS as EFFECTS
@@ -24,25 +23,28 @@ if TYPE_CHECKING:
     from .simulation import simulate as simulate
     from .trajectory import Trajectory as Trajectory
 
-# who only builds a unit needs no numpy
-_named, _, __all__ = lazy(
-    __name__,
-    {
-        ".effects": "EFFECTS",
-        ".friction.law": "friction_coefficient",
-        ".friction.parameters": "Friction",
-        ".parameters": "Imperfections Initial Parameters Rig Solver Springs Surface",
-        ".simulation": "simulate",
-        ".trajectory": "Trajectory",
-    },
-)
+_HOMES = {
+    ".effects": "EFFECTS",
+    ".friction.law": "friction_coefficient",
+    ".friction.parameters": "Friction",
+    ".parameters": "Imperfections Initial Parameters Rig Solver Springs Surface",
+    ".simulation": "simulate",
+    ".trajectory": "Trajectory",
+}
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
+__all__ = sorted(_HOME)
 
 
 def __getattr__(name: str) -> Any:
-    """The effects' tables of parameters have their names here, too: VelocityWeakening, FilmDrag."""
-    if name not in __all__ and name[:1].isupper() and name in _tables():
+    """Import on first use: who only builds a unit needs no numpy.
+
+    The effects' tables of parameters have their names here too: VelocityWeakening, FilmDrag, ...
+    """
+    if name in _HOME:
+        return getattr(import_module(_HOME[name], __name__), name)
+    if name[:1].isupper() and name in _tables():
         return _tables()[name]
-    return _named(name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def _tables() -> dict[str, Any]:
