@@ -12,8 +12,9 @@ models by themselves.
 <Figure size ... with 3 Axes>
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from cosim.lazy import lazy
 
 if TYPE_CHECKING:
     from cosim.coupling.case import CoupledRun as CoupledRun
@@ -40,31 +41,22 @@ if TYPE_CHECKING:
     from cosim.systems import read_system as read_system
     from cosim.systems import run_system as run_system
 
-_HOMES = {
-    "cosim.coupling.case": "CoupledRun run_scenario",
-    "cosim.gap": "read_campaign",
-    "cosim.gap.find": "find_gap",
-    "cosim.gap.plan": "make_plan read_plan",
-    "cosim.report.compare": "compare read_result",
-    "cosim.scenario": "Scenario read_scenario",
-    "cosim.simulated": "SimulatedRun simulate_scenario",
-    "cosim.studies.belt_length": "how_long",
-    "cosim.studies.friction_map": "friction_map",
-    "cosim.studies.reproduction": "reproduce",
-    "cosim.studies.stability": "case_of pretension_map regime_map stability stick_slip_range",
-    "cosim.studies.sweep": "sweep",
-    "cosim.systems": "read_system run_system",
-}
-_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
-__all__ = sorted(_HOME)
-
-
-def __getattr__(name: str) -> Any:
-    """Import on first use: the command line and the master alone start without the models."""
-    if name in _HOME:
-        return getattr(import_module(_HOME[name]), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def __dir__() -> list[str]:
-    return __all__
+# the command line and the master alone start without the models
+__getattr__, __dir__, __all__ = lazy(
+    __name__,
+    {
+        "cosim.coupling.case": "CoupledRun run_scenario",
+        "cosim.gap": "read_campaign",
+        "cosim.gap.find": "find_gap",
+        "cosim.gap.plan": "make_plan read_plan",
+        "cosim.report.compare": "compare read_result",
+        "cosim.scenario": "Scenario read_scenario",
+        "cosim.simulated": "SimulatedRun simulate_scenario",
+        "cosim.studies.belt_length": "how_long",
+        "cosim.studies.friction_map": "friction_map",
+        "cosim.studies.reproduction": "reproduce",
+        "cosim.studies.stability": "case_of pretension_map regime_map stability stick_slip_range",
+        "cosim.studies.sweep": "sweep",
+        "cosim.systems": "read_system run_system",
+    },
+)

@@ -11,49 +11,39 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .belt.parameters import Belt, Layer
-    from .belt.single_pass import SinglePass
-    from .contact.parameters import Contact
-    from .ice.mesh_file import MeshError
-    from .ice.parameters import Ice
-    from .model import BeltIceModel
-    from .output import FieldSeries, RigView, collection, rig_view
-    from .parameters import Ambient, ParameterError, ThermalParameters
-    from .steady_sliding import SlidingState, SteadySliding
-    from .steady_state import NoSteadyState, settle
+    from .belt.parameters import Belt as Belt
+    from .belt.parameters import Layer as Layer
+    from .belt.single_pass import SinglePass as SinglePass
+    from .contact.parameters import Contact as Contact
+    from .ice.mesh_file import MeshError as MeshError
+    from .ice.parameters import Ice as Ice
+    from .model import BeltIceModel as BeltIceModel
+    from .output import FieldSeries as FieldSeries
+    from .output import RigView as RigView
+    from .output import collection as collection
+    from .output import rig_view as rig_view
+    from .parameters import Ambient as Ambient
+    from .parameters import ParameterError as ParameterError
+    from .parameters import ThermalParameters as ThermalParameters
+    from .steady_sliding import SlidingState as SlidingState
+    from .steady_sliding import SteadySliding as SteadySliding
+    from .steady_state import NoSteadyState as NoSteadyState
+    from .steady_state import settle as settle
 
-__all__ = [
-    "Ambient",
-    "Belt",
-    "BeltIceModel",
-    "Contact",
-    "FieldSeries",
-    "Ice",
-    "Layer",
-    "MeshError",
-    "NoSteadyState",
-    "ParameterError",
-    "RigView",
-    "SinglePass",
-    "SlidingState",
-    "SteadySliding",
-    "ThermalParameters",
-    "collection",
-    "rig_view",
-    "settle",
-]
-
-_NAMES = {
-    ".belt.single_pass": ("SinglePass",),
-    ".ice.mesh_file": ("MeshError",),
-    ".model": ("BeltIceModel",),
-    ".output": ("FieldSeries", "RigView", "collection", "rig_view"),
-    ".parameters": ("Ambient", "Belt", "Contact", "Ice", "Layer", "ParameterError"),
-    ".steady_sliding": ("SlidingState", "SteadySliding"),
-    ".steady_state": ("NoSteadyState", "settle"),
+_HOMES = {
+    ".belt.parameters": "Belt Layer",
+    ".belt.single_pass": "SinglePass",
+    ".contact.parameters": "Contact",
+    ".ice.mesh_file": "MeshError",
+    ".ice.parameters": "Ice",
+    ".model": "BeltIceModel",
+    ".output": "FieldSeries RigView collection rig_view",
+    ".parameters": "Ambient ParameterError ThermalParameters",
+    ".steady_sliding": "SlidingState SteadySliding",
+    ".steady_state": "NoSteadyState settle",
 }
-_HOME = {name: module for module, names in _NAMES.items() for name in names}
-_HOME["ThermalParameters"] = ".parameters"
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
+__all__ = sorted(_HOME)
 
 
 def __getattr__(name: str) -> Any:
@@ -64,4 +54,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return __all__

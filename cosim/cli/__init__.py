@@ -14,7 +14,6 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from errno import EBADF, EIO, ENAMETOOLONG, ENOSPC
-from importlib import import_module
 from typing import TextIO
 
 from cosim.files import OutputError
@@ -66,13 +65,11 @@ def _guarded(argv: Sequence[str]) -> int:
         return _give_up(BadInput(_CLOSED), BAD_INPUT, debug)
     try:
         with held_interrupts():
-            from cosim.cli.arguments import COMMANDS, command_module, parser
+            from cosim.cli.arguments import command_module, parser
             from cosim.cli.console import saying
 
             arguments = parser(argv).parse_args(argv)
             command = command_module(arguments.command)
-            for module in COMMANDS[arguments.command].get("imports", ()):
-                import_module(module)
         with saying(arguments.quiet, arguments.verbose), warnings_in_one_line():
             done: int = command.execute(arguments)
         sys.stdout.flush()

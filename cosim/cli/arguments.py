@@ -8,32 +8,23 @@ from __future__ import annotations
 
 import argparse
 import builtins
-import os
-import re
 import sys
-import tomllib
 from collections.abc import Sequence
 from importlib import import_module
 from importlib.metadata import version
-from importlib.resources import files
 from types import ModuleType
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import Any, NoReturn
 
-if TYPE_CHECKING:
-    from cosim.report.files import Shown
-
+from cosim.cli import argument_types
+from cosim.packaged import packaged_tables
 
 #: What `commands.toml` says: of arguments that several commands have, and of each command.
-_DECLARED: dict[str, dict[str, Any]] = tomllib.loads(
-    (files(__package__) / "commands.toml").read_text(encoding="utf-8")
-)
+_DECLARED = packaged_tables(__package__, "commands.toml")
 _SHARED = _DECLARED.pop("shared")
 #: In the order of the help.
 COMMANDS = _DECLARED
 #: What argparse takes of an argument; other keys are for its help.
 _KNOWN = ("action", "choices", "const", "default", "dest", "metavar", "nargs", "type")
-#: As a FILE of --json: standard output.
-STDOUT = "-"
 #: Where folders of results go that are not named.
 RESULTS = "results"
 
@@ -50,8 +41,8 @@ class Parser(argparse.ArgumentParser):
 def parser(arguments: Sequence[str]) -> Parser:
     """The parser of the whole command line.
 
-    A command declares its own arguments. It is imported only where ``arguments`` name it, so that
-    help and the other commands stay quick.
+    Only a command that ``arguments`` name has its own declared, which is quicker; its module, and
+    what that computes with, is imported when the arguments are known.
     """
     top = Parser(
         prog="stickslip",
@@ -89,7 +80,7 @@ def command_module(name: str) -> ModuleType:
 def add_arguments(command: argparse.ArgumentParser, name: str) -> None:
     """The arguments of a command, and how much is said beside its results."""
     told = COMMANDS[name]
-    names = vars(builtins) | globals() | vars(command_module(name))
+    names = vars(builtins) | vars(argument_types)
     groups: dict[str | None, Any] = {None: command}
     said = {"-q --quiet": {}, "-v --verbose": {"more": told.get("verbose", "")}}
     for flags, own in (told["arguments"] | said).items():
@@ -104,27 +95,3 @@ def add_arguments(command: argparse.ArgumentParser, name: str) -> None:
         groups[group].add_argument(
             *flags.split(), help=one["help"].format_map(names | one), **given
         )
-
-
-def shown(arguments: argparse.Namespace) -> Shown:
-    """As the command line says it."""
-    return {"figures": arguments.figures, "page": not arguments.no_page}
-
-
-def folder(text: str) -> str:
-    """A folder's name; an empty one, such as of a shell's unset variable, is none."""
-    if not text.strip():
-        raise argparse.ArgumentTypeError(
-            "'' is no name of a folder, allowed is one such as results"
-        )
-    return text
-
-
-def json_file(text: str) -> str:
-    """A file's name; not that of a scenario, an effect or a claim, which may have been meant."""
-    if text != STDOUT and not re.search(r"[./\\]", text) and not os.path.exists(text):
-        raise argparse.ArgumentTypeError(
-            f"{text} is no name of a file, allowed is one such as {text}.json; what is to be "
-            "computed goes in front of --json"
-        )
-    return text

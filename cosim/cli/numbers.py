@@ -7,7 +7,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
 
-from cosim.cli.arguments import STDOUT
+from cosim.cli.argument_types import STDOUT
 from cosim.files import writable, write_text
 from cosim.manifest import require_json
 

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
 from cosim.cli.console import note
-
-if TYPE_CHECKING:
-    from cosim.scenario import Scenario
+from cosim.scenario import Scenario, ScenarioError, read_scenario
+from cosim.scenario.changes import changes_of
+from cosim.scenario.keys import taken_line
 
 
 def given_scenario(source: str, settings: Iterable[str] = ()) -> Scenario:
     """Read a scenario with `key=value` settings put in; ScenarioError in one line for none."""
-    from cosim.scenario import ScenarioError, read_scenario
-    from cosim.scenario.changes import changes_of
-
     changes = changes_of(settings)
     if "effects" in changes:  # code is read before the settings are, and from a file's own folder
         raise ScenarioError(
@@ -28,7 +24,5 @@ def given_scenario(source: str, settings: Iterable[str] = ()) -> Scenario:
 
 def note_taken(scenario: Scenario) -> None:
     """Say what a file left to the defaults, once all that was given is known to be good."""
-    from cosim.scenario.keys import taken_line
-
     if line := taken_line(scenario.taken):
         note(line)

@@ -3,8 +3,9 @@
 >>> from cosim.report import run_dataset, trajectory_dataset, write_results
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from cosim.lazy import lazy
 
 if TYPE_CHECKING:
     from cosim.files import OutputError as OutputError
@@ -15,23 +16,14 @@ if TYPE_CHECKING:
     from cosim.report.results import write_results as write_results
     from cosim.report.run_summary import summary as summary
 
-_HOMES = {
-    "cosim.files": "OutputError",
-    "cosim.report.contents": "Views",
-    "cosim.report.dataset": "run_dataset trajectory_dataset",
-    "cosim.report.results": "write_data write_results",
-    "cosim.report.run_summary": "summary",
-}
-_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
-__all__ = sorted(_HOME)
-
-
-def __getattr__(name: str) -> Any:
-    """Import on first use: who wants words and style of a page needs no model of the motion."""
-    if name in _HOME:
-        return getattr(import_module(_HOME[name]), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def __dir__() -> list[str]:
-    return __all__
+# who wants words and style of a page needs no model of the motion
+__getattr__, __dir__, __all__ = lazy(
+    __name__,
+    {
+        "cosim.files": "OutputError",
+        "cosim.report.contents": "Views",
+        "cosim.report.dataset": "run_dataset trajectory_dataset",
+        "cosim.report.results": "write_data write_results",
+        "cosim.report.run_summary": "summary",
+    },
+)

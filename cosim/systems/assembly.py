@@ -107,14 +107,17 @@ def _faults(specification: SystemSpecification) -> list[str]:
 
 
 def _participant(unit: UnitEntry, description: ModelDescription, debug: bool) -> Participant:
-    """A unit with what it is set to, in as many steps a macro step as the file says."""
-    options: dict[str, Any] = _settings(unit, description) | {"tolerance": unit.tolerance}
-    participant = _driven(unit, _unit(unit, options | {"debug": debug}))
-    return participant if unit.substeps == 1 else Subcycled(participant, unit.substeps)
-
-
-def _driven(unit: UnitEntry, participant: Participant) -> Participant:
-    """With what its file has of its inputs over time."""
+    """A unit with what it is set to, and what its file has of its inputs over time, in as many
+    steps a macro step as the file says."""
+    options: dict[str, Any] = _settings(unit, description)
+    options |= {"tolerance": unit.tolerance, "debug": debug}
+    if unit.isolate and unit.time_limit != NOT_GIVEN:
+        options["time_limit"] = unit.time_limit
+    participant: Participant = (
+        IsolatedParticipant(FmuParticipant, str(unit.file), unit.name, **options)
+        if unit.isolate
+        else FmuParticipant(unit.file, unit.name, **options)
+    )
     inputs = [port.name for port in participant.ports.values() if port.causality == "input"]
     for name in unit.driven:
         if name not in inputs:
@@ -126,15 +129,9 @@ def _driven(unit: UnitEntry, participant: Participant) -> Participant:
                 f"{unit.name}.{name}: is set, and a column of {unit.input_file}; allowed is one of"
                 " both"
             )
-    return Driven(participant, unit.driven) if unit.driven else participant
-
-
-def _unit(unit: UnitEntry, options: dict[str, Any]) -> Participant:
-    if not unit.isolate:
-        return FmuParticipant(unit.file, unit.name, **options)
-    if unit.time_limit != NOT_GIVEN:
-        options["time_limit"] = unit.time_limit
-    return IsolatedParticipant(FmuParticipant, str(unit.file), unit.name, **options)
+    if unit.driven:
+        participant = Driven(participant, unit.driven)
+    return participant if unit.substeps == 1 else Subcycled(participant, unit.substeps)
 
 
 def _settings(unit: UnitEntry, description: ModelDescription) -> dict[str, dict[str, Value]]:
@@ -262,9 +259,7 @@ def _end(
     address = Address.parse(text)
     port = find_port(participants, address)
     unit, definition = units[address.participant].ports.get(address.port, (NO_UNIT, None))
-    if port.unit == NO_UNIT and port.definition is None:
-        return Port(port.name, unit, port.causality, port.nominal, definition)
-    if port.definition is None and port.unit == unit:
+    if port.definition is None and port.unit in (NO_UNIT, unit):
         return Port(port.name, unit, port.causality, port.nominal, definition)
     return port
 
@@ -287,20 +282,13 @@ def _step(
                 f" {(run.stop - run.start) / MOST_STEPS:g} s"
             )
         return chosen, ""
-    stated = [_stated_step(each) for each in descriptions.values()]
-    steps = [step for step in stated if step is not None]
+    stated = [each.defaultExperiment for each in descriptions.values() if each.defaultExperiment]
+    sizes = [float(each.stepSize) for each in stated if each.stepSize is not None]
+    steps = [size for size in sizes if math.isfinite(size) and size > 0.0]
     if steps:
         return min(steps), f"coupling.macro_step is not given: {min(steps):g} s, as a unit advises"
     step = (run.stop - run.start) / STEPS_OF_A_RUN
     return step, f"coupling.macro_step is not given: {step:g} s, a thousandth of the run"
-
-
-def _stated_step(description: ModelDescription) -> float | None:
-    experiment = description.defaultExperiment
-    if experiment is None or experiment.stepSize is None:
-        return None
-    step = float(experiment.stepSize)
-    return step if math.isfinite(step) and step > 0.0 else None
 
 
 def record_every(specification: SystemSpecification, macro_step: float) -> int:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -22,61 +21,45 @@ def read_input_table(path: Path, place: str) -> dict[str, Curve]:
 
     Raises SystemFault in one line: key, file, line, what is wrong, what is allowed.
     """
+    where = f"{place}: {path}"
     try:
         if not path.is_file():
-            raise SystemFault(f"{place}: {path}: no such file, allowed is a CSV file")
+            raise SystemFault(f"{where}: no such file, allowed is a CSV file")
         if path.stat().st_size > MOST_BYTES:
-            raise SystemFault(f"{place}: {path}: is larger than {MOST_BYTES >> 20} MiB, allowed")
+            raise SystemFault(f"{where}: is larger than {MOST_BYTES >> 20} MiB, allowed")
         with path.open(encoding="utf-8-sig", newline="") as file:
-            rows = list(_rows(csv.reader(file), f"{place}: {path}"))
+            cells = [[cell.strip() for cell in row] for row in csv.reader(file)]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise SystemFault(f"{place}: {path}: cannot be read as CSV ({error})") from None
-    header, numbers = rows[0][1], rows[1:]
-    times = np.array([float(row[0]) for _, row in numbers])
-    falls = np.flatnonzero(np.diff(times) < 0.0)
-    if falls.size:
-        line = numbers[int(falls[0]) + 1][0]
+        raise SystemFault(f"{where}: cannot be read as CSV ({error})") from None
+    rows = {f"{where}: line {line}": row for line, row in enumerate(cells, 1) if any(row)}
+    header = next(iter(rows.values()), [])
+    if header and (header[0] != TIME or len(header) < 2 or len({*header}) < len(header)):
         raise SystemFault(
-            f"{place}: {path}: line {line}: the time goes back to {times[falls[0] + 1]:g} s, "
-            "allowed are times that do not fall"
+            f"{next(iter(rows))}: its columns are {', '.join(header)}; allowed are {TIME} and then "
+            "inputs, each once"
         )
-    return {
-        name: Curve(times, np.array([float(row[column]) for _, row in numbers]))
-        for column, name in enumerate(header)
-        if column > 0
-    }
+    if len(rows) < 2:
+        raise SystemFault(f"{where}: has no rows, needed is a header and a row of numbers")
+    lines = [*rows][1:]
+    table = np.array([_numbers(rows[line], header, line) for line in lines])
+    times = table[:, 0]
+    for fall in np.flatnonzero(np.diff(times) < 0.0) + 1:
+        raise SystemFault(
+            f"{lines[fall]}: the time goes back to {times[fall]:g} s, allowed are times that do "
+            "not fall"
+        )
+    return {name: Curve(times, table[:, i]) for i, name in enumerate(header) if i > 0}
 
 
-def _rows(lines: Iterator[list[str]], place: str) -> Iterator[tuple[int, list[str]]]:
-    """Number of the line, and its cells: the header, then rows of numbers, one at least."""
-    header: list[str] = []
-    count = 0
-    for number, cells in enumerate(lines, 1):
-        row = [cell.strip() for cell in cells]
-        if not any(row):
-            continue
-        if not header:
-            header = row
-            if header[0] != TIME or len(header) < 2 or len({*header}) < len(header):
-                raise SystemFault(
-                    f"{place}: line {number}: its columns are {', '.join(header)}; allowed are "
-                    f"{TIME} and then inputs, each once"
-                )
-        else:
-            _check(row, header, f"{place}: line {number}")
-            count += 1
-        yield number, row
-    if count == 0:
-        raise SystemFault(f"{place}: has no rows, needed is a header and a row of numbers")
-
-
-def _check(row: list[str], header: list[str], place: str) -> None:
+def _numbers(row: list[str], header: list[str], line: str) -> list[float]:
     if len(row) != len(header):
-        raise SystemFault(f"{place}: has {len(row)} cells, the header has {len(header)}")
+        raise SystemFault(f"{line}: has {len(row)} cells, the header has {len(header)}")
+    found = []
     for name, cell in zip(header, row, strict=True):
         try:
-            is_finite = math.isfinite(float(cell))
+            found.append(float(cell))
         except ValueError:
-            is_finite = False
-        if not is_finite:
-            raise SystemFault(f"{place}: {name} = {cell!r}, allowed is a finite number")
+            found.append(math.nan)
+        if not math.isfinite(found[-1]):
+            raise SystemFault(f"{line}: {name} = {cell!r}, allowed is a finite number")
+    return found

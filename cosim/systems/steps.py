@@ -20,9 +20,8 @@ class StepLog:
     def __init__(self, start: float):
         self._reached = start
         self._each, self._inside = 1, 0
-        self._ends: list[float] = []
-        self._shortest: list[float] = []
-        self._longest: list[float] = []
+        #: End, shortest and longest of each group.
+        self._groups: list[list[float]] = []
         self.count: int = 0
 
     def add(self, reached: float) -> None:
@@ -32,15 +31,18 @@ class StepLog:
         size, self._reached = reached - self._reached, reached
         self.count += 1
         if self._inside == 0:
-            if len(self._ends) >= MOST_GROUPS:
-                self._merge()
-            self._ends.append(reached)
-            self._shortest.append(size)
-            self._longest.append(size)
+            if len(self._groups) >= MOST_GROUPS:
+                # two neighbours become one
+                pairs = zip(self._groups[::2], self._groups[1::2], strict=False)
+                self._groups = [
+                    [end, min(before[1], short), max(before[2], long)]
+                    for before, (end, short, long) in pairs
+                ]
+                self._each *= 2
+            self._groups.append([reached, size, size])
         else:
-            self._ends[-1] = reached
-            self._shortest[-1] = min(self._shortest[-1], size)
-            self._longest[-1] = max(self._longest[-1], size)
+            _, shortest, longest = self._groups[-1]
+            self._groups[-1] = [reached, min(shortest, size), max(longest, size)]
         self._inside = (self._inside + 1) % self._each
 
     def save_state(self) -> bytes:
@@ -51,25 +53,17 @@ class StepLog:
         """Go on from what `save_state` gave."""
         vars(self).update(json.loads(saved))
 
-    def _merge(self) -> None:
-        """Two neighbours become one."""
-        self._ends = self._ends[1::2]
-        pairs = range(0, 2 * len(self._ends), 2)
-        self._shortest = [min(self._shortest[n : n + 2]) for n in pairs]
-        self._longest = [max(self._longest[n : n + 2]) for n in pairs]
-        self._each *= 2
-
     @property
     def ends(self) -> NDArray[np.float64]:
         """Time at which each group of steps ends, s, (k,)."""
-        return np.array(self._ends)
+        return np.array([end for end, _, _ in self._groups])
 
     @property
     def shortest(self) -> NDArray[np.float64]:
         """Smallest step of each group, s, (k,)."""
-        return np.array(self._shortest)
+        return np.array([shortest for _, shortest, _ in self._groups])
 
     @property
     def longest(self) -> NDArray[np.float64]:
         """Largest step of each group, s, (k,)."""
-        return np.array(self._longest)
+        return np.array([longest for _, _, longest in self._groups])

@@ -10,37 +10,29 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from .effects import EFFECTS
-    from .friction.law import friction_coefficient
-    from .friction.parameters import Friction
-    from .parameters import Imperfections, Initial, Parameters, Rig, Solver, Springs, Surface
-    from .simulation import simulate
-    from .trajectory import Trajectory
+    from .effects import EFFECTS as EFFECTS
+    from .friction.law import friction_coefficient as friction_coefficient
+    from .friction.parameters import Friction as Friction
+    from .parameters import Imperfections as Imperfections
+    from .parameters import Initial as Initial
+    from .parameters import Parameters as Parameters
+    from .parameters import Rig as Rig
+    from .parameters import Solver as Solver
+    from .parameters import Springs as Springs
+    from .parameters import Surface as Surface
+    from .simulation import simulate as simulate
+    from .trajectory import Trajectory as Trajectory
 
-__all__ = [
-    "EFFECTS",
-    "Friction",
-    "Imperfections",
-    "Initial",
-    "Parameters",
-    "Rig",
-    "Solver",
-    "Springs",
-    "Surface",
-    "Trajectory",
-    "friction_coefficient",
-    "simulate",
-]
-
-_HOME = dict.fromkeys(
-    ("Friction", "Imperfections", "Initial", "Parameters", "Rig", "Solver", "Springs", "Surface"),
-    ".parameters",
-) | {
-    "EFFECTS": ".effects",
-    "Trajectory": ".trajectory",
-    "friction_coefficient": ".friction.law",
-    "simulate": ".simulation",
+_HOMES = {
+    ".effects": "EFFECTS",
+    ".friction.law": "friction_coefficient",
+    ".friction.parameters": "Friction",
+    ".parameters": "Imperfections Initial Parameters Rig Solver Springs Surface",
+    ".simulation": "simulate",
+    ".trajectory": "Trajectory",
 }
+_HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
+__all__ = sorted(_HOME)
 
 
 def __getattr__(name: str) -> Any:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import tomllib
 from argparse import Action, ArgumentParser, Namespace, _SubParsersAction
 from collections.abc import Iterator
-from importlib.resources import files
 from typing import Any
 
 from cosim.cli import DONE, BadInput
-from cosim.cli.arguments import COMMANDS
+from cosim.cli.arguments import COMMANDS, parser
+from cosim.packaged import packaged_tables
+from cosim.scenario import packaged_scenarios
+from cosim.scenario.keys import all_keys
 
 SHELLS = ("bash", "zsh", "fish")
 #: What stands for a file where there is no metavar that says so.
@@ -26,10 +27,6 @@ def execute(arguments: Namespace) -> int:
         raise BadInput(
             "completion: shtab is not installed, allowed after pip install shtab"
         ) from None
-    from cosim.cli.arguments import parser
-    from cosim.scenario import packaged_scenarios
-    from cosim.scenario.keys import all_keys
-
     whole = parser(list(COMMANDS))
     for command, action in _actions(whole):
         if action.dest in KEYED and command != NOT_KEYED:
@@ -43,7 +40,7 @@ def execute(arguments: Namespace) -> int:
     names = " ".join(packaged_scenarios())
     # a text for each shell, whatever its declaration says
     keys = " ".join(f"{one.key}=" for one in all_keys() if "[]" not in one.key)
-    texts = tomllib.loads((files(__package__) / "completion.toml").read_text(encoding="utf-8"))
+    texts = packaged_tables(__package__, "completion.toml")
     preamble: Any = {
         shell: text.replace("@NAMES@", names).replace("@KEYS@", keys)
         for shell, text in texts["preamble"].items()

@@ -2,35 +2,19 @@
 
 from __future__ import annotations
 
-import keyword
-import re
-from argparse import ArgumentTypeError, Namespace
+from argparse import Namespace
 from importlib import resources
 from pathlib import Path
+
+from stickslip.effects import EFFECTS
+from stickslip.plugins.load import TABLES
 
 from cosim.cli import DONE
 from cosim.files import OutputRefused, writable, write_unless_owned
 
-SUFFIX = ".py"
-
-
-def effect_file(name: str) -> Path:
-    """A file whose name an effect can have."""
-    path = Path(name)
-    wrong = not re.fullmatch(r"[a-z][a-z0-9_]*", path.stem) or keyword.iskeyword(path.stem)
-    if path.suffix != SUFFIX or wrong:
-        raise ArgumentTypeError(
-            f"{name!r} is not allowed, allowed is a name of small letters, digits and _ that "
-            f"begins with a letter, and ends in {SUFFIX}"
-        )
-    return path
-
 
 def execute(arguments: Namespace) -> int:
     """Write the file and say what can be done with it."""
-    from stickslip.effects import EFFECTS
-    from stickslip.plugins.load import TABLES
-
     file: Path = arguments.file
     name = file.stem
     if name in {*TABLES, *(effect.id for effect in EFFECTS)}:

@@ -4,20 +4,15 @@ from __future__ import annotations
 
 import json
 from argparse import Namespace
-from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, BadInput
 from cosim.cli.numbers import numbers_asked
-
-if TYPE_CHECKING:
-    from cosim.scenario.keys import Key
+from cosim.names import unknown_name
+from cosim.scenario.keys import Key, all_keys, found, shown
 
 
 def execute(arguments: Namespace) -> int:
     """Print the keys; 0."""
-    from cosim.names import unknown_name
-    from cosim.scenario.keys import all_keys, found
-
     keys = all_keys()
     chosen = found(arguments.word, keys) if arguments.word else keys
     if not chosen:
@@ -30,8 +25,6 @@ def execute(arguments: Namespace) -> int:
 
 
 def _print(key: Key) -> None:
-    from cosim.scenario.keys import shown
-
     plain = "" if key.plain == key.default or key.key == "name" else f" (plain: {shown(key.plain)})"
     print(f"{key.words}{plain}, allowed is {key.allowed}")
     print(f"    {key.description}")

@@ -7,13 +7,12 @@ from argparse import Namespace
 
 from cosim.cli import DONE
 from cosim.cli.console import note
+from cosim.scenario.json_schema import SCENARIO_FILE
+from cosim.scenario.written import write_new
 
 
 def execute(arguments: Namespace) -> int:
     """Write the file and say how it is run; 0."""
-    from cosim.scenario.json_schema import SCENARIO_FILE
-    from cosim.scenario.written import write_new
-
     file = write_new(arguments.name, arguments.source, force=arguments.force)
     note(f"{SCENARIO_FILE} beside it is for editors, which check and complete the file by it")
     print(f"{file}: stickslip simulate {shlex.quote(str(file))}")

@@ -7,29 +7,29 @@ from argparse import Namespace
 from pathlib import Path
 from typing import Any
 
+from pydantic import Field, create_model
+
 from cosim.cli import DONE
+from cosim.files import writable, write_text
+from cosim.manifest import require_json
+from cosim.scenario.json_schema import scenario_schema, schema_of
 
 
 def execute(arguments: Namespace) -> int:
     """Print or write the schema; 0."""
-    from cosim.files import writable, write_text
-    from cosim.manifest import require_json
-
-    if arguments.output is not None:
-        file = Path(arguments.output)
+    file = None if arguments.output is None else Path(arguments.output)
+    if file is not None:
         writable(file.parent, (file.name,))
         require_json(file, ("$schema", "title"), arguments.force)
     text = json.dumps(_schema(arguments.kind), indent=1, allow_nan=False) + "\n"
-    if arguments.output is None:
+    if file is None:
         print(text, end="")
     else:
-        write_text(text, Path(arguments.output))
+        write_text(text, file)
     return DONE
 
 
 def _schema(kind: str) -> dict[str, Any]:
-    from cosim.scenario.json_schema import scenario_schema, schema_of
-
     if kind == "scenario":
         return scenario_schema()
     if kind == "system":
@@ -41,10 +41,7 @@ def _schema(kind: str) -> dict[str, Any]:
 
 def _campaign_schema(kind: str) -> dict[str, Any]:
     """A campaign that was made, or of a plan, whose runs need no file."""
-    from pydantic import Field, create_model
-
     from cosim.gap.data.campaign_file import CampaignTable, MeasuredRunTable, RunTable
-    from cosim.scenario.json_schema import schema_of
 
     run: Any = RunTable if kind == "plan" else MeasuredRunTable
     runs: Any = (tuple[run, ...], Field(min_length=1, description="a table [[run]] for each run"))

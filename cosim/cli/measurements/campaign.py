@@ -5,13 +5,14 @@ from __future__ import annotations
 from argparse import Namespace
 from pathlib import Path
 
+from stickslip.units import in_unit
+
 from cosim.cli import DONE, BadInput
+from cosim.gap.from_folder import SETTINGS, campaign_of, shown
 
 
 def execute(arguments: Namespace) -> int:
     """Guess, write, show; 0."""
-    from cosim.gap.from_folder import campaign_of, shown
-
     known = dict(_setting(change) for change in arguments.changes)
     frames, pixel = arguments.frames, arguments.pixel
     if frames is not None and not frames > 0.0:
@@ -25,8 +26,6 @@ def execute(arguments: Namespace) -> int:
 
 
 def _setting(change: str) -> tuple[str, float]:
-    from cosim.gap.from_folder import SETTINGS
-
     key, _, value = change.partition("=")
     if key not in SETTINGS:
         raise BadInput(f"--set {change}: allowed are {', '.join(SETTINGS)}")
@@ -35,8 +34,6 @@ def _setting(change: str) -> tuple[str, float]:
 
 def _quantity(what: str, text: str, unit: str) -> float:
     """A number in a unit; BadInput for what is none."""
-    from stickslip.units import in_unit
-
     try:
         return float(text)
     except ValueError:

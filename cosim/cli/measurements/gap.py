@@ -3,41 +3,34 @@
 from __future__ import annotations
 
 import sys
-from argparse import ArgumentTypeError, Namespace
+from argparse import Namespace
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from cosim.cli import DONE, Failed
-from cosim.cli.arguments import RESULTS, STDOUT
+from cosim.cli.argument_types import CAMPAIGNS, PACKAGED, STDOUT
+from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
+from cosim.cli.measurements.run_files import check_files
 from cosim.cli.numbers import numbers_asked
+from cosim.gap import Campaign, CampaignError, read_campaign
+from cosim.gap.data.campaign_file import FILE_NAME
+from cosim.gap.example import write_example
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, own_folder, results_in
-
-if TYPE_CHECKING:
-    from cosim.gap import Campaign
 
 RESULT, MODEL, PAGE = "gap.json", "model.toml", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("campaign", "verdict", "ranking")
 #: What writes an answer down.
 SHOW, SHOW_SUMMARY = "cosim.gap.show.files", "cosim.studies.reproduction.summary.show"
-CAMPAIGNS = Path(__file__).parents[2] / "gap" / "campaigns"
-#: Names of the campaigns that ship with the package.
-PACKAGED = sorted(file.stem for file in CAMPAIGNS.glob("*.toml"))
-CAMPAIGNS_HERE = ", ".join(PACKAGED)
 
 
 def execute(arguments: Namespace) -> int:
     """Read, find, write, report; 0, or 1 when stopped."""
-    from cosim.cli.measurements.run_files import check_files
-    from cosim.gap import CampaignError, read_campaign
-    from cosim.gap.data.campaign_file import FILE_NAME
-    from cosim.gap.example import write_example
-
     if arguments.write_example is not None:
         print(write_example(Path(arguments.write_example), force=arguments.force))
         return DONE
@@ -114,18 +107,3 @@ def _find(campaign: Campaign, seed: int, jobs: int, bar: Bar) -> Any:
     from cosim.gap.find import find_gap
 
     return find_gap(campaign, jobs=jobs, progress=bar.reach)
-
-
-def count(text: str) -> int:
-    """A number of processes."""
-    number = whole(text)
-    if number < 1:
-        raise ArgumentTypeError(f"{text} is not allowed, allowed is 1 or more")
-    return number
-
-
-def whole(text: str) -> int:
-    """A whole number from 0."""
-    if not text.isdecimal():
-        raise ArgumentTypeError(f"{text!r} is not allowed, allowed is a whole number from 0")
-    return int(text)

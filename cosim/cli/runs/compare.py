@@ -6,16 +6,20 @@ import os
 import sys
 from argparse import Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from cosim.cli import DONE
 from cosim.cli.arguments import RESULTS
 from cosim.cli.numbers import numbers_asked
+from cosim.cli.runs.run_io import progress_over
+from cosim.cli.runs.running import scenario_to_run
 from cosim.manifest import made_by, own_folder, results_in
-
-if TYPE_CHECKING:
-    from cosim.report.compare import Comparison, OneResult
-    from cosim.scenario import Scenario
+from cosim.report import run_dataset, summary, trajectory_dataset
+from cosim.report.compare import Comparison, OneResult, compare, read_result
+from cosim.report.compare.page import cells, curve_cells, write
+from cosim.report.files import json_text
+from cosim.report.quantities import NONE, digits
+from cosim.scenario import Scenario
+from cosim.simulated import simulated
 
 #: Numbers that are on the page only.
 OTHER_STARTS = tuple(f"regimes.{start}." for start in ("disturbed", "rest", "riding", "ramp"))
@@ -26,10 +30,6 @@ RESULT, PAGE = "compare.json", "report.html"
 
 def execute(arguments: Namespace) -> int:
     """Read or run both, compare, write, print."""
-    from cosim.report.compare import compare
-    from cosim.report.compare.page import write
-    from cosim.report.files import json_text
-
     numbers = numbers_asked(arguments, ("a", "b", "numbers"))
     both = compare(*_results(arguments))
     place = arguments.output or Path(RESULTS) / _named(both)
@@ -52,12 +52,11 @@ def _named(both: Comparison) -> str:
 
 def _results(arguments: Namespace) -> list[OneResult]:
     """Both results; what is wrong with either is found before anything is run."""
-    from cosim.report.compare import read_result
-    from cosim.scenario import Scenario
-
     sources = (arguments.a, arguments.b)
     found = [
-        read_result(Path(one)) if os.path.isdir(one) else _scenario(one, arguments.coupled)
+        read_result(Path(one))
+        if os.path.isdir(one)
+        else scenario_to_run(one, coupled=arguments.coupled)
         for one in sources
     ]
     return [
@@ -66,19 +65,8 @@ def _results(arguments: Namespace) -> list[OneResult]:
     ]
 
 
-def _scenario(source: str, coupled: bool) -> Scenario:
-    from cosim.cli.runs.running import scenario_to_run
-
-    return scenario_to_run(source, coupled=coupled)
-
-
 def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
     """A scenario's run, which is kept nowhere."""
-    from cosim.cli.runs.run_io import progress_over
-    from cosim.report import run_dataset, summary, trajectory_dataset
-    from cosim.report.compare import OneResult
-    from cosim.simulated import simulated
-
     _ = scenario.catalogue.compiled
     with progress_over(scenario.run.duration) as show:
         if coupled:
@@ -97,9 +85,6 @@ def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
 
 def _table(both: Comparison, folder: Path) -> str:
     """Lines: what differs in the scenarios, and in the numbers."""
-    from cosim.report.compare.page import cells, curve_cells
-    from cosim.report.quantities import NONE, digits
-
     lines = [f"A: {both.a.label} ({both.a.place})", f"B: {both.b.label} ({both.b.place})"]
     for key, values in both.keys.items():
         left, right = ("(not there)" if one is None else digits(one) for one in values)

@@ -7,38 +7,35 @@ import shlex
 import sys
 import time
 from argparse import Namespace
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from cosim.cli import DONE, FAILED, BadInput
-from cosim.cli.arguments import RESULTS, shown
-from cosim.cli.numbers import Numbers, numbers_asked
-
-if TYPE_CHECKING:
-    from cosim.cli.runs.run_io import Job
-    from cosim.coupling.record import MessageLog
-    from cosim.interrupts import Patience
-    from cosim.manifest import ResultFolder
-    from cosim.systems import SystemRun
-    from cosim.systems.specification import SystemSpecification
+from cosim.cli import FAILED, BadInput
+from cosim.cli.arguments import RESULTS
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.runs import run_io
+from cosim.cli.runs.run_io import Job
+from cosim.coupling.record import MessageLog, RunFolder
+from cosim.interrupts import Patience
+from cosim.manifest import ResultFolder
+from cosim.report.coupling import doubts
+from cosim.scenario.changes import changes_of
+from cosim.systems import SystemRun, read_system, run_system
+from cosim.systems.run import check_system
+from cosim.systems.show import FILES, write_system
+from cosim.systems.show.summary import closing_lines, in_few_lines
+from cosim.systems.specification import SystemSpecification
 
 #: By which keys the JSON of a system is known.
 KEYS = ("name", "status", "coupling")
 
 
-def _resume(system: str, results: Path) -> str:
-    return shlex.join(["stickslip", "couple", system, "--resume", str(results)])
-
-
 def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
-    from cosim.cli.runs import run_io
-    from cosim.systems import run_system
-
     began = time.perf_counter()
-    numbers = numbers_asked(arguments, KEYS)
+    numbers_wanted = numbers_asked(arguments, KEYS)
     specification, job = _begun(arguments) if arguments.resume is None else _found(arguments)
     start, stop = specification.run.start, specification.run.stop
 
@@ -58,7 +55,25 @@ def execute(arguments: Namespace) -> int:
     def write(
         done: SystemRun, results: ResultFolder, patience: Patience, resume: str, log: MessageLog
     ) -> int:
-        return _finish(job, done, began, patience, numbers, resume, log)
+        def files(written: Callable[[str], None]) -> Mapping[str, Any]:
+            listed = run_io.log_files(log)
+            how: Any = {"command": job.command, "files": listed, "shown": job.shown}
+            return write_system(done, job.results, progress=written, **how)
+
+        def lines(numbers: Mapping[str, Any]) -> list[str]:
+            return [f"warning: {doubt}" for doubt in doubts(numbers["coupling"])]
+
+        numbers, status, tells = run_io.ended(
+            files, lines, job.results, patience, numbers_wanted, resume, log
+        )
+        if status == FAILED:
+            return FAILED
+        for said in in_few_lines(numbers["warnings"]):
+            print(f"warning: {said}", file=sys.stderr)
+        if tells:
+            wall_time = time.perf_counter() - began
+            print("\n".join(closing_lines(numbers, job.results, wall_time)))
+        return status
 
     with specification:
         return run_io.carried_out(job, arguments.verbose, run, write)
@@ -66,46 +81,22 @@ def execute(arguments: Namespace) -> int:
 
 def _begun(arguments: Namespace) -> tuple[SystemSpecification, Job]:
     """A run from its start."""
-    from cosim.cli.runs.run_io import Job, own_folder
-    from cosim.coupling.record import RunFolder
-    from cosim.scenario.changes import changes_of
-    from cosim.systems import read_system
-    from cosim.systems.run import check_system
-    from cosim.systems.show import FILES
-
     if arguments.system is None:
         raise BadInput("SYSTEM: missing, needed is an SSP or a TOML file")
     changes = changes_of(arguments.changes, "run.stop=10")
     specification = read_system(arguments.system, changes)
     results = Path(arguments.output or Path(RESULTS) / _folder_name(specification.name))
-    command = shlex.join(["stickslip", *sys.argv[1:]])
-    resume = _resume(arguments.system, results)
-    asked: dict[str, Any] = {
-        "system": str(Path(arguments.system).resolve()),
-        "changes": changes,
-        "command": command,
-        "shown": shown(arguments),
-        "resume": resume,
-    }
+    of = {"system": str(Path(arguments.system).resolve())}
     with closed_if_refused(specification):
         check_system(specification)  # before what an earlier run left in the folder is gone
-        own_folder(results, FILES, arguments.force)
-        folder = RunFolder.begun(results, asked, {}, force=arguments.force)
-    of = {"system": asked["system"]}
-    resume = _resume(asked["system"], results)
-    return specification, Job(
-        results, folder, shown(arguments), command, arguments.force, resume, of
-    )
+        run_io.own_folder(results, FILES, arguments.force)
+        wanted, resume = of | {"changes": changes}, _resume(of["system"], results)
+        return specification, Job.begun(results, arguments, wanted, {}, resume, of)
 
 
 def _found(arguments: Namespace) -> tuple[SystemSpecification, Job]:
     """A run that was cut off, as it was begun."""
-    from cosim.cli.runs.run_io import Job, refuse_beside_resume
-    from cosim.coupling.record import RunFolder
-    from cosim.report.files import PAGE_ALONE
-    from cosim.systems import read_system
-
-    refuse_beside_resume(arguments, "-o", "--set", "--figures", "--no-page", "--force")
+    run_io.refuse_beside_resume(arguments, "-o", "--set", "--figures", "--no-page", "--force")
     folder = RunFolder.found(Path(arguments.resume))
     asked = folder.asked
     system, changes = asked.get("system"), asked.get("changes", {})
@@ -117,10 +108,12 @@ def _found(arguments: Namespace) -> tuple[SystemSpecification, Job]:
             f"{_resume(system, folder.results)}"
         )
     specification = read_system(arguments.system, changes)
-    command = f"{asked.get('command', '')} (interrupted and resumed)"
-    drawn, resume = asked.get("shown", PAGE_ALONE), _resume(arguments.system, folder.results)
-    of = {"system": arguments.system}
-    return specification, Job(folder.results, folder, drawn, command, False, resume, of)
+    resume, of = _resume(arguments.system, folder.results), {"system": arguments.system}
+    return specification, Job.found(folder, asked, resume, of)
+
+
+def _resume(system: str, results: Path) -> str:
+    return shlex.join(["stickslip", "couple", system, "--resume", str(results)])
 
 
 @contextmanager
@@ -155,51 +148,3 @@ def _folder_name(name: str) -> str:
     """A system's name as every file system takes it for a folder."""
     kept = "".join(letter if letter.isalnum() or letter in "-_ ." else "_" for letter in name)
     return kept.strip(" .")[:100] or "system"
-
-
-def _finish(
-    job: Job,
-    done: SystemRun,
-    began: float,
-    patience: Patience,
-    asked: Numbers,
-    resume: str,
-    log: MessageLog,
-) -> int:
-    """Write all and say what came out; 0 when the run is complete, else 1."""
-    from cosim.cli.runs.run_io import log_files, say_how_it_ended
-    from cosim.report.coupling import doubts
-    from cosim.report.files import json_text
-    from cosim.systems.show import write_system
-    from cosim.systems.show.summary import closing_lines, in_few_lines
-
-    def written(name: str) -> None:
-        if name == "summary.json":
-            patience.release()
-
-    folder = job.results
-    further = f", and this goes on from there: {resume}" if resume else ""
-    try:
-        numbers: dict[str, Any] = write_system(
-            done,
-            folder,
-            command=job.command,
-            files=log_files(log),
-            progress=written,
-            shown=job.shown,
-        )
-    except KeyboardInterrupt:
-        print(
-            f"error: interrupted while drawing; the data are in {folder}{further}", file=sys.stderr
-        )
-        return FAILED
-    printed = asked.give(json_text(numbers))
-    for said in doubts(numbers["coupling"]):
-        print(f"warning: {said}", file=sys.stderr)
-    if say_how_it_ended(numbers, folder, resume, log) == FAILED:
-        return FAILED
-    for said in in_few_lines(numbers["warnings"]):
-        print(f"warning: {said}", file=sys.stderr)
-    if not printed:
-        print("\n".join(closing_lines(numbers, folder, time.perf_counter() - began)))
-    return DONE

@@ -8,6 +8,8 @@ from pathlib import Path
 
 from cosim.cli import DONE
 from cosim.cli.scenarios import given_scenario, note_taken
+from cosim.explore.explorer import explorer_page, made_here
+from cosim.files import OutputRefused, writable, write_text
 
 #: Of a page; enough to see whose it is.
 BEGINNING = 100_000
@@ -15,9 +17,6 @@ BEGINNING = 100_000
 
 def execute(arguments: Namespace) -> int:
     """Write the page, say where it is, open it."""
-    from cosim.explore.explorer import explorer_page
-    from cosim.files import write_text
-
     scenario = given_scenario(arguments.scenario or "reference", arguments.changes)
     file = Path(arguments.output or f"results/explorer-{scenario.name}.html")
     require_own(file, arguments.force)
@@ -31,9 +30,6 @@ def execute(arguments: Namespace) -> int:
 
 def require_own(file: Path, force: bool) -> None:
     """OutputRefused for a file that cannot be written, or is somebody else's."""
-    from cosim.explore.explorer import made_here
-    from cosim.files import OutputRefused, writable
-
     writable(file.parent, [file.name])
     if force or not file.exists():
         return

@@ -6,16 +6,15 @@ from argparse import Namespace
 from pathlib import Path
 
 from cosim.cli import DONE, BadInput
+from cosim.files import writable
+from cosim.manifest import list_further, require_own
+from cosim.report.compare.one_result import read_result
+from cosim.report.figures import plates_of
+from cosim.report.results import write_figures
 
 
 def execute(arguments: Namespace) -> int:
     """Draw into the folder of the result; say which files."""
-    from cosim.files import writable
-    from cosim.manifest import list_further, require_own
-    from cosim.report.compare.one_result import read_result
-    from cosim.report.figures import plates_of
-    from cosim.report.results import write_figures
-
     folder = Path(arguments.folder)
     result = read_result(folder)
     if not result.scenario:

@@ -3,55 +3,45 @@
 from __future__ import annotations
 
 import shlex
-import sys
 import time
 from argparse import Namespace
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any
 
 from cosim.cli import BadInput
-from cosim.cli.arguments import shown
-
-if TYPE_CHECKING:
-    from cosim.cli.runs.run_io import Job
-    from cosim.coupling.case import CoupledRun
-    from cosim.coupling.record import MessageLog
-    from cosim.interrupts import Patience
-    from cosim.manifest import ResultFolder
-    from cosim.scenario import Scenario
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.plug_ins import check_resumed, digests
+from cosim.cli.runs import run_io, running
+from cosim.cli.runs.run_io import Job
+from cosim.cli.scenarios import note_taken
+from cosim.coupling.case import CoupledRun, run_scenario
+from cosim.coupling.record import MessageLog, RunFolder
+from cosim.files import writable
+from cosim.fmu.build import own_fmu
+from cosim.interrupts import Patience
+from cosim.manifest import ResultFolder, require_own
+from cosim.report.dataset import run_columns
+from cosim.scenario import Scenario
 
 SCENARIO = "scenario.toml"
 #: Options of a run that is begun; one that goes on has them as it was begun.
 ONLY_ANEW = ("--fmu", "--animation", "--fields", "--figures", "--no-page", "--force")
 
 
-class Case(NamedTuple):
-    """What is to be run, and where it goes."""
-
-    scenario: Scenario
-    fmu: str | None
-    views: bool
-    fields: bool
-    job: Job
-
-
 def execute(arguments: Namespace) -> int:
     """Run, write, report; the exit status."""
-    from cosim.cli.numbers import numbers_asked
-    from cosim.cli.runs import run_io, running
-    from cosim.cli.scenarios import note_taken
-    from cosim.coupling.case import run_scenario
-    from cosim.files import writable
-    from cosim.report.dataset import run_columns
-
     began = time.perf_counter()
     numbers = numbers_asked(arguments, running.KEYS)
-    scenario, fmu, views, with_fields, job = (
-        _begun(arguments) if arguments.resume is None else _found(arguments)
-    )
+    scenario, wanted, job = _begun(arguments) if arguments.resume is None else _found(arguments)
     # said with the first step, when units, too, are known to be good; of old when it goes on
     unsaid = [] if arguments.resume else [scenario]
-    fields = writable(job.results / run_io.FIELDS) if with_fields else None
+    how: dict[str, Any] = {
+        "fmu": wanted.get("fmu"),
+        "views": bool(wanted.get("views")),
+        "fields": writable(job.results / run_io.FIELDS) if wanted.get("fields") else None,
+        "folder": job.folder,
+    }
     _ = scenario.catalogue.compiled  # before the bar begins to count
 
     def run(patience: Patience, **said: Any) -> CoupledRun:
@@ -63,14 +53,13 @@ def execute(arguments: Namespace) -> int:
                     note_taken(unsaid.pop())
                 show(reached)
 
-            said |= {"fmu": fmu, "views": views, "fields": fields, "folder": job.folder}
-            return run_scenario(scenario, progress=progress, **said)
+            return run_scenario(scenario, progress=progress, **how, **said)
 
     def write(
         done: CoupledRun, results: ResultFolder, patience: Patience, resume: str, log: MessageLog
     ) -> int:
-        text, pictures = scenario.to_toml(), done.snapshots
-        dataset = run_columns(done.result, scenario, text, snapshots=pictures)
+        pictures = done.snapshots
+        dataset = run_columns(done.result, scenario, scenario.to_toml(), snapshots=pictures)
         running.assess_motion(dataset, scenario, patience)
         for name in run_io.field_files(job.results) if pictures.file else ():
             results.add(job.results / name)
@@ -91,14 +80,8 @@ def execute(arguments: Namespace) -> int:
     return run_io.carried_out(job, arguments.verbose, run, write)
 
 
-def _begun(arguments: Namespace) -> Case:
+def _begun(arguments: Namespace) -> tuple[Scenario, Mapping[str, Any], Job]:
     """A run from its start."""
-    from cosim.cli.plug_ins import digests
-    from cosim.cli.runs import run_io, running
-    from cosim.coupling.record import RunFolder
-    from cosim.fmu.build import own_fmu
-    from cosim.manifest import require_own
-
     if arguments.effects:
         raise BadInput(
             '--effects: is for --resume; allowed is effects = ["brush.py"] at the top of the '
@@ -106,35 +89,24 @@ def _begun(arguments: Namespace) -> Case:
         )
     scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=True)
     # before anything is written: it may lack a compiler
-    unit = arguments.fmu or own_fmu(scenario.catalogue)
+    unit = str(arguments.fmu or own_fmu(scenario.catalogue))
     results = running.results_folder(arguments.output, scenario, arguments.force)
     require_own(results, [run_io.COLLECTION], arguments.force)
-    command = shlex.join(["stickslip", *sys.argv[1:]])
-    fmu = None if arguments.fmu is None else str(Path(arguments.fmu).resolve())
-    resume, text = _resume(results, scenario), scenario.to_toml()
-    asked = {
-        "resume": resume,
-        "command": command,
-        "fmu": fmu,
+    wanted = {
+        "fmu": None if arguments.fmu is None else str(Path(arguments.fmu).resolve()),
         "views": arguments.animation,
         "fields": arguments.fields,
-        "shown": shown(arguments),
         "taken": dict(scenario.taken),
         "effects": digests(scenario.catalogue.files),
     }
-    force, of = arguments.force, {"scenario": text}
-    folder = RunFolder.begun(results, asked, {SCENARIO: text}, force=force)
-    job = run_io.Job(results, folder, shown(arguments), command, force, resume, of)
-    return Case(scenario, str(unit), arguments.animation, arguments.fields, job)
+    resume, text = _resume(results, scenario), scenario.to_toml()
+    files, of = {SCENARIO: text}, {"scenario": text}
+    job = Job.begun(results, arguments, wanted, files, resume, of)
+    return scenario, wanted | {"fmu": unit}, job
 
 
-def _found(arguments: Namespace) -> Case:
+def _found(arguments: Namespace) -> tuple[Scenario, Mapping[str, Any], Job]:
     """A run that was cut off, as it was begun."""
-    from cosim.cli.plug_ins import check_resumed
-    from cosim.cli.runs import run_io, running
-    from cosim.coupling.record import RunFolder
-    from cosim.report.files import PAGE_ALONE
-
     run_io.refuse_beside_resume(arguments, "a scenario", "-o", "--set", *ONLY_ANEW)
     results = Path(arguments.resume)
     check_resumed(results, arguments.effects)
@@ -147,13 +119,8 @@ def _found(arguments: Namespace) -> Case:
         )
     scenario = running.scenario_to_run(str(folder.path / SCENARIO), coupled=True)
     scenario = scenario.with_taken(asked.get("taken", {}))
-    command = f"{asked.get('command', '')} (interrupted and resumed)"
-    resume, of = _resume(results, scenario), {"scenario": scenario.to_toml()}
-    drawn = asked.get("shown", PAGE_ALONE)
-    job = run_io.Job(results, folder, drawn, command, False, resume, of)
-    return Case(
-        scenario, asked.get("fmu"), bool(asked.get("views")), bool(asked.get("fields")), job
-    )
+    of = {"scenario": scenario.to_toml()}
+    return scenario, asked, Job.found(folder, asked, _resume(results, scenario), of)
 
 
 def _resume(results: Path, scenario: Scenario) -> str:
@@ -164,8 +131,6 @@ def _resume(results: Path, scenario: Scenario) -> str:
 
 def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:
     """The temperature fields as the page lists them."""
-    from cosim.cli.runs import running
-
     if done.snapshots.file is None:
         return {}
     true = done.snapshots.file

@@ -5,18 +5,20 @@ Without the models and their results: `stickslip couple` starts without them.
 
 from __future__ import annotations
 
+import shlex
 import sys
 import time
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 from xml.etree import ElementTree
 
 from cosim.cli import DONE, FAILED, BadInput, Failed, is_bad_input
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
+from cosim.cli.numbers import Numbers
 from cosim.coupling import ParticipantError
 from cosim.coupling.messages import SMALLEST, UNCONVERGED, Message
 from cosim.coupling.record import LOG, MessageLog, RunFolder
@@ -24,14 +26,19 @@ from cosim.coupling.system import MASTER
 from cosim.files import OutputError, writable
 from cosim.interrupts import Patience, patient_interrupts
 from cosim.manifest import ResultFolder, claim, made_by, require_own, results_in
-
-if TYPE_CHECKING:
-    from cosim.report.files import Shown
+from cosim.report.files import PAGE_ALONE, Shown, json_text
 
 Done = TypeVar("Done")
 FIELDS = "fields"
 COLLECTION = f"{FIELDS}/temperature.pvd"
 COMPLETE = "complete"
+#: Written after all other data and before the figures.
+LAST_OF_DATA = "summary.json"
+
+
+def shown(arguments: Namespace) -> Shown:
+    """What is drawn of a run, as the command line says it."""
+    return {"figures": arguments.figures, "page": not arguments.no_page}
 
 
 class Job(NamedTuple):
@@ -40,13 +47,41 @@ class Job(NamedTuple):
     resume: what goes on with it once it is cut off.
     """
 
-    results: Path
     folder: RunFolder
     shown: Shown
     command: str
     force: bool
     resume: str
     of: Mapping[str, str]
+
+    @property
+    def results(self) -> Path:
+        """Folder of the results."""
+        return self.folder.results
+
+    @classmethod
+    def begun(
+        cls,
+        results: Path,
+        arguments: Namespace,
+        wanted: Mapping[str, Any],
+        files: Mapping[str, str],
+        resume: str,
+        of: Mapping[str, str],
+    ) -> Job:
+        """Of a run from its start; wanted, files: what else is kept to go on with it."""
+        command, drawn = shlex.join(["stickslip", *sys.argv[1:]]), shown(arguments)
+        asked = {"resume": resume, "command": command, "shown": drawn, **wanted}
+        folder = RunFolder.begun(results, asked, files, force=arguments.force)
+        return cls(folder, drawn, command, arguments.force, resume, of)
+
+    @classmethod
+    def found(
+        cls, folder: RunFolder, asked: Mapping[str, Any], resume: str, of: Mapping[str, str]
+    ) -> Job:
+        """Of a run that was cut off, as it was begun."""
+        command = f"{asked.get('command', '')} (interrupted and resumed)"
+        return cls(folder, asked.get("shown", PAGE_ALONE), command, False, resume, of)
 
 
 def carried_out(
@@ -186,23 +221,46 @@ def going_on(folder: RunFolder, resume: str) -> Iterator[None]:
         raise OutputError(f"{error}; this goes on from the newest checkpoint: {resume}") from error
 
 
-def say_how_it_ended(
-    numbers: Mapping[str, Any], folder: Path, resume: str, log: MessageLog | None
-) -> int:
-    """What became of the run, unless that is all well: one line on stderr; the exit status.
+def ended(
+    write: Callable[[Callable[[str], None]], Mapping[str, Any]],
+    lines: Callable[[Mapping[str, Any]], Iterable[str]],
+    folder: Path,
+    patience: Patience,
+    asked: Numbers,
+    resume: str = "",
+    log: MessageLog | None = None,
+) -> tuple[Mapping[str, Any], int, bool]:
+    """Write all and say what became of the run, unless that is all well: one line on stderr.
 
-    numbers: of its summary. resume: what goes on with it, "" where nothing does. log: of what was
-    said, which is told of where there are warnings or errors.
+    write: is given what is to be called with the name of each file once it is written, and returns
+    the numbers of the summary; lines: for stderr, of these. A Ctrl-C after the data are on disk
+    ends the drawing. resume: what goes on with the run, "" where nothing does. log: of what was
+    said, which is told of where there are warnings or errors. Returns the numbers, the exit status,
+    and whether the numbers are still to be told in lines.
     """
+
+    def written(name: str) -> None:
+        if name == LAST_OF_DATA:
+            patience.release()
+
+    goes_on = f", and this goes on from there: {resume}" if resume else ""
+    try:
+        numbers = write(written)
+    except KeyboardInterrupt:
+        said = f"interrupted while drawing; the data are in {folder}{goes_on}"
+        print(f"error: {said}", file=sys.stderr)
+        return {}, FAILED, False
+    printed = asked.give(json_text(numbers))
+    for line in lines(numbers):
+        print(line, file=sys.stderr)
     said = "" if log is None else log.told()
     if numbers["status"] == COMPLETE:
         if said:
             note(said)
-        return DONE
-    goes_on = f", and this goes on from there: {resume}" if resume else ""
+        return numbers, DONE, not printed
     where = f"{folder}, {said}" if said else str(folder)
     print(f"error: {numbers['reason']}; what was computed is in {where}{goes_on}", file=sys.stderr)
-    return FAILED
+    return numbers, FAILED, False
 
 
 def is_removed(folder: Path, time: Iterable[float]) -> bool:

@@ -13,13 +13,13 @@ from typing import Any
 from stickslip.steady_motion import Interface, assess
 from stickslip.steady_motion.assessment import MOST_STEPS
 
-from cosim.cli import DONE, FAILED
+from cosim.cli import FAILED
 from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import NOT_ASKED, Numbers
 from cosim.cli.runs.closing_lines import closing_lines
-from cosim.cli.runs.run_io import COLLECTION, FIELDS, log_files, own_folder, say_how_it_ended
+from cosim.cli.runs.run_io import COLLECTION, FIELDS, ended, log_files, own_folder
 from cosim.cli.scenarios import given_scenario
 from cosim.coupling.record import LOG, MessageLog
 from cosim.interrupts import Patience
@@ -29,7 +29,6 @@ from cosim.report.bounds import bounds_sentences, is_believed
 from cosim.report.columns import Data
 from cosim.report.contents import attach_assessment, material_of
 from cosim.report.coupling import doubts
-from cosim.report.files import json_text
 from cosim.scenario import Scenario, ScenarioError, check_work
 from cosim.scenario.durations import in_words
 from cosim.scenario.units import doubted
@@ -38,8 +37,6 @@ from cosim.scenario.work import WORTH_SAYING
 RESULT_FILES = ("result.nc", "result.csv", "summary.json", "report.html", LOG)
 #: By which keys the JSON of a run is known.
 KEYS = ("name", "case", "status", "scenario")
-#: Written after all other data and before the figures.
-LAST_OF_DATA = "summary.json"
 
 
 def scenario_to_run(source: str | None, settings: Iterable[str] = (), *, coupled: bool) -> Scenario:
@@ -146,34 +143,28 @@ def finish(
     the numbers go as JSON. figures, page: whether they are drawn.
     """
     command = shlex.join(["stickslip", *sys.argv[1:]]) if command is None else command
-    try:
-        files = dict(files or {}) | (log_files(log) if log else {})
-        further = {"files": files, "views": views, "command": command}
-        _write(dataset, folder, patience, figures=figures, page=page, **further)
-    except KeyboardInterrupt:
-        print(f"error: interrupted while drawing; the data are in {folder}", file=sys.stderr)
-        return FAILED
-    numbers = summary(dataset)
-    coupling = numbers.get("coupling", {})
-    printed = asked.give(json_text(numbers))
-    for said in (*bounds_sentences(numbers), *doubts(coupling)):
-        print(f"warning: {said}", file=sys.stderr)
-    for said in coupling.get("remarks", ()):
-        print(f"note: {said}", file=sys.stderr)
-    if say_how_it_ended(numbers, folder, resume, log) == FAILED:
-        return FAILED
-    if not printed:
+    files = dict(files or {}) | (log_files(log) if log else {})
+    further: Any = {"files": files, "views": views, "command": command}
+
+    def write(released: Callable[[str], None]) -> Mapping[str, Any]:
+        with progress_over_files() as show:
+
+            def written(name: str) -> None:
+                show(name)
+                released(name)
+
+            write_results(dataset, folder, progress=written, figures=figures, page=page, **further)
+        return summary(dataset)
+
+    def lines_of(numbers: Mapping[str, Any]) -> Iterator[str]:
+        coupling = numbers.get("coupling", {})
+        for doubt in (*bounds_sentences(numbers), *doubts(coupling)):
+            yield f"warning: {doubt}"
+        for remark in coupling.get("remarks", ()):
+            yield f"note: {remark}"
+
+    numbers, status, tells = ended(write, lines_of, folder, patience, asked, resume, log)
+    if tells:
         lines = closing_lines(numbers, folder, time.perf_counter() - began, material_of(dataset))
         print("\n".join(lines))
-    return DONE if is_believed(numbers) else FAILED
-
-
-def _write(dataset: Data, folder: Path, patience: Patience, **further: Any) -> None:
-    with progress_over_files() as show:
-
-        def written(name: str) -> None:
-            show(name)
-            if name == LAST_OF_DATA:
-                patience.release()
-
-        write_results(dataset, folder, progress=written, **further)
+    return status if status == FAILED or is_believed(numbers) else FAILED

@@ -4,27 +4,24 @@ from __future__ import annotations
 
 import time
 from argparse import Namespace
-from typing import TYPE_CHECKING
+
+from stickslip import Trajectory
 
 from cosim.cli import DONE
-from cosim.cli.arguments import shown
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.runs import running
+from cosim.cli.runs.run_io import progress_over, shown
+from cosim.cli.scenarios import note_taken
+from cosim.coupling.record import RunFolder
 from cosim.interrupts import Patience, patient_interrupts
 from cosim.manifest import made_by, results_in
-
-if TYPE_CHECKING:
-    from stickslip import Trajectory
-
-    from cosim.scenario import Scenario
+from cosim.report.dataset import trajectory_columns
+from cosim.scenario import Scenario
+from cosim.simulated import simulated
 
 
 def execute(arguments: Namespace) -> int:
     """Simulate, write, report; the exit status."""
-    from cosim.cli.numbers import numbers_asked
-    from cosim.cli.runs import running
-    from cosim.cli.scenarios import note_taken
-    from cosim.coupling.record import RunFolder
-    from cosim.report.dataset import trajectory_columns
-
     began = time.perf_counter()
     scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=False)
     folder = running.results_folder(arguments.output, scenario, arguments.force)
@@ -55,9 +52,6 @@ def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
     Ctrl-C is looked at between two batches of rows only, so that rows and events of a batch are
     both kept or both not there.
     """
-    from cosim.cli.runs.run_io import progress_over
-    from cosim.simulated import simulated
-
     with progress_over(scenario.run.duration) as show:
 
         def progress(reached: float) -> None:

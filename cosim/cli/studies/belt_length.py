@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 import time
-from argparse import ArgumentTypeError, Namespace
+from argparse import Namespace
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from cosim.cli import DONE, FAILED, BadInput
 from cosim.cli.bar import Bar
@@ -18,8 +19,6 @@ from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.scenario import Scenario
 from cosim.studies.belt_length import (
-    AIR,
-    CAMERA,
     Case,
     Options,
     Protocol,
@@ -51,8 +50,6 @@ from cosim.studies.belt_length.show.files import (
 from cosim.studies.belt_length.show.wording import two_digits
 from cosim.studies.belt_length.study import BOUNDS, check_case, check_options, steps
 
-#: Of --limit, K, and of --jobs.
-LIMIT, CORES = CAMERA, os.cpu_count() or 1
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
 STUDY = Case(1.0, 0.82)
 
@@ -65,19 +62,11 @@ LEGEND = (
     " the limit again; mu change: of the kinetic friction by the interface's rise, relative."
 )
 
-#: Of the shortest belts of an own rig.
-HEADINGS = ("as said", "5 %", "median", "95 %", "for ever")
+#: The two questions, as tables have them.
+COLD, STEADY = "comes round cold", "interface steady"
 
 #: Choice -> the study's values; of the others it has the default case's.
 STUDIED = {"length": (1.0, 2.0, 3.0, 4.0), "speed": (0.15, 0.5, 0.82)}
-
-
-def number_or_air(text: str) -> float | str:
-    """A number, or AIR."""
-    try:
-        return AIR if text == AIR else float(text)
-    except ValueError:
-        raise ArgumentTypeError(f"{text}: allowed is a number in W/m2K, or {AIR}") from None
 
 
 def execute(arguments: Namespace) -> int:
@@ -200,45 +189,39 @@ def _print_answers(study: Study) -> None:
     for sentence in verdict(study):
         print(sentence)
     print("Lengths are rounded up to two digits.")
-    print(f"{'shortest belt [m]':<22} {'speed [m/s]':>11} " + " ".join(f"{h:>8}" for h in HEADINGS))
+    belts = []
     for answer in study.answers:
-        for name, question in (
-            ("comes round cold", answer.run),
-            ("interface steady", answer.interface),
+        for name, question, ever in (
+            (COLD, answer.run, length_text(answer.run.for_ever)),
+            (STEADY, answer.interface, "-"),
         ):
-            ever = length_text(question.for_ever) if question is answer.run else "-"
-            numbers = [
-                length_text(question.shortest),
-                *(level.says if level else "-" for level in question.levels),
-                ever,
-            ]
-            shown = " ".join(f"{number:>8}" for number in numbers)
-            print(f"{name:<22} {answer.case.speed:11g} {shown}")
+            levels = [level.says if level else "-" for level in question.levels]
+            belts.append((name, answer.case.speed, length_text(question.shortest), *levels, ever))
+    _print_belts("shortest belt [m]", ("as said", "5 %", "median", "95 %", "for ever"), belts)
 
 
 def _print_shortest(study: Study) -> None:
     """The shortest belts of the nominal rig, and at the levels of its doubt."""
-    doubted = study.shortest_in_doubt()
     print(
         "Shortest belt [m], rounded up to two digits: as the rig is given; in half and in 95 % of"
         " the sampled rigs; for ever"
     )
-    print(
-        f"{'speed [m/s]':>12} {'question':<20} {'as said':>8} {'median':>8} {'95 %':>8}"
-        f" {'for ever':>8}"
-    )
-    rows = {row.case.with_length(1.0): row for row in study.rows}
-    for case, row in rows.items():
-        for name, rise, said, steady in (
-            ("comes round cold", "run", row.shortest_run, row.shortest_steady),
-            ("interface steady", "interface", row.shortest_interface, None),
+    doubted, belts = study.shortest_in_doubt(), []
+    for case, row in {row.case.with_length(1.0): row for row in study.rows}.items():
+        for name, rise, said, ever in (
+            (COLD, "run", row.shortest_run, length_text(row.shortest_steady)),
+            (STEADY, "interface", row.shortest_interface, "-"),
         ):
             levels = [doubted[case][rise][level].says or "-" for level in ("median", "high")]
-            ever = "-" if rise == "interface" else length_text(steady)
-            print(
-                f"{case.speed:12g} {name:<20} {length_text(said):>8} {levels[0]:>8} {levels[1]:>8}"
-                f" {ever:>8}"
-            )
+            belts.append((name, case.speed, length_text(said), *levels, ever))
+    _print_belts("question", ("as said", "median", "95 %", "for ever"), belts)
+
+
+def _print_belts(what: str, headings: Sequence[str], belts: Iterable[tuple[Any, ...]]) -> None:
+    """Lengths of belts by question and speed."""
+    print(f"{what:<22} {'speed [m/s]':>11} " + " ".join(f"{one:>8}" for one in headings))
+    for name, speed, *lengths in belts:
+        print(f"{name:<22} {speed:11g} " + " ".join(f"{one:>8}" for one in lengths))
 
 
 def _print_changes(study: Study) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from argparse import Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from cosim.cli import DONE, Failed
 from cosim.cli.bar import Bar
@@ -13,18 +13,14 @@ from cosim.cli.numbers import numbers_asked
 from cosim.files import writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, results_in
-
-if TYPE_CHECKING:
-    from cosim.report.page import Picture
-    from cosim.studies.effects import Entry
+from cosim.report.page import Picture
+from cosim.studies.effects import Entry, allowed, chosen, described
 
 RESULT, PAGE = "effects.json", "effects.html"
 
 
 def execute(arguments: Namespace) -> int:
     """Print the entries; write page, JSON and figures where asked to."""
-    from cosim.studies.effects import chosen, described
-
     told = chosen(arguments.effects)
     entries = [described(each.effect) for each in told]
     asked = numbers_asked(arguments, ("id", "sentence", "parameters"))
@@ -42,8 +38,6 @@ def execute(arguments: Namespace) -> int:
 
 
 def _print(entry: dict[str, Any]) -> None:
-    from cosim.studies.effects import allowed
-
     print(f"{entry['id']}: {entry['sentence']}")
     print(f"    enters {entry['enters']}; {entry['source']}")
     for parameter in entry["parameters"]:

@@ -12,7 +12,11 @@ from cosim.cli import DONE
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
+from cosim.fmu.build import own_fmu
 from cosim.manifest import made_by, own_folder, results_in
+from cosim.studies.friction_map import friction_map
+from cosim.studies.friction_map.measured import differences
+from cosim.studies.friction_map.page import write
 
 RESULT, PAGE = "friction_map.json", "report.html"
 TABLE, FIGURE = "friction_map.csv", "friction_map.png"
@@ -22,11 +26,6 @@ KEYS = ("scenario", "regimes", "points")
 
 def execute(arguments: Namespace) -> int:
     """Run, write, print a line a temperature; 0."""
-    from cosim.fmu.build import own_fmu
-    from cosim.studies.friction_map import friction_map
-    from cosim.studies.friction_map.measured import differences
-    from cosim.studies.friction_map.page import write
-
     began = time.perf_counter()
     scenario = given_scenario(arguments.scenario, arguments.changes)
     asked = numbers_asked(arguments, KEYS)

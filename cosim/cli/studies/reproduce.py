@@ -6,25 +6,23 @@ import re
 import sys
 import time
 from argparse import Namespace
-from typing import TYPE_CHECKING
+
+from stickslip.reference.scheme_errors import DESCRIPTIONS
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, own_folder, results_in
-
-if TYPE_CHECKING:
-    from cosim.studies.reproduction import Claim
+from cosim.report.files import json_text
+from cosim.studies.reproduction import Claim, Reproduction, claim_ids, reproduce
+from cosim.studies.reproduction import claims as claims  # what judges them, once and for all
 
 RESULT, PAGE = "reproduction.json", "report.html"
 
 
 def execute(arguments: Namespace) -> int:
     """Judge, write, print a line a claim; 0, or 1 when stopped."""
-    from cosim.report.files import json_text
-    from cosim.studies.reproduction import Reproduction, claim_ids, reproduce
-
     began = time.perf_counter()
     wanted = claim_ids(arguments.claims)
     asked = numbers_asked(arguments, ("referee", "claims"))
@@ -71,8 +69,6 @@ def execute(arguments: Namespace) -> int:
 
 def _codes(claims: list[Claim]) -> list[str]:
     """What the codes of the study's faults stand for, of those that the closing lines use."""
-    from stickslip.reference.scheme_errors import DESCRIPTIONS
-
     said = " ".join(
         f"{claim.verdict} {claim.scope} {claim.reason} {_firmness(claim)}" for claim in claims
     )

@@ -7,26 +7,22 @@ import sys
 import time
 from argparse import Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
+from cosim.studies.stability import NotAMotion, Stability, case_of
+from cosim.studies.stability.study import PAGE, RESULT
 
-if TYPE_CHECKING:
-    pass
-
-RESULT, PAGE = "stability.json", "report.html"
 #: By which keys RESULT is known.
 KEYS = ("name", "stability", "regime_map")
 
 
 def execute(arguments: Namespace) -> int:
     """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
-    from cosim.studies.stability import NotAMotion, Stability, case_of
-
     began = time.perf_counter()
     if (grid := arguments.grid) is None:
         grid = 0 if arguments.border else 20

@@ -7,7 +7,6 @@ import sys
 import time
 from argparse import Namespace
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import RESULTS
@@ -15,14 +14,16 @@ from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import OutputError, not_taken
+from cosim.fmu.build import own_fmu
 from cosim.manifest import made_by, require_own, results_in
+from cosim.scenario import Scenario
+from cosim.studies.sweep import Grid, Run, SweepError, SweepStopped, product_grid, run_grid
+from cosim.studies.sweep.axis import parse_vary
+from cosim.studies.sweep.combination import COMPLETE
+from cosim.studies.sweep.figure import check_shown
+from cosim.studies.sweep.plan import plan_grid, repeats_grid
+from cosim.studies.sweep.result import FIGURE, PAGE, RESULT, TABLE, Sweep, summary, write
 
-if TYPE_CHECKING:
-    from cosim.scenario import Scenario
-    from cosim.studies.sweep import Grid, Run
-    from cosim.studies.sweep.result import Sweep
-
-RESULT, FIGURE, TABLE, PAGE = "sweep.nc", "sweep.png", "sweep.csv", "report.html"
 OWN = (RESULT, FIGURE, TABLE, PAGE)
 #: Group of the result file that holds the test plan's repeats.
 REPEATS = "repeats"
@@ -30,11 +31,6 @@ REPEATS = "repeats"
 
 def execute(arguments: Namespace) -> int:
     """Sweep, write, report; 0, or 1 when nothing came out or the sweep was stopped."""
-    from cosim.fmu.build import own_fmu
-    from cosim.studies.sweep import SweepStopped, run_grid
-    from cosim.studies.sweep.figure import check_shown
-    from cosim.studies.sweep.result import summary, write
-
     began = time.perf_counter()
     numbers = numbers_asked(arguments, ("runs",))
     scenario = given_scenario(arguments.scenario, arguments.changes)
@@ -44,7 +40,7 @@ def execute(arguments: Namespace) -> int:
     folder = Path(arguments.output or Path(RESULTS) / f"{scenario.name}-sweep")
     not_taken(folder, OWN)
     require_own(folder, OWN, arguments.force)
-    if _is_coupled(grids[""]) and arguments.dask is None:
+    if isinstance(grids[""].base, Scenario) and arguments.dask is None:
         own_fmu(scenario.catalogue)  # once, and before anything is written: it may lack a compiler
     note_taken(scenario)
     datasets = {}
@@ -75,17 +71,14 @@ def execute(arguments: Namespace) -> int:
             results.complete = True
     except OutputError as error:
         raise OutputError(f"{error}; all runs are kept, the same command goes on") from error
-    if numbers.give(json.dumps(summary(datasets), indent=1)):
-        return _status(datasets)
-    return _report(datasets, folder, time.perf_counter() - began)
+    if not numbers.give(json.dumps(summary(datasets), indent=1)):
+        _report(datasets, folder, time.perf_counter() - began)
+    some = any((each["status"] == COMPLETE).any() for each in datasets.values())
+    return DONE if some else FAILED
 
 
 def _grids(arguments: Namespace, scenario: Scenario) -> dict[str, Grid]:
     """Group of the result file -> combinations."""
-    from cosim.studies.sweep import SweepError, product_grid
-    from cosim.studies.sweep.axis import parse_vary
-    from cosim.studies.sweep.plan import plan_grid, repeats_grid
-
     if arguments.test_plan:
         if arguments.others or arguments.coupled:
             raise SweepError("--test-plan: is of one scenario, and of the mechanics alone")
@@ -111,26 +104,11 @@ def _run_of(grid: Grid, scenario: Scenario) -> Run:
     """How each combination is run: as the scenario says."""
     own = scenario.run
     said = {"duration": own.duration, "output_interval": own.output_interval}
-    return grid.run_of({} if _is_coupled(grid) else said)
+    return grid.run_of({} if isinstance(grid.base, Scenario) else said)
 
 
-def _is_coupled(grid: Grid) -> bool:
-    from cosim.scenario import Scenario as Whole
-
-    return isinstance(grid.base, Whole)
-
-
-def _status(datasets: dict[str, Sweep]) -> int:
-    """The exit status: whether anything came out."""
-    from cosim.studies.sweep.combination import COMPLETE
-
-    return DONE if any((each["status"] == COMPLETE).any() for each in datasets.values()) else FAILED
-
-
-def _report(datasets: dict[str, Sweep], folder: Path, wall_time: float) -> int:
+def _report(datasets: dict[str, Sweep], folder: Path, wall_time: float) -> None:
     """Some lines on what came out."""
-    from cosim.studies.sweep.combination import COMPLETE
-
     statuses = [dataset["status"] for dataset in datasets.values()]
     total = sum(status.size for status in statuses)
     complete = sum(int((status == COMPLETE).sum()) for status in statuses)
@@ -140,4 +118,3 @@ def _report(datasets: dict[str, Sweep], folder: Path, wall_time: float) -> int:
         if reasons:
             print(f"  failed     {len(reasons)}, the first: {reasons[0]}")
     print(f"  results    {folder / PAGE}, {folder / RESULT}")
-    return _status(datasets)

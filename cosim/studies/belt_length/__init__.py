@@ -1,34 +1,22 @@
 """How long must the belt be? The study's single pass, and heat that stays from loop to loop."""
 
-from .case import Case, Protocol, StudyError
-from .drift import CAMERA
-from .lengths import DriftMap, empty_map, fill_map, shortest_belt
-from .required_length import how_long
-from .result import Options, Study
-from .scenario_priors import check_slides, ignored_keys, remarks, scenario_case, with_ranges
-from .show.verdict import verdict
-from .study import AIR, answer_all, cases, work_off
-
-__all__ = [
-    "AIR",
-    "CAMERA",
-    "Case",
-    "DriftMap",
-    "Options",
-    "Protocol",
-    "Study",
-    "StudyError",
-    "answer_all",
-    "cases",
-    "check_slides",
-    "empty_map",
-    "fill_map",
-    "how_long",
-    "remarks",
-    "scenario_case",
-    "shortest_belt",
-    "ignored_keys",
-    "verdict",
-    "with_ranges",
-    "work_off",
-]
+from .case import Case as Case
+from .case import Protocol as Protocol
+from .case import StudyError as StudyError
+from .drift import CAMERA as CAMERA
+from .lengths import DriftMap as DriftMap
+from .lengths import empty_map as empty_map
+from .lengths import fill_map as fill_map
+from .lengths import shortest_belt as shortest_belt
+from .required_length import how_long as how_long
+from .result import Options as Options
+from .result import Study as Study
+from .scenario_priors import check_slides as check_slides
+from .scenario_priors import ignored_keys as ignored_keys
+from .scenario_priors import remarks as remarks
+from .scenario_priors import scenario_case as scenario_case
+from .scenario_priors import with_ranges as with_ranges
+from .show.verdict import verdict as verdict
+from .study import answer_all as answer_all
+from .study import cases as cases
+from .study import work_off as work_off

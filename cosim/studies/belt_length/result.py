@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field
 from importlib import import_module
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
+from cosim.packaged import packaged_tables
 from cosim.report.files import without_nan
 from cosim.result import Result
 
@@ -25,7 +24,7 @@ from .uncertainty import Uncertainty
 #: What speaks, draws and writes; loaded when asked for.
 VERDICT, PAGE, FILES = (f"{__package__}.show.{name}" for name in ("verdict", "page", "files"))
 #: Column of the table -> place in a case's JSON.
-_TABLE = tomllib.loads((files(__package__) / "columns.toml").read_text(encoding="utf-8"))
+_TABLE = packaged_tables(__package__, "columns.toml")
 _COLUMNS, PRINTED = _TABLE["columns"], _TABLE["printed"]
 #: Of a case, what JSON has elsewhere, or not at all.
 _NOT_TOLD = ("rig", "protocol", "ranges", "drawn")

@@ -26,8 +26,6 @@ from .rigs import FEWEST_SAMPLES, runs_for
 from .uncertainty import uncertainty
 
 Progress = Callable[[int], object]
-#: In place of a number for h: that of a belt moving through still air.
-AIR = "air"
 #: Option -> field of a case, unit, above this or, where True follows, also this; at most that.
 BOUNDS = {
     "length": ("length", "m", 0.0, False, 100.0),
@@ -54,7 +52,7 @@ def check_options(arguments: Namespace) -> None:
     """Each option alone. StudyError in one line: option, value, what is allowed."""
     for name, (_, unit, low, included, high) in BOUNDS.items():
         for value in getattr(arguments, name) or ():
-            if value != AIR:
+            if value is not None:
                 _within(name, value, unit, low, included, high)
     if not (math.isfinite(arguments.limit) and arguments.limit > 0.0):
         raise StudyError(f"--limit = {arguments.limit:g} K: must be above 0")
@@ -136,10 +134,10 @@ def _in_their_words(fault: str, arguments: Namespace) -> str:
     return fault if arguments.scenario is None else f"{arguments.scenario}: {fault}"
 
 
-def cases(base: Case, **choices: Iterable[float | str]) -> list[Case]:
+def cases(base: Case, **choices: Iterable[float | None]) -> list[Case]:
     """Every combination; the lengths of one belt drive lie side by side.
 
-    h may be AIR: each case then has that of its speed and of half its loop.
+    h may be None: each case then has that of its speed and of half its loop.
     """
     names = [name for name in choices if name != "length"] + ["length"]
     combinations = product(*(choices[name] for name in names))
@@ -147,11 +145,10 @@ def cases(base: Case, **choices: Iterable[float | str]) -> list[Case]:
 
 
 def _chosen(base: Case, values: dict[str, Any]) -> Case:
-    said: dict[str, Any] = {name: None if v == AIR else v for name, v in values.items()}
     # a range about another number is none of this one
-    other = {name for name, value in said.items() if value != getattr(base, name)}
+    other = {name for name, value in values.items() if value != getattr(base, name)}
     ranges = tuple(one for one in base.ranges if one.key not in other)
-    return replace(base, **said, ranges=ranges)
+    return replace(base, **values, ranges=ranges)
 
 
 def _row(case: Case, options: Options, answer: Answer | None) -> Row:

@@ -15,15 +15,14 @@ conduct, from the conductance between them and from where the heat arises.
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from importlib.resources import files
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cosim.packaged import packaged_tables
 from thermal import Belt, Layer
 from thermal.contact.footprint import Footprint
 
@@ -78,8 +77,10 @@ class Unknown:
         return (np.minimum(np.floor(share * self.levels), self.levels - 1) + 0.5) / self.levels
 
 
-_TABLES = tomllib.loads((files(__package__) / "unknowns.toml").read_text(encoding="utf-8"))
-UNKNOWNS = tuple(Unknown(key, **entries) for key, entries in _TABLES.items())
+UNKNOWNS = tuple(
+    Unknown(key, **entries)
+    for key, entries in packaged_tables(__package__, "unknowns.toml").items()
+)
 #: With which the railing's share and the rollers' rise are seen where a rig has neither.
 SOME_FRICTION, SOME_CONDUCTANCE = 0.1, 100.0
 

@@ -56,12 +56,13 @@ def draw_map(found: FrictionMap) -> Figure:
     is_flat = all(float(np.ptp(law)) <= SAME * float(np.max(law)) for law in laws)
     if is_flat:
         wide = np.geomspace(min(speeds) / BESIDE, max(speeds) * BESIDE, 400)
-    for index, ambient in enumerate(found.ambients):
-        law = _draw_ambient(ax, found, ambient, wide, SERIES[index % len(SERIES)])
-        if index == 0:
-            _name_regimes(ax, wide, law)
-        if index == len(found.ambients) - 1:
-            _mark_slopes(ax, wide, law)
+        laws = [_law(found, ambient, wide) for ambient in found.ambients]
+    for index, (ambient, law) in enumerate(zip(found.ambients, laws, strict=True)):
+        points, colour = found.at(ambient), SERIES[index % len(SERIES)]
+        ax.plot(wide, law, color=colour, label=f"air at {ambient:g} °C".replace("-", "−"))
+        ax.plot([p.speed for p in points], [p.friction for p in points], "o", color=colour)
+    _name_regimes(ax, wide, laws[0])
+    _mark_slopes(ax, wide, laws[-1])
     alike = "at all temperatures of the air" if is_flat else "at the ambient temperature"
     ax.set(
         xscale="log",
@@ -91,17 +92,6 @@ def _law(found: FrictionMap, ambient: float, speeds: np.ndarray) -> np.ndarray:
     first = found.at(ambient)[0].speed
     case = steady_scenario(found.scenario, first, ambient, found.duration)
     return friction_coefficient(case.mechanics, speeds, ambient)
-
-
-def _draw_ambient(
-    ax: Axes, found: FrictionMap, ambient: float, speeds: np.ndarray, colour: str
-) -> np.ndarray:
-    """The law at an ambient temperature, degC, over speeds (n,), and the runs; the law (n,)."""
-    points = found.at(ambient)
-    law = _law(found, ambient, speeds)
-    ax.plot(speeds, law, color=colour, label=f"air at {ambient:g} °C".replace("-", "−"))
-    ax.plot([p.speed for p in points], [p.friction for p in points], "o", color=colour)
-    return law
 
 
 def _draw_measured(ax: Axes, measured: Measured, is_own: bool) -> None:

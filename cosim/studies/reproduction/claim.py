@@ -8,22 +8,19 @@ with other numbers stand there with these.
 from __future__ import annotations
 
 import operator
-import tomllib
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from itertools import combinations
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from stickslip.reference.scheme_errors import DESCRIPTIONS, PRINTED, Faults
 
+from cosim.packaged import packaged_tables
 from cosim.report.page import Picture
 
 CLAIM_IDS = tuple(f"C{n}" for n in range(1, 19))
-WRITTEN: dict[str, Any] = tomllib.loads(
-    Path(__file__).with_name("claims.toml").read_text(encoding="utf-8")
-)
+WRITTEN = packaged_tables(__package__, "claims.toml")
 
 
 class UnknownClaim(ValueError):

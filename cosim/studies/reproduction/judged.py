@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 from functools import cached_property
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from stickslip.reference.scheme_errors import DESCRIPTIONS
+
 from cosim.files import write_bytes, write_text
+from cosim.report.files import json_text
 from cosim.result import Result
 
 from .claim import Claim
 
-#: What draws and writes; loaded when asked for.
-DATA, DATASETS = f"{__package__}.result", f"{__package__}.attributions"
 RESULT, PAGE = "reproduction.json", "report.html"
 
 
@@ -35,28 +35,27 @@ class Reproduction(list[Claim], Result):
     @cached_property
     def datasets(self) -> Any:
         """The study's datasets in every reading, where a claim hangs on them; None elsewhere."""
-        of = import_module(DATASETS)
-        return of.datasets() if {claim.id for claim in self} & set(of.CLAIMS) else None
+        from .attributions import CLAIMS, datasets
+
+        return datasets() if {claim.id for claim in self} & set(CLAIMS) else None
 
     def summary(self) -> dict[str, Any]:
         """What `reproduction.json` holds."""
-        found: dict[str, Any] = import_module(DATA).as_data(self, self.wall_time, self.datasets)
-        return found
+        from .result import as_data
+
+        return as_data(self, self.wall_time, self.datasets)
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
         verdicts = Counter(claim.verdict for claim in self)
         return f"{len(self)} claims are judged.", [(name, str(n)) for name, n in verdicts.items()]
 
     def _page(self) -> str:
-        from stickslip.reference.scheme_errors import DESCRIPTIONS
+        from .result import page
 
-        text: str = import_module(DATA).page(self, DESCRIPTIONS, self.datasets)
-        return text
+        return page(self, DESCRIPTIONS, self.datasets)
 
     def _write(self, folder: Path) -> None:
         """Numbers first, then figures, then the page."""
-        from cosim.report.files import json_text
-
         write_text(json_text(self.summary()), folder / RESULT)
         for claim in self:
             for picture in claim.pictures:

@@ -7,14 +7,14 @@ the print leaves it open, and is laid beside all five.
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass, field, replace
 from functools import cache
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from stickslip.reference.scheme_errors import PRINTED, Faults
+
+from cosim.packaged import packaged_tables
 
 from .cases import DATASETS, SEEDS, Case, scheme
 from .claim import STUDY
@@ -25,7 +25,7 @@ STEADY = 20.0  # s
 CYCLES, LONGEST = 80, 40.0  # s: ten cycles of #1 take 16 s
 ENOUGH = 3  # a reading stands with most of the five marks
 SEEN = 5.0  # deg: a rotation that shows in a plot of some hundred
-WRITTEN = tomllib.loads(Path(__file__).with_name("readings.toml").read_text(encoding="utf-8"))
+WRITTEN = packaged_tables(__package__, "readings.toml")
 
 
 def _mark(study: str = "", **written: Any) -> dict[str, Any]:

@@ -1,17 +1,11 @@
 """Which steady motions a rig has, which of them it can keep to, and where stick-slip stops."""
 
-from .maps import Case, NotAMotion, case_of, pretension_map, regime_map
-from .stick_slip_range import range_sentence, stick_slip_range
-from .study import Stability, stability
-
-__all__ = [
-    "Case",
-    "NotAMotion",
-    "Stability",
-    "case_of",
-    "pretension_map",
-    "range_sentence",
-    "regime_map",
-    "stability",
-    "stick_slip_range",
-]
+from .maps import Case as Case
+from .maps import NotAMotion as NotAMotion
+from .maps import case_of as case_of
+from .maps import pretension_map as pretension_map
+from .maps import regime_map as regime_map
+from .stick_slip_range import range_sentence as range_sentence
+from .stick_slip_range import stick_slip_range as stick_slip_range
+from .study import Stability as Stability
+from .study import stability as stability

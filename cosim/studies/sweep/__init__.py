@@ -8,20 +8,12 @@
 (2, 2)
 """
 
-from .axis import SweepError
-from .combination import Run, SweepStopped
-from .features import FEATURES, features
-from .grid import Grid, product_grid
-from .run import run_grid, sweep
-
-__all__ = [
-    "FEATURES",
-    "Grid",
-    "Run",
-    "SweepError",
-    "SweepStopped",
-    "features",
-    "product_grid",
-    "run_grid",
-    "sweep",
-]
+from .axis import SweepError as SweepError
+from .combination import Run as Run
+from .combination import SweepStopped as SweepStopped
+from .features import FEATURES as FEATURES
+from .features import features as features
+from .grid import Grid as Grid
+from .grid import product_grid as product_grid
+from .run import run_grid as run_grid
+from .run import sweep as sweep

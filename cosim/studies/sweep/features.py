@@ -9,8 +9,6 @@ distance); slip times, shares and the frequency come from the located events.
 from __future__ import annotations
 
 import math
-import tomllib
-from importlib.resources import files
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +16,8 @@ from numpy.typing import NDArray
 from stickslip import Trajectory
 from stickslip.packing import GRAVITY
 from stickslip.trajectory import break_away_frequency, slip_share
+
+from cosim.packaged import packaged_tables
 
 Array = NDArray[np.float64]
 
@@ -34,9 +34,9 @@ class Feature(NamedTuple):
     coupled: bool = False
 
 
-_TEXT = (files(__package__) / "features.toml").read_text(encoding="utf-8")
+_TABLES = packaged_tables(__package__, "features.toml")
 #: All that is told of a coupled run; of a run of the mechanics alone.
-ALL = {name: Feature(**entries) for name, entries in tomllib.loads(_TEXT).items()}
+ALL = {name: Feature(**entries) for name, entries in _TABLES.items()}
 FEATURES = {name: one for name, one in ALL.items() if not one.coupled}
 
 

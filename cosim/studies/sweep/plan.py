@@ -8,18 +8,18 @@ acts through the friction coefficients.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping, Sequence
-from importlib.resources import files
 from typing import Any
 
 from stickslip import Parameters
+
+from cosim.packaged import packaged_tables
 
 from .axis import axis, labelled_axis
 from .combination import with_changes
 from .grid import Grid, mechanics_of, merged, patience_of
 
-PLAN = tomllib.loads((files(__package__) / "plan.toml").read_text(encoding="utf-8"))
+PLAN = packaged_tables(__package__, "plan.toml")
 #: mu_k at -8 degC
 BELTS: dict[str, float] = PLAN["belts"]
 #: mu_s / mu_k of the published experiment

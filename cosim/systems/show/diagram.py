@@ -190,10 +190,7 @@ def _draw_forth(
     x1, y1, x2, y2 = _ends(boxes, connection)
     reach = 0.5 * (x2 - x1)
     points = [(x1, y1), (x1 + reach, y1), (x2 - reach, y2), (x2, y2)]
-    colour = _colour(system, connection)
-    _line(axes, points, [Path.MOVETO, *3 * [Path.CURVE4]], colour)
-    _arrow(axes, x2, y2, colour)
-    _say(axes, system, connection, x2 - 0.12, y2 - 0.04)
+    _draw_line(axes, system, connection, points, Path.CURVE4, (x2 - 0.12, y2 - 0.04, "right"))
 
 
 def _draw_around(
@@ -211,37 +208,31 @@ def _draw_around(
         *((x1, y1), (x1 + aside, y1), (x1 + aside, lane)),
         *((x2 - aside, lane), (x2 - aside, y2), (x2, y2)),
     ]
-    colour = _colour(system, connection)
-    _line(axes, points, [Path.MOVETO, *5 * [Path.LINETO]], colour)
-    _arrow(axes, x2, y2, colour)
-    _say(axes, system, connection, 0.5 * (x1 + x2), lane - 0.02, "center")
+    label = (0.5 * (x1 + x2), lane - 0.02, "center")
+    _draw_line(axes, system, connection, points, Path.LINETO, label)
 
 
-def _line(
-    axes: Axes, points: Sequence[tuple[float, float]], codes: Sequence[Any], colour: str
-) -> None:
-    path = Path(points, codes)
-    width = 2.4 if colour in (RED, ORANGE) else 1.2
-    axes.add_patch(PathPatch(path, facecolor="none", edgecolor=colour, linewidth=width, zorder=1))
-
-
-def _arrow(axes: Axes, x: float, y: float, colour: str) -> None:
-    axes.fill([x, x - 0.09, x - 0.09], [y, y - 0.045, y + 0.045], color=colour, zorder=2)
-
-
-def _say(
+def _draw_line(
     axes: Axes,
     system: CoupledSystem,
     connection: Connection,
-    x: float,
-    y: float,
-    align: str = "right",
+    points: Sequence[tuple[float, float]],
+    code: Any,
+    label: tuple[float, float, str],
 ) -> None:
-    """How the value is changed on its way, where it is."""
-    affine = system.conversions[connection]
+    """A line of a kind, with an arrow, and how the value is changed on its way, where it is.
+
+    label: x, y and alignment.
+    """
+    colour, affine = _colour(system, connection), system.conversions[connection]
+    path = Path(points, [Path.MOVETO, *[code] * (len(points) - 1)])
+    width = 2.4 if colour in (RED, ORANGE) else 1.2
+    axes.add_patch(PathPatch(path, facecolor="none", edgecolor=colour, linewidth=width, zorder=1))
+    x, y = points[-1]
+    axes.fill([x, x - 0.09, x - 0.09], [y, y - 0.045, y + 0.045], color=colour, zorder=2)
     if not affine.is_identity:
         axes.text(
-            x, y, str(affine), ha=align, va="bottom", fontsize=7.5, color=INK,
+            *label[:2], str(affine), ha=label[2], va="bottom", fontsize=7.5, color=INK,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8}, zorder=4,
         )  # fmt: skip
 

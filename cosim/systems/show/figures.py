@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import replace
-from importlib.resources import files
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -13,6 +11,7 @@ from numpy.typing import NDArray
 from cosim.coupling import Ledger
 from cosim.coupling.conversion import NO_UNIT
 from cosim.names import unknown_name
+from cosim.packaged import packaged_tables
 from cosim.report.columns import Columns
 from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.page import Picture, number, unit_text
@@ -42,9 +41,7 @@ NOTHING = 1e-6
 #: Figures over time: caption, and what a reader hears who does not see it.
 OVER_TIME: dict[str, tuple[str, str]] = {
     name: (told["caption"].format(most=MOST_PANELS), told["alt"])
-    for name, told in tomllib.loads(
-        (files(__package__) / "captions.toml").read_text(encoding="utf-8")
-    ).items()
+    for name, told in packaged_tables(__package__, "captions.toml").items()
 }
 
 

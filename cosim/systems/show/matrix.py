@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -70,16 +71,12 @@ def _pairs(axes: Axes, system: CoupledSystem, order: Sequence[str], points: floa
         counts[pair] += 1
         unit = find_port(system.participants, each.source).unit
         colours[pair] = COLOURS.get(unit, colours.get(pair, BLUE))
+    square: dict[str, Any] = {"ms": 0.85 * points, "ls": "", "mew": 0.0}
+    several: dict[str, Any] = {"ha": "center", "va": "center_baseline", "color": "white"}
     for (x, y), number in counts.items():
-        axes.plot(
-            [x], [y], marker="s", markersize=0.85 * points, color=colours[x, y], linestyle="",
-            markeredgewidth=0.0,
-        )  # fmt: skip
+        axes.plot([x], [y], "s", color=colours[x, y], **square)
         if number > 1:
-            axes.text(
-                x, y, str(number), ha="center", va="center_baseline", color="white",
-                fontsize=min(0.7 * points, 8.0),
-            )  # fmt: skip
+            axes.text(x, y, str(number), fontsize=min(0.7 * points, 8.0), **several)
 
 
 def _names(axes: Axes, order: Sequence[str]) -> None:

@@ -13,7 +13,7 @@ from cosim.coupling import UnitDefinition
 from cosim.names import unknown_name
 from cosim.systems.specification import Hop, Link, Start, UnitEntry
 from cosim.systems.ssp.package import Package
-from cosim.systems.ssp.structure import NUMBERS, Component, Connector, Ends, Structure, System
+from cosim.systems.ssp.structure import NUMBERS, Connector, Element, Ends, Structure
 from cosim.systems.ssp.values import Bound, bound_values
 from cosim.systems.system_errors import SystemFault
 
@@ -38,11 +38,9 @@ class Flat:
 
     def __init__(self, structure: Structure, package: Package):
         self._structure, self._package = structure, package
-        self._components: dict[Path, Component] = {}
-        self._systems: dict[Path, System] = {}
+        self._components: dict[Path, Element] = {}
+        self._systems: dict[Path, Element] = {}
         self._feeds: dict[Node, Feed] = {}
-        self._given: dict[Path, dict[str, Start]] = {}
-        self.remarks: list[str] = []
         self._walk((), structure.system)
         self._names = _names(self._components)
 
@@ -66,27 +64,27 @@ class Flat:
     def links(self) -> list[Link]:
         """What comes to the inputs of components from outputs of components."""
         found = []
-        for node, feed in self._feeds.items():
+        for node in self._feeds:
             if node[0] not in self._components or self._connector(node).kind != "input":
                 continue
-            hops, source = self._followed(node, feed)
+            *_, (source, hops) = self._behind(node)
             if source[0] in self._components:
                 for end in (source, node):
                     self._check_kind(end)
                 found.append(Link(self._address(source), self._address(node), tuple(hops)))
         return found
 
-    def _walk(self, path: Path, system: System) -> None:
+    def _walk(self, path: Path, system: Element) -> None:
         self._systems[path] = system
         for name, element in system.elements.items():
-            if isinstance(element, System):
-                self._walk((*path, name), element)
-            else:
+            if element.source:
                 self._components[(*path, name)] = element
+            else:
+                self._walk((*path, name), element)
         for ends in system.connections:
             self._add(path, system, ends)
 
-    def _add(self, path: Path, system: System, ends: Ends) -> None:
+    def _add(self, path: Path, system: Element, ends: Ends) -> None:
         """Note a connection by the end that it feeds, whichever end the file puts first."""
         nodes = []
         for element, name in (ends.start, ends.end):
@@ -120,23 +118,20 @@ class Flat:
             )
         self._feeds[sink] = Feed(source, ends)
 
-    def _followed(self, node: Node, feed: Feed) -> tuple[list[Hop], Node]:
-        """Back to where a value comes from: the hops in the order in which it makes them."""
-        hops = [self._hop(node, feed)]
-        seen = {node}
-        while (
-            feed.source not in seen
-            and feed.source in self._feeds
-            and feed.source[0] not in (self._components)
-        ):
-            node, feed = feed.source, self._feeds[feed.source]
+    def _behind(self, node: Node) -> Iterator[tuple[Node, list[Hop]]]:
+        """From where a value comes, farther and farther back, and the hops that it makes from there
+        on."""
+        seen: set[Node] = set()
+        hops: list[Hop] = []
+        while node in self._feeds and node not in seen:
             seen.add(node)
-            hops.insert(0, self._hop(node, feed))
-        return hops, feed.source
-
-    def _hop(self, node: Node, feed: Feed) -> Hop:
-        unit = self._connector(node).unit
-        return Hop(feed.ends.transformation, feed.ends.converts, unit, self._definition(unit))
+            feed, unit = self._feeds[node], self._connector(node).unit
+            ends, definition = feed.ends, self._definition(unit)
+            hops = [Hop(ends.transformation, ends.converts, unit, definition), *hops]
+            node = feed.source
+            yield node, hops
+            if node[0] in self._components:
+                return
 
     def _definition(self, unit: str | None) -> UnitDefinition | None:
         return None if unit is None else self._structure.units.get(unit)
@@ -222,17 +217,16 @@ class Flat:
         for node, feed in self._feeds.items():
             if node[0] not in self._components:
                 continue
-            hops, passed = [self._hop(node, feed)], feed.source
-            while passed not in borders and passed in self._feeds and passed[0] in self._systems:
-                hops.insert(0, self._hop(passed, self._feeds[passed]))
-                passed = self._feeds[passed].source
-            if passed in borders:
-                found[node[0]][node[1]] = _moved(borders[passed], hops)
-            elif passed[0] in self._components and self._connector(node).kind != "input":
-                raise SystemFault(
-                    f"connection {feed.ends}: a parameter that another unit computes is not done"
-                    " here, allowed are inputs"
-                )
+            for passed, hops in self._behind(node):
+                if passed in borders:
+                    found[node[0]][node[1]] = _moved(borders[passed], hops)
+                    break
+            else:
+                if passed[0] in self._components and self._connector(node).kind != "input":
+                    raise SystemFault(
+                        f"connection {feed.ends}: a parameter that another unit computes is not"
+                        " done here, allowed are inputs"
+                    )
 
 
 def _moved(start: Start, hops: Iterable[Hop]) -> Start:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from xml.etree.ElementTree import Element as Xml
 from xml.etree.ElementTree import register_namespace
 
@@ -62,26 +62,18 @@ class Ends:
 
 @dataclass(frozen=True)
 class Element:
-    """What components and systems have in common. node: the XML, for its parameter bindings."""
+    """A unit, or a system. node: the XML, for its parameter bindings.
+
+    source: of a unit, its file within the package, "" of a system. elements: of a system, by name,
+    and what connects them.
+    """
 
     name: str
     connectors: Mapping[str, Connector]
     node: Xml
-
-
-@dataclass(frozen=True)
-class Component(Element):
-    """A unit; source: its file within the package."""
-
-    source: str
-
-
-@dataclass(frozen=True)
-class System(Element):
-    """A system: its elements by name, and what connects them."""
-
-    elements: Mapping[str, Component | System]
-    connections: tuple[Ends, ...]
+    source: str = ""
+    elements: Mapping[str, Element] = field(default_factory=dict)
+    connections: tuple[Ends, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -90,7 +82,7 @@ class Structure:
 
     name: str
     version: str
-    system: System
+    system: Element
     units: Mapping[str, UnitDefinition]
     start: float | None
     stop: float | None
@@ -166,8 +158,7 @@ def transformation_of(node: Xml, what: str) -> Affine:
     for child in node:
         name = local(child)
         if name == "LinearTransformation":
-            affine = Affine(_finite(child, "factor", 1.0), _finite(child, "offset", 0.0))
-            return affine
+            return Affine(_finite(child, "factor", 1.0), _finite(child, "offset", 0.0))
         if name.endswith("Transformation"):
             raise SystemFault(f"{what}: {name} is not done here, allowed is LinearTransformation")
     return Affine()
@@ -178,7 +169,7 @@ def converts(node: Xml) -> bool:
     return node.get("suppressUnitConversion", "false").strip() not in ("true", "1")
 
 
-def _system(node: Xml) -> System:
+def _system(node: Xml) -> Element:
     name = node.get("name", "")
     for word in ("SignalDictionary", "SignalDictionaryReference"):
         places = ("ssd:SignalDictionaries", "ssd:Elements")
@@ -188,7 +179,7 @@ def _system(node: Xml) -> System:
                 " allowed are connections"
                 " of the units themselves"
             )
-    elements: dict[str, Component | System] = {}
+    elements: dict[str, Element] = {}
     for child in below(node, "ssd:Elements/*"):
         element = _element(child)
         if element.name in elements:
@@ -197,10 +188,10 @@ def _system(node: Xml) -> System:
             )
         elements[element.name] = element
     connections = tuple(_ends(child) for child in below(node, "ssd:Connections/ssd:Connection"))
-    return System(name, _connectors(node), node, elements, connections)
+    return Element(name, _connectors(node), node, "", elements, connections)
 
 
-def _element(node: Xml) -> Component | System:
+def _element(node: Xml) -> Element:
     kind, name = local(node), node.get("name", "")
     if not name:
         raise SystemFault(f"a {kind} has no name, needed is one")
@@ -218,7 +209,7 @@ def _element(node: Xml) -> Component | System:
         )
     if not source:
         raise SystemFault(f"component {name!r} has no source, needed is the path of an FMU")
-    return Component(name, _connectors(node), node, source)
+    return Element(name, _connectors(node), node, source)
 
 
 def _connectors(node: Xml) -> dict[str, Connector]:
@@ -246,9 +237,7 @@ def _ends(node: Xml) -> Ends:
 
 
 def _number(node: Xml | None, key: str) -> float | None:
-    if node is None or node.get(key) is None:
-        return None
-    return _finite(node, key, 0.0)
+    return None if node is None or node.get(key) is None else _finite(node, key, 0.0)
 
 
 def _finite(node: Xml, key: str, default: float) -> float:

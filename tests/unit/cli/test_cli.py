@@ -133,7 +133,7 @@ def test_a_fault_of_ours_is_one_line_and_no_bad_input(capsys, monkeypatch):
     def broken(*_):
         raise RuntimeError("spring\nbroke")
 
-    monkeypatch.setattr("cosim.fmu.build.build_fmu", broken)
+    monkeypatch.setattr("cosim.cli.authoring.build.build_fmu", broken)
     assert main(["build"]) == 1
     assert capsys.readouterr().err == "error: spring broke (--debug shows where)\n"
 
@@ -157,10 +157,6 @@ def test_every_command_has_the_same_shape(name):
     assert callable(command_module(name).execute)
 
 
-#: Where the defaults of the arguments are those of the heat model.
-HEAVY_HELP = {"belt-length"}
-
-
 def test_help_imports_nothing_that_computes():
     """It is there at once: what a command computes with takes a second or two to import."""
     program = (
@@ -170,7 +166,7 @@ def test_help_imports_nothing_that_computes():
         "    parser([name]).format_help()\n"
         "    print(name, *sorted(heavy & set(sys.modules)))"
     )
-    names = ["", *sorted(set(COMMANDS) - HEAVY_HELP)]
+    names = ["", *sorted(COMMANDS)]
     assert [line.rstrip() for line in python(program, *names).splitlines()] == names
 
 

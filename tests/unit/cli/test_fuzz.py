@@ -66,7 +66,7 @@ def test_any_campaign_is_read_or_refused(place, case):
 def test_any_plan_is_read_or_refused(place, case):
     if (path := write_campaign(place, *case)) is None:
         return
-    with mock.patch("cosim.gap.plan.make_plan", side_effect=KeyboardInterrupt):
+    with mock.patch("cosim.cli.measurements.plan.make_plan", side_effect=KeyboardInterrupt):
         status, out, err = called("plan", path, "-o", place / "plan")
     assert status == 2 or err.endswith(READ), err
     check(status, out, err)

@@ -57,9 +57,8 @@ def test_without_rows_there_are_files_all_the_same(tmp_path):
 )
 def test_a_run_is_written_without_xarray(of_the_command, of_its_files):
     """And without pandas and scipy: together they take longer than a small run."""
-    code = f"import sys; from importlib import import_module; import {of_its_files}"
-    code += "; from cosim.cli.arguments import COMMANDS"
-    code += f"; [*map(import_module, COMMANDS[{of_the_command!r}]['imports'])]"
+    code = f"import sys; import {of_its_files}; from cosim.cli.arguments import command_module"
+    code += f"; command_module({of_the_command!r})"
     code += "; print([name for name in ('xarray', 'pandas', 'scipy') if name in sys.modules])"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout == "[]\n"

@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 from command_line import executed
 
+from cosim.cli.arguments import COMMANDS
 from cosim.cli.studies import belt_length as belt_length_command
 from cosim.studies.belt_length import (
-    AIR,
     CAMERA,
     Case,
     Options,
@@ -26,6 +26,7 @@ from cosim.studies.belt_length import (
 from cosim.studies.belt_length.changes import friction_effect, linear_sensitivity
 from cosim.studies.belt_length.drift import drift, run_drift, steady_drift
 from cosim.studies.belt_length.lengths import LENGTHS, SPEEDS
+from cosim.studies.belt_length.study import BOUNDS
 from thermal.belt.air import moving_belt
 from thermal.steady_sliding import SteadySliding
 
@@ -107,7 +108,7 @@ def test_drift_map_rises_with_speed_and_falls_with_length():
 
 
 def test_still_air_takes_its_number_from_speed_and_length():
-    slow, fast = cases(Case(1.0, 0.5, h=3.0), length=(1.0,), speed=(0.15, 0.82), h=(AIR,))
+    slow, fast = cases(Case(1.0, 0.5, h=3.0), length=(1.0,), speed=(0.15, 0.82), h=(None,))
     assert 5.0 < slow.film < fast.film < 12.0
     assert fast.pause_film < moving_belt(0.0, 0.5, -8.0) < fast.film < moving_belt(0.82, 0.5, -8.0)
     assert fast.lasting.film > fast.film, "warmer for ever"
@@ -258,3 +259,19 @@ def test_the_studys_resolution_is_good_to_half_a_percent():
     fine = SteadySliding(case.thermal(fine=True), case.speed, case.force)
     fine.ramp(10.0)
     assert run_drift(case) == pytest.approx(fine.run(20.0).entry, rel=5e-3)
+
+
+def test_the_help_has_the_defaults_that_are_taken():
+    """They stand in `commands.toml` as text, so that the help needs no heat model."""
+    told = COMMANDS["belt-length"]["arguments"]
+    study, protocol = belt_length_command.STUDY, Protocol()
+    rig = study.thermal()
+    taken = {name: (getattr(study, field),) for name, (field, *_) in BOUNDS.items()}
+    taken |= belt_length_command.STUDIED | {"ramp": (protocol.ramp,), "run": (protocol.run,)}
+    taken |= {name: (getattr(rig.belt, name),) for name in ("conductivity", "thickness")}
+    taken["conductance"] = (rig.contact.conductance,)
+    for name, values in taken.items():
+        shown = " ".join("air" if value is None else f"{value:g}" for value in values)
+        assert told[f"--{name}"]["help"].endswith(f"(default: the scenario's, or {shown})")
+    assert told["--limit --camera"]["default"] == CAMERA
+    assert told["--samples"]["default"] == Options(CAMERA).samples

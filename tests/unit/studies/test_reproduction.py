@@ -213,7 +213,7 @@ def test_what_was_judged_before_ctrl_c_is_kept(tmp_path, capsys, monkeypatch, ju
         return reproduce(ids)
 
     seen = []
-    monkeypatch.setattr("cosim.studies.reproduction.reproduce", interrupted)
+    monkeypatch.setattr(reproduction_command, "reproduce", interrupted)
     status = main(["reproduce", "C1", "C2", "-o", str(tmp_path)])
     out, err = capsys.readouterr()
     assert (status, out, err.count("\n")) == (1, "", 1)

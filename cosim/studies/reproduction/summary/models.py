@@ -7,10 +7,8 @@ under their usual names. The figures: what a report gives where the record is no
 from __future__ import annotations
 
 import math
-import tomllib
 import warnings
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,6 +19,7 @@ from stickslip.reference.scheme_effects import SchemeEffects
 from stickslip.reference.scheme_errors import PRINTED
 
 from cosim.gap.data import Campaign, MeasuredRun
+from cosim.packaged import packaged_tables
 from cosim.studies.reproduction.cases import (
     CYCLES,
     SAMPLE,
@@ -36,7 +35,7 @@ from cosim.studies.reproduction.motion import figures as read_off
 
 Values = Mapping[str, float]  # block.parameter -> number
 
-CATALOGUE = tomllib.loads(Path(__file__).with_name("catalogue.toml").read_text(encoding="utf-8"))
+CATALOGUE = packaged_tables(__package__, "catalogue.toml")
 # half range below which nobody sees an oscillation in a plotted record, m
 VISIBLE = 5e-4
 # how far off its place a block is put down, standard deviation: m, rad
