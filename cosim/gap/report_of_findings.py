@@ -137,7 +137,7 @@ def _first_number(part: Part, gap: Gap) -> str:
             key, parameters[key], intervals[key], catalogue=gap.campaign.catalogue
         ).text
         return f", {shown.removeprefix(f'{part.effect}.')}"
-    if ROUNDING in part.settings:
+    if part.finding.name == ROUNDING:
         step = quantity(ROUNDING, part.settings[ROUNDING], None)
         return f", {step.value} {step.unit}"
     return ""

@@ -7,7 +7,7 @@ from pydantic import BaseModel
 
 from .markdown import code, heading, table
 
-#: Modules whose `__all__` is public, and what they are for.
+#: Modules whose names are public, and what they are for.
 MODULES = {
     "stickslip": "The mechanics: parameters, simulation, the catalogue of effects.",
     "thermal": "The heat in belt and ice, by itself.",
@@ -54,8 +54,11 @@ def _home(module: str, name: str, what: object) -> str:
 
 
 def names_of(module: str) -> list[str]:
-    """What is public in a module."""
-    return sorted(import_module(module).__all__)
+    """What is public in a module: `__all__`, or what it imports as itself."""
+    home = import_module(module)
+    imported = [name for name, what in vars(home).items()
+                if not (name.startswith("_") or inspect.ismodule(what))]  # fmt: skip
+    return sorted(getattr(home, "__all__", imported))
 
 
 def _is_table(what: object) -> bool:
