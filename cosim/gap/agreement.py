@@ -313,7 +313,8 @@ class Fitting:
         """A lone finding that simulated runs put so far behind a rival that the rows must err.
 
         Runs that no fit has seen must come out better with the rival, too; and be explained by it
-        in place of what no effect stands for.
+        in place of what no effect stands for. A curve that is itself the law is not fitted to the
+        runs as a rival is: it stays where it explains them.
         """
         lone = _lone(parts)
         if lone is None:
@@ -323,7 +324,8 @@ class Fitting:
                 in_place = [rival if part is lone else part for part in parts]
                 with_it, own = (self._fitted(named, some) for some in (in_place, parts))
                 is_better = judged(with_it.ladder[-1].gap) < judged(own.ladder[-1].gap)
-                if is_better and (lone.in_kernel or explains(with_it.ladder)):
+                stays = lone.in_model and explains(own.ladder)
+                if is_better and not stays and (lone.in_kernel or explains(with_it.ladder)):
                     without = self._without(lone, parts, named)
                     gained = without.gained(lone) if lone.in_kernel else None
                     return Rejected(lone.finding.name, lone.finding.gain, gained)

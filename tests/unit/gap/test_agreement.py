@@ -256,6 +256,23 @@ def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(
     assert (rejected is not None) is gone
 
 
+@pytest.mark.parametrize(("own", "gone"), [(1.29, False), (1.31, True)])
+def test_a_curve_that_is_the_law_stays_where_it_explains_the_runs(monkeypatch, own, gone):
+    """Its points are not fitted to the simulated runs, a rival's numbers are."""
+    lone = Part(finding("spring_hardening", 39.0), object(), (), (), {"points": 1.0})
+    rival = Part(finding("measurement.clock", 32.0), None, (), (), {"on": 1.0})
+    gaps = {("spring_hardening",): own, ("measurement.clock",): 1.0}
+    monkeypatch.setattr(
+        agreement.Fitting, "_fitted", lambda self, named, parts, **_: SimpleNamespace(
+            gained=lambda part: 20.0, ladder=[SimpleNamespace(
+                gap=Score(1.0, gaps.get(tuple(part.effect for part in parts), 2.0)))])
+    )  # fmt: skip
+    rejected = agreement.Fitting(None, lambda: None, 1).overruled(
+        [lone], None, {"measurement.clock": (rival, 6e4)}
+    )
+    assert (rejected is not None) is gone
+
+
 @pytest.mark.parametrize(
     ("reached", "gained", "names"),
     [(1.0, 80.0, 1), (1.09, 80.0, 1), (1.15, 80.0, 0), (1.15, 499.0, 0), (1.15, 501.0, 1)],
