@@ -115,13 +115,13 @@ class Models:
             for run in fitted.runs if not run.hold_out
         )  # fmt: skip
         numbers, settings, _ = self.free[0]
-        self._add(rounding.effect, text_of(rounding), (numbers, settings), rows, fitted,
-                  across=gain)  # fmt: skip
+        text = f"{text_of(rounding)}; what rounding adds counts as noise from here on"
+        self._add(rounding.effect, text, (numbers, settings), rows, fitted, across=gain)
 
     @property
     def _plain(self) -> int:
         """Number of the rung before the findings."""
-        return len(self.ladder[1:]) and int(self.ladder[1].name == ROUNDING)
+        return int(any(rung.name == ROUNDING for rung in self.ladder))
 
     def let_scatter(self) -> None:
         """Once: friction scatters, as the rows with all findings have it, where that is felt."""
