@@ -21,8 +21,10 @@ from cosim.gap.weak_form.constants import (
     STICK_SCATTER,
 )
 from cosim.gap.weak_form.system import Rung
-from cosim.gap.windows import Fitted
+from cosim.gap.windows.fitted import Fitted, Information
 
+#: Numbers of the runs' own friction.
+OWN_FRICTION = "offset.friction@"
 #: Value and 90 % interval.
 Interval = tuple[float, float, float]
 
@@ -64,28 +66,53 @@ def averaged_over(fitted: Fitted, assumed: float, expected: float) -> float:
     assumed : standard deviation of the runs' own friction in the fit, expected : beforehand. Of
     sticks the fit assumes what is expected of them.
     """
-    own = [label for label in fitted.values if label.startswith("offset.friction@")]
-    values = np.array([fitted.values[label] for label in own])
-    of_runs = _averaged(values, np.array([fitted.sd[label] for label in own]), assumed, expected)
-    sticks = np.concatenate([np.zeros(0), *(run.states[:, 6:].ravel() for run in fitted.runs)])
-    sticks = sticks[sticks != 0.0]
-    read = np.full(sticks.size, STATIC_FLOOR)
-    return of_runs + _averaged(sticks, read, STICK_SCATTER, STICK_SCATTER)
-
-
-def _averaged(own: np.ndarray, sd: np.ndarray, assumed: float, expected: float) -> float:
-    """Of numbers (n,) as fitted, known to sd (n,), under a scatter that is assumed.
-
-    What the data alone say of each has the mean m and the variance v, 1/v = 1/sd^2 - 1/assumed^2;
-    under a scatter s it is N(m; 0, s^2 + v), and s is half-normal, as expected.
-    """
-    told = sd < 0.999 * assumed
-    if not told.any():
-        return 0.0
-    variance = 1.0 / (1.0 / sd[told] ** 2 - 1.0 / assumed**2)
-    mean = own[told] * (variance / sd[told] ** 2)
     asked = np.array([*SCATTER_ASKED, assumed])
-    spread = asked[:, None] ** 2 + variance
-    densities = -0.5 * np.sum(mean**2 / spread + np.log(spread), axis=1)
+    of_runs = sum((_of_runs(fitted, known, asked) for known in fitted.known), np.zeros(asked.size))
+    sticks = np.concatenate([np.zeros(0), *(run.states[:, 6:].ravel() for run in fitted.runs)])
+    values = np.array([*SCATTER_ASKED, STICK_SCATTER])
+    return _averaged(of_runs, asked, expected) + _averaged(
+        _of_sticks(sticks[sticks != 0.0], values), values, STICK_SCATTER
+    )
+
+
+def _averaged(densities: np.ndarray, asked: np.ndarray, expected: float) -> float:
+    """Over a half-normal of what is expected, less that of the last, which the fit assumes."""
     weights = -0.5 * (asked[:-1] / expected) ** 2
     return float(logsumexp(densities[:-1] + weights - logsumexp(weights)) - densities[-1])
+
+
+def _of_runs(fitted: Fitted, known: Information, asked: np.ndarray) -> np.ndarray:
+    """(s,) ln of how probable some runs are under scatters, the last of which the fit assumes.
+
+    The runs' own friction is averaged over, and the numbers that the runs share follow: a law that
+    half the scatter has taken up takes all of it where less scatter is allowed. With the fit's own
+    information, linear about where it ended; numbers at a bound stay there.
+    """
+    free = [n for n, label in enumerate(known.labels) if label not in fitted.at_bound]
+    own = np.array([known.labels[n].startswith(OWN_FRICTION) for n in free], dtype=bool)
+    at = np.array([fitted.values[known.labels[n]] for n in free])[own] / asked[-1]
+    told = known.root[:, free].T @ known.root[:, free] - np.diag(own.astype(float))
+    told /= max(1.0, fitted.misfit)
+    slope = np.zeros(own.size)
+    slope[own] = -at / max(1.0, fitted.misfit)
+    densities = []
+    for pull in (asked[-1] / asked) ** 2:
+        inner = told + np.diag(pull * own)
+        right = -slope
+        right[own] -= pull * at
+        step = np.linalg.lstsq(inner, right, rcond=None)[0]
+        off = 0.5 * step @ told @ step + slope @ step + 0.5 * pull * np.sum((at + step[own]) ** 2)
+        spread = np.linalg.slogdet(inner[np.ix_(own, own)])[1] - own.sum() * np.log(pull)
+        densities.append(-off - 0.5 * spread)
+    return np.array(densities)
+
+
+def _of_sticks(own: np.ndarray, asked: np.ndarray) -> np.ndarray:
+    """(s,) the same of the sticks' own friction (n,), each read off to `STATIC_FLOOR`.
+
+    Of which the data alone say N(m, v), 1/v = 1/floor^2 - 1/assumed^2: under s N(m; 0, s^2 + v).
+    """
+    variance = 1.0 / (1.0 / STATIC_FLOOR**2 - 1.0 / asked[-1] ** 2)
+    mean = own * (variance / STATIC_FLOOR**2)
+    spread = asked[:, None] ** 2 + variance
+    return np.asarray(-0.5 * np.sum(mean**2 / spread + np.log(spread), axis=1))

@@ -315,7 +315,7 @@ def _within(respond: Respond, names: frozenset[str]) -> Respond:
 def _sizes(rung: Rung, unknown: Unknown) -> tuple[np.ndarray, np.ndarray]:
     """Mean and standard deviation of an unknown's numbers on a rung."""
     added = Added(unknown)
-    with_it = rung.system.rung([*rung.added, added], *rung.kinds)
+    with_it = rung.with_more([added])
     mean, covariance = with_it.posterior
     part = with_it.part_of(added)
     return mean[part], np.sqrt(np.diag(covariance)[part])

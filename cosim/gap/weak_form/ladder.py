@@ -122,7 +122,7 @@ class Search:
         """
         over_speed = [(name, offers.pop(name)) for name in BY_SPEED if name in offers]
         for _, offer in sorted(over_speed, key=lambda pair: pair[1][0]):  # the better one stays
-            here = rung.system.rung([*rung.added, *offer[1]], *rung.kinds)
+            here = rung.with_more(offer[1])
             curve = here.posterior[0][here.part_of(offer[1][0])]
             offers[GROWS if curve[-1] > 0.0 else FALLS] = offer
         return {name: offer for name, offer in offers.items() if name not in self.barred}
@@ -149,10 +149,10 @@ class Search:
         """The best of an argument's settings, also between those that were tried."""
         known = self._known(rung)
         if f"{name}, finer" not in known:
-            best = (rung.system.rung([*rung.added, *offer[1]]).evidence, offer[1])
+            best = (rung.with_more(offer[1]).evidence, offer[1])
             for unknown in self.near(offer[1][0].unknown):
                 _, added = rung.offered([unknown])
-                value = rung.system.rung([*rung.added, added]).evidence
+                value = rung.with_more([added]).evidence
                 best = max(best, (value, (added,)), key=lambda pair: pair[0])
             known[f"{name}, finer"] = (offer[0], best[1])
         return known[f"{name}, finer"]

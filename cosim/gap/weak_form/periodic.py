@@ -229,10 +229,10 @@ class _Fit:
     @classmethod
     def of(cls, rung: Rung, wave: Wave, speeds: Mapping[str, tuple[float, float]]) -> _Fit:
         _, shape = rung.offered([wave.shape()])
-        here = rung.system.rung([*rung.added, shape], *rung.kinds)
+        here = rung.with_more([shape])
         sizes = here.posterior[0][here.part_of(shape)]
         moves = [Added(each) for each in wave.moves(sizes, rung.system.fitted, speeds)]
-        moving = rung.system.rung([*rung.added, shape, *moves], *rung.kinds)
+        moving = rung.with_more([shape, *moves])
         # of speeds it is known beforehand how far they are from where the wave is now
         off = np.array([(mean - wave.faster[name]) / sd for name, (mean, sd) in speeds.items()])
         mean, covariance = moving.posterior

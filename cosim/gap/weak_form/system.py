@@ -11,7 +11,7 @@ few values. With unit priors, X scaled by the standard deviations,
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -136,6 +136,10 @@ class Rung:
     base: tuple[Added, ...]
     added: tuple[Added, ...]
     kinds: tuple[bool, bool]
+
+    def with_more(self, more: Sequence[Added]) -> Rung:
+        """The same rows with more unknowns."""
+        return replace(self, added=(*self.added, *more))
 
     @property
     def unknowns(self) -> tuple[Added, ...]:

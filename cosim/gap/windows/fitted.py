@@ -53,6 +53,17 @@ class FittedRun:
 
 
 @dataclass(frozen=True)
+class Information:
+    """What a fit knows of its numbers, those that are known beforehand included.
+
+    labels : of the numbers; root : (k, k), the information by the scaled numbers is R' R
+    """
+
+    labels: tuple[str, ...]
+    root: np.ndarray
+
+
+@dataclass(frozen=True)
 class Leeway:
     """What a fit leaves open of the numbers that all runs share.
 
@@ -67,13 +78,12 @@ class Leeway:
     weight: float = 1.0
 
     @classmethod
-    def at(cls, unknowns: Sequence[Unknown], scaled: np.ndarray, derivatives: np.ndarray) -> Leeway:
-        """From the derivatives (rows, k) of a fit where it ended."""
+    def at(cls, unknowns: Sequence[Unknown], scaled: np.ndarray, root: np.ndarray) -> Leeway:
+        """From what a fit knows where it ended, as of `Information`."""
         shared = np.array([unknown.number.scope != "run" for unknown in unknowns], dtype=bool)
         order = np.argsort(shared, kind="stable")
         first = int(np.sum(~shared))
-        whole = np.asarray(np.linalg.qr(derivatives[:, order], mode="r"))
-        rows = whole[first:, first:]
+        rows = np.asarray(np.linalg.qr(root[:, order], mode="r"))[first:, first:]
         labels = tuple(unknowns[i].label for i in order[first:])
         return cls(labels, scaled[order[first:]], rows)
 
@@ -110,6 +120,7 @@ class Fitted:
     runs : fitted ones and held-out ones
     cost : squared residuals of all runs, with those of the numbers from what is known beforehand
     leeway : of the numbers that all runs share
+    known : of the fitted runs, and of those held out
     """
 
     values: dict[str, float]
@@ -118,6 +129,7 @@ class Fitted:
     runs: tuple[FittedRun, ...]
     cost: float = float("nan")
     leeway: Leeway | None = field(default=None, repr=False)
+    known: tuple[Information, ...] = field(default=(), repr=False)
 
     @classmethod
     def at(
@@ -129,7 +141,8 @@ class Fitted:
         The covariance of the scaled numbers is (J'J)^-1, sd = |d value / d scaled| times the root
         of its diagonal.
         """
-        _, singular, right = np.linalg.svd(np.linalg.qr(derivatives, mode="r"))
+        root = np.asarray(np.linalg.qr(derivatives, mode="r"))
+        _, singular, right = np.linalg.svd(root)
         is_felt = singular > RANK * singular.max(initial=0.0)
         spread = np.linalg.norm(right[is_felt] / singular[is_felt, None], axis=0)
         spread = spread * max(1.0, _rms(runs))
@@ -142,7 +155,8 @@ class Fitted:
             for bound in (number.low, number.high):
                 if abs(place - number.scaled(bound)) < NEAR:
                     at_bound[label] = bound
-        return cls(values, sd, at_bound, runs, cost, Leeway.at(unknowns, scaled, derivatives))
+        known = Information(tuple(values), root)
+        return cls(values, sd, at_bound, runs, cost, Leeway.at(unknowns, scaled, root), (known,))
 
     @property
     def gap(self) -> tuple[float, float]:
@@ -160,8 +174,13 @@ class Fitted:
 
         What noise does not explain of the better one counts as so much noise more.
         """
-        left = min(_rms(self.runs), _rms(other.runs)) ** 2
+        left = min(self.misfit, other.misfit)
         return 0.5 * (other.cost - self.cost) / max(left, 1.0)
+
+    @property
+    def misfit(self) -> float:
+        """Mean square residual of all runs, in units of the noise."""
+        return _rms(self.runs) ** 2
 
     @property
     def stick_scatter(self) -> float:
@@ -181,6 +200,7 @@ def joined(fitted: Fitted, judged: Fitted, names: Sequence[str]) -> Fitted:
     return replace(
         fitted,
         cost=fitted.cost + judged.cost,
+        known=(*fitted.known, *judged.known),
         values={**judged.values, **fitted.values},
         sd={**judged.sd, **fitted.sd},
         runs=tuple(runs[name] for name in names if name in runs),

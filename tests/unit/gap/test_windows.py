@@ -20,6 +20,7 @@ from cosim.gap.windows import (
     windows_of,
     windows_of_campaign,
 )
+from cosim.gap.windows.fit import _of_held_out
 from cosim.gap.windows.problem import Problem
 from cosim.gap.windows.run_model import UNSEEN, RunModel
 from cosim.gap.windows.start_states import StartStates
@@ -189,6 +190,16 @@ def test_judged_runs_are_those_of_the_fit(plain, found):
     assert strict.gap[1] > 2.0 > lenient.gap[1] == pytest.approx(1.0, abs=0.05)
     assert lenient.values["offset.friction@run04"] == pytest.approx(-math.log(1.05), abs=0.01)
     assert "offset.friction@run04" not in strict.values
+
+
+def test_own_numbers_of_judged_runs_set_out_moved_as_those_of_the_fit(plain, found):
+    first, second, third, judged = (run.name for run in plain.runs)
+    speeds = dict.fromkeys((f"offset.speed@{name}" for name in (first, second, third)), 0.001)
+    starts = [{**speeds, f"offset.speed@{judged}": 0.004, "friction.mu_k": 0.2}]
+    moved_by = zip(speeds, (-0.014, -0.02, -0.016), strict=True)
+    values = {label: 0.001 + by for label, by in moved_by}
+    own = _of_held_out(plain.held_out_runs, starts, replace(found, values=values))
+    assert own == {f"offset.speed@{judged}": pytest.approx(0.004 - 0.016)}
 
 
 def test_the_track_is_what_the_residuals_are_of(plain, found):
