@@ -218,8 +218,6 @@ class Models:
             if number.prior and (before := known.get(number.key))
         )  # fmt: skip
         gain = found.gain_over(near) - len(near.runs) * wider
-        if scatter == 0.0:  # neither runs nor sticks have friction of their own
-            return gain
         expected = self.campaign.errors.friction
         less, more = (averaged_over(each, scatter, expected) for each in (near, found))
         return gain + more - less

@@ -9,6 +9,7 @@ how it gains by it.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from scipy.special import logsumexp
@@ -19,12 +20,13 @@ from cosim.gap.weak_form.constants import (
     SCATTER_RANGE,
     STATIC_FLOOR,
     STICK_SCATTER,
+    ZERO_PARTS_ASKED,
 )
 from cosim.gap.weak_form.system import Rung
 from cosim.gap.windows.fitted import Fitted, Information
 
-#: Numbers of the runs' own friction.
-OWN_FRICTION = "offset.friction@"
+#: Numbers of the runs' own friction, and of the tracker's zeros.
+OWN_FRICTION, OWN_ZEROS = "offset.friction@", ("offset.x@", "offset.y@")
 #: Value and 90 % interval.
 Interval = tuple[float, float, float]
 
@@ -63,14 +65,15 @@ def scatter_text(scatter: Interval) -> str:
 def averaged_over(fitted: Fitted, assumed: float, expected: float) -> float:
     """ln of how much more probable a fit is with its scatters averaged over than as assumed.
 
-    assumed : standard deviation of the runs' own friction in the fit, expected : beforehand. Of
-    sticks the fit assumes what is expected of them.
+    assumed : standard deviation of the runs' own friction in the fit, 0 where they have none;
+    expected : beforehand. Of the tracker's zeros the fit assumes what is stated of them, of sticks
+    what is expected; as in the rows, less of either is as probable beforehand.
     """
-    asked = np.array([*SCATTER_ASKED, assumed])
-    of_runs = sum((_of_runs(fitted, known, asked) for known in fitted.known), np.zeros(asked.size))
+    asked = np.array([*product(SCATTER_ASKED, ZERO_PARTS_ASKED), (assumed or 1.0, 1.0)])
+    of_runs = sum((_of_runs(fitted, known, asked) for known in fitted.known), np.zeros(len(asked)))
     sticks = np.concatenate([np.zeros(0), *(run.states[:, 6:].ravel() for run in fitted.runs)])
     values = np.array([*SCATTER_ASKED, STICK_SCATTER])
-    return _averaged(of_runs, asked, expected) + _averaged(
+    return _averaged(of_runs, asked[:, 0], expected) + _averaged(
         _of_sticks(sticks[sticks != 0.0], values), values, STICK_SCATTER
     )
 
@@ -82,28 +85,28 @@ def _averaged(densities: np.ndarray, asked: np.ndarray, expected: float) -> floa
 
 
 def _of_runs(fitted: Fitted, known: Information, asked: np.ndarray) -> np.ndarray:
-    """(s,) ln of how probable some runs are under scatters, the last of which the fit assumes.
+    """(s,) ln of how probable some runs are under scatters (s, 2), the last as the fit assumes.
 
-    The runs' own friction is averaged over, and the numbers that the runs share follow: a law that
-    half the scatter has taken up takes all of it where less scatter is allowed. With the fit's own
-    information, linear about where it ended; numbers at a bound stay there.
+    asked : of friction, and of the zeros in parts of what is stated. The runs' own friction and
+    zeros are averaged over, and the numbers that the runs share follow: a law that half the scatter
+    has taken up takes all of it where less scatter is allowed. With the fit's own information,
+    linear about where it ended; shared numbers at a bound stay there.
     """
-    free = [n for n, label in enumerate(known.labels) if label not in fitted.at_bound]
-    own = np.array([known.labels[n].startswith(OWN_FRICTION) for n in free], dtype=bool)
-    at = np.array([fitted.values[known.labels[n]] for n in free])[own] / asked[-1]
-    told = known.root[:, free].T @ known.root[:, free] - np.diag(own.astype(float))
-    told /= max(1.0, fitted.misfit)
-    slope = np.zeros(own.size)
-    slope[own] = -at / max(1.0, fitted.misfit)
+    of_friction = np.array([label.startswith(OWN_FRICTION) for label in known.labels])
+    own = of_friction | [label.startswith(OWN_ZEROS) for label in known.labels]
+    free = own | [label not in fitted.at_bound for label in known.labels]
+    root, at = known.root[:, free], np.where(own, known.scaled, 0.0)[free]
+    own, of_friction = own[free], of_friction[free]
+    noise = max(1.0, fitted.misfit)
+    told, slope = (root.T @ root - np.diag(own.astype(float))) / noise, -at / noise
     densities = []
-    for pull in (asked[-1] / asked) ** 2:
-        inner = told + np.diag(pull * own)
-        right = -slope
-        right[own] -= pull * at
-        step = np.linalg.lstsq(inner, right, rcond=None)[0]
-        off = 0.5 * step @ told @ step + slope @ step + 0.5 * pull * np.sum((at + step[own]) ** 2)
-        spread = np.linalg.slogdet(inner[np.ix_(own, own)])[1] - own.sum() * np.log(pull)
-        densities.append(-off - 0.5 * spread)
+    for scatter, zeros in (asked[-1] / asked) ** 2:
+        pull = own * np.where(of_friction, scatter, zeros)
+        inner = told + np.diag(pull)
+        step = np.linalg.lstsq(inner, -slope - pull * at, rcond=None)[0]
+        off = step @ told @ step + 2.0 * slope @ step + pull @ (at + step) ** 2
+        spread = np.linalg.slogdet(inner[np.ix_(own, own)])[1] - np.log(pull[own]).sum()
+        densities.append(-0.5 * (off + spread))
     return np.array(densities)
 
 

@@ -56,10 +56,11 @@ class FittedRun:
 class Information:
     """What a fit knows of its numbers, those that are known beforehand included.
 
-    labels : of the numbers; root : (k, k), the information by the scaled numbers is R' R
+    labels, scaled : (k,) of the numbers; root : (k, k), the information by these is R' R
     """
 
     labels: tuple[str, ...]
+    scaled: np.ndarray
     root: np.ndarray
 
 
@@ -155,7 +156,7 @@ class Fitted:
             for bound in (number.low, number.high):
                 if abs(place - number.scaled(bound)) < NEAR:
                     at_bound[label] = bound
-        known = Information(tuple(values), root)
+        known = Information(tuple(values), scaled, root)
         return cls(values, sd, at_bound, runs, cost, Leeway.at(unknowns, scaled, root), (known,))
 
     @property

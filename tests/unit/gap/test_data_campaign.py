@@ -76,6 +76,12 @@ def test_runs_of_figures_alone(tmp_path):
     assert run.summary == {"mean_x": (0.02, 0.002), "slip_share": (0.925, 0.02)}
 
 
+def test_figures_beside_a_track_are_said_to_be_ignored(tmp_path, columns):
+    runs = [{"columns": columns}, {"summary": {"mean_x": [0.02, 0.002]}}]
+    read = read_campaign(write_campaign(tmp_path, runs))
+    assert "run 2: summary: ignored beside runs with a file" in read.remarks
+
+
 BAD_RUNS = {
     "negative mass": ({"mass": -0.5}, r"run 1: mass: out of range \(-0.5\), .* greater than 0 kg"),
     "misspelt": ({"masss": 0.5}, r"run 1: masss: no such key, nearest known: mass"),
