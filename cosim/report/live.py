@@ -2,25 +2,16 @@
 
 A picture's ``live`` is a mapping of plain JSON with the name of its script as ``kind``
 (`templates/KIND.js`). Numbers travel as base64 of little-endian arrays, see `packed`.
-
-A figure that was drawn can be made alive by what stands on its axes, see `live_of`: curves with
-times of their own, as of several models, then share an axis.
 """
 
 from __future__ import annotations
 
 import base64
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
-import matplotlib
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.colors import to_hex
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
@@ -253,88 +244,10 @@ def _at(times: Array, one: Series) -> Array:
     return found
 
 
-def live_of(figure: Figure) -> Live:
-    """What is drawn over time, axes by axes; axes without a title are panels below the one above.
-
-    Broken lines over the whole width are levels, upright ones marks. A curve without a label has
-    that of its colour elsewhere in the figure, else of its axis.
-    """
-    labels = _labels(figure)
-    rows = {round(axes.get_position().y0, 6): axes.get_ylabel() for axes in reversed(figure.axes)}
-    found: dict[str, list[Axes]] = {}
-    for axes in sorted(figure.axes, key=lambda each: each.get_position().x0):
-        title = axes.get_title() or axes.get_title(loc="left") or axes.get_title(loc="right")
-        key = title or next(reversed(found), "")
-        found.setdefault(key, []).append(axes)
-    return several({title: _figure(group, labels, rows) for title, group in found.items()})
-
-
-def _figure(group: Sequence[Axes], labels: dict[str, str], rows: dict[float, str]) -> Live:
-    """Axes below each other as panels."""
-    panels = []
-    for axes in group:
-        label = axes.get_ylabel() or rows[round(axes.get_position().y0, 6)]
-        own = [_series(line, labels, label) for line in axes.lines if _is_curve(axes, line)]
-        panels.append((Panel(_with_brackets(label), [], levels=_levels(axes)), own))
-    seen = panels_on_one_axis(panels, group[0].get_xlim())
-    return TimeFigure(*seen, marks=_marks(group[0])).live()
-
-
-def _is_curve(axes: Axes, line: Line2D) -> bool:
-    return line.get_transform() == axes.transData
-
-
-def _series(line: Line2D, labels: dict[str, str], axis: str) -> Series:
-    colour = to_hex(line.get_color())
-    own = str(line.get_label())
-    label = labels.get(colour, re.split(r"[\[,(]", axis)[0].strip()) if own[:1] == "_" else own
-    time, values = (np.asarray(each, float) for each in line.get_data())
-    dots = line.get_linestyle() in ("None", "", " ")
-    dash = line.get_linestyle() == "--"
-    width = min(float(line.get_linewidth()), 2.5)
-    return Series(time, Curve(label, values, colour, dots=dots, dash=dash, width=width))
-
-
-def _labels(figure: Figure) -> dict[str, str]:
-    """Colour -> what it stands for, of the lines that say so."""
-    return {
-        to_hex(line.get_color()): str(line.get_label())
-        for axes in figure.axes
-        for line in reversed(axes.lines)
-        if not str(line.get_label()).startswith("_") and _is_curve(axes, line)
-    }
-
-
-def _levels(axes: Axes) -> list[tuple[float, str]]:
-    """Lines over the whole width; one that is unnamed has the name of another, or none."""
-    return [
-        (float(np.asarray(line.get_ydata())[0]), _named(line))
-        for line in axes.lines
-        if line.get_transform() == axes.get_yaxis_transform(which="grid")
-    ]
-
-
-def _marks(axes: Axes) -> list[tuple[float, str]]:
-    """Upright lines over the whole height."""
-    return [
-        (float(np.asarray(line.get_xdata())[0]), _named(line))
-        for line in axes.lines
-        if line.get_transform() == axes.get_xaxis_transform(which="grid")
-    ]
-
-
-def _named(line: Line2D) -> str:
-    label = str(line.get_label())
-    return "" if label.startswith("_") else label
-
-
-def _with_brackets(label: str) -> str:
-    """ "x, cm" and "x (cm)" as the pages have it: "x [cm]"."""
-    return re.sub(r"^(.*?)(?:, | \()([^,()]+)\)?$", r"\1 [\2]", label)
-
-
 def colour_table(name: str) -> str:
     """The 256 colours of a map as one text, six hexadecimal digits each, for a page."""
+    import matplotlib  # only for who has a map
+
     colours = matplotlib.colormaps[name](np.arange(LEVELS + 1), bytes=True)[:, :3]
     return colours.tobytes().hex()
 

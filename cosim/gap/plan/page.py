@@ -16,7 +16,8 @@ from cosim.gap.plan import data
 from cosim.gap.plan.plan import Plan
 from cosim.gap.plan.sizes import Size
 from cosim.report.page import Picture, number, render, unit_text
-from cosim.report.style import BLUE, INK, ORANGE, RED, logarithmic_x, panels, picture
+from cosim.report.palette import BLUE, INK, ORANGE, RED
+from cosim.report.style import logarithmic_x, panels, picture
 
 #: Pairs on the first screens of the page; the rest is folded.
 MOST_PAIRS = 6

@@ -15,18 +15,11 @@ from cosim.gap.data import MeasuredRun
 from cosim.gap.quantities import digits
 from cosim.gap.result import NINETY, Gap, Law
 from cosim.gap.windows import Fitted
-from cosim.report.live import Live, live_of
+from cosim.report.live import Live
+from cosim.report.live_of_figure import live_of
 from cosim.report.page import Picture
-from cosim.report.style import (
-    BLUE,
-    GREY,
-    INK,
-    RED,
-    logarithmic_x,
-    panels,
-    picture,
-    readable,
-)
+from cosim.report.palette import BLUE, GREY, INK, RED, readable
+from cosim.report.style import logarithmic_x, panels, picture
 
 from .tracks import channels, channels_of, modelled, residuals, shown_runs, starts, title, worst
 

@@ -13,6 +13,9 @@ from .numbers import Number
 from .problem import Problem
 from .windows import Windows
 
+#: Of friction along the surface.
+WAVE_LENGTH = "surface_pattern.wavelength"
+
 
 def fit(
     campaign: Campaign, windows: Mapping[str, Windows], numbers: Sequence[Number],
@@ -38,7 +41,7 @@ def fit(
     if not held_out:
         return fitted
     values = {**settings, **fitted.values}
-    own = _of_held_out(held_out, starts, fitted)
+    own = _of_held_out(held_out, numbers, starts, fitted)
     judged = judge(
         campaign, windows, numbers, values, scatter, held_out, fitted.leeway, own, states, jobs
     )
@@ -46,25 +49,23 @@ def fit(
 
 
 def _of_held_out(
-    runs: Sequence[MeasuredRun], starts: Sequence[Mapping[str, float]], fitted: Fitted
-) -> dict[str, float]:
-    """Where the held-out runs' own numbers set out: their starts, moved as the fitted runs' were.
+    runs: Sequence[MeasuredRun], numbers: Sequence[Number],
+    starts: Sequence[Mapping[str, float]], fitted: Fitted,
+) -> dict[str, float]:  # fmt: skip
+    """Where the held-out runs' own numbers set out.
 
-    A longer wave on surfaces that are faster by as much is nearly the same: with the wave length
-    the speeds of all runs have moved, and one that has not is off by whole waves.
+    A longer wave on surfaces that are faster by as much is nearly the same: a set-point that does
+    not follow a wave length would be off by whole waves at the end of a run.
     """
     start = {label: value for each in starts for label, value in each.items()}
-    moved: dict[str, list[float]] = {}
-    for label, value in fitted.values.items():
-        key, is_own, _ = label.partition("@")
-        if is_own and label in start:
-            moved.setdefault(key, []).append(value - start[label])
-    names, found = {run.name for run in runs}, {}
-    for label, value in start.items():
-        key, _, owner = label.partition("@")
-        if owner in names:
-            found[label] = value + float(np.median(moved.get(key, [0.0])))
-    return found
+    names = {run.name for run in runs}
+    own = {label: one for label, one in start.items() if label.partition("@")[2] in names}
+    for number in numbers:
+        if number.key == WAVE_LENGTH:
+            longer = fitted.values[number.key] / start.get(number.key, number.start) - 1.0
+            speeds = [label for label in own if label.startswith("offset.speed@")]
+            own |= {label: own[label] + longer for label in speeds}
+    return own
 
 
 def judge(

@@ -15,15 +15,9 @@ from cosim.report.figures.events import through_events
 from cosim.report.live import Curve, Panel, TimeFigure, panels_on_one_axis
 from cosim.report.live import Series as CurveInTime
 from cosim.report.page import Picture
+from cosim.report.palette import BLUE, ORANGE, readable
 from cosim.report.quantities import ROUNDING
-from cosim.report.style import (
-    BLUE,
-    ORANGE,
-    panels,
-    picture,
-    picture_over_time,
-    readable,
-)
+from cosim.report.style import panels, picture, picture_over_time
 
 from .compare import Comparison
 from .series import Series

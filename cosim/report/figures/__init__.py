@@ -4,37 +4,39 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-
-from matplotlib.figure import Figure
+from functools import partial
+from typing import TYPE_CHECKING
 
 from cosim.names import unknown_name
 from cosim.report.columns import Data
-from cosim.report.live import Live
+from cosim.report.live import Live, TimeFigure
 from cosim.report.page import Picture
-from cosim.report.style import displayed, png
 
 from ..contents import material_of, mechanics_of
 from ..material import figure_of_material, live_of_material
 from ..quantities import TABLES
 from .belt_map import belt_temperature
-from .friction_table import draw_friction_table
 from .heat import heat, melting, temperatures
-from .motion import draw_phase_portrait, friction_force, motion
-from .over_time import drawn_and_live, over_time
-from .top_view import draw_top_view, top_view_live
+from .motion import friction_force, motion
+from .over_time import time_figure
+from .phase_portrait import phase_portrait_live
+from .top_view import top_view_live
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure  # loaded when somebody asks for a drawing
 
 
 @dataclass(frozen=True)
 class Plate:
-    """A figure: name of its file, how it is drawn, title, caption, the variable that it needs.
+    """A figure: name of its file, title, caption, the variable that it needs.
 
-    live: what the page's scripts draw; None where the page has the drawing. alt: what a reader
-    hears who does not see it. grows: the variable must rise above 0, or there is nothing to see.
+    show: what it shows over time, or what else the page's scripts draw; None where the page has the
+    drawing. alt: what a reader hears who does not see it. grows: the variable must rise above 0, or
+    there is nothing to see.
     """
 
     name: str
-    draw: Callable[[Data], Figure]
-    live: Callable[[Data], Live] | None
+    show: Callable[[Data], TimeFigure | Live] | None
     title: str
     caption: str
     alt: str
@@ -43,30 +45,39 @@ class Plate:
 
     def drawn(self, dataset: Data) -> Figure:
         """The drawing."""
-        return figure_of_material(self.draw(dataset), material_of(dataset))
+        from .drawn import drawing  # loads what draws
+
+        return figure_of_material(drawing(self.name, self.show, dataset), material_of(dataset))
+
+    def png(self, dataset: Data) -> bytes:
+        """The drawing as a file's content."""
+        from cosim.report.style import png
+
+        return png(self.drawn(dataset))
 
     def picture(self, dataset: Data) -> Picture:
         """For a page: with what its scripts draw, or else the drawing."""
         alive = None
-        if self.live is not None:
-            alive = {"title": self.title, **self.live(dataset)}
-            alive = live_of_material(alive, material_of(dataset))
-        return Picture(self.name, self.caption, lambda: png(self.drawn(dataset)), self.alt, alive)
+        if self.show is not None:
+            shown = self.show(dataset)
+            alive = shown.live() if isinstance(shown, TimeFigure) else shown
+            alive = live_of_material({"title": self.title, **alive}, material_of(dataset))
+        return Picture(self.name, self.caption, partial(self.png, dataset), self.alt, alive)
 
 
-_DRAWN: dict[str, tuple[Callable[[Data], Figure], Callable[[Data], Live] | None]] = {
-    "top_view": (draw_top_view, top_view_live),
-    "motion": over_time(motion),
-    "friction_force": over_time(friction_force),
-    "phase_portrait": (draw_phase_portrait, None),
-    "heat": over_time(heat),
-    "temperatures": over_time(temperatures),
-    "melting": over_time(melting),
-    "belt_temperature": drawn_and_live(belt_temperature),
-    "friction_table": (draw_friction_table, None),
+_SHOWN: dict[str, Callable[[Data], TimeFigure | Live] | None] = {
+    "top_view": top_view_live,
+    "motion": partial(time_figure, motion),
+    "friction_force": partial(time_figure, friction_force),
+    "phase_portrait": phase_portrait_live,
+    "heat": partial(time_figure, heat),
+    "temperatures": partial(time_figure, temperatures),
+    "melting": partial(time_figure, melting),
+    "belt_temperature": belt_temperature,
+    "friction_table": None,
 }
 #: In the order of a page; the last is of a run whose friction is a table.
-*PLATES, TABLE = (Plate(name, *drawn, **TABLES["figures"][name]) for name, drawn in _DRAWN.items())
+*PLATES, TABLE = (Plate(name, show, **TABLES["figures"][name]) for name, show in _SHOWN.items())
 
 
 def plates_of(dataset: Data) -> list[Plate]:
@@ -88,6 +99,8 @@ def named_plates(dataset: Data, names: Sequence[str]) -> list[Plate]:
 
 def figure_of(dataset: Data, name: str) -> Figure:
     """The figure of a name, of those that `plates_of` has; ValueError for a name that is none."""
+    from cosim.report.style import displayed
+
     return displayed(named_plates(dataset, [name])[0].drawn(dataset))
 
 

@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from cosim.report.contents import Views
-from cosim.report.style import GREY, HEAT_MAP, INK, RC, SKY, plain_ticks, readable
+from cosim.report.palette import GREY, HEAT_MAP, INK, SKY, readable
+from cosim.report.style import RC, plain_ticks
 from thermal import RigView
 
 Array = NDArray[np.float64]

@@ -19,7 +19,7 @@ from cosim.report.columns import Data
 from cosim.report.contents import thermal_of, value_of
 from cosim.report.heat_numbers import ambient_degC
 from cosim.report.live import Curve, Map, Panel, TimeFigure
-from cosim.report.style import HEAT_MAP, SKY, readable
+from cosim.report.palette import HEAT_MAP, SKY, readable
 
 from .over_time import titled
 

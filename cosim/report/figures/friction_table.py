@@ -9,7 +9,8 @@ from stickslip import friction_coefficient
 from cosim.report.columns import Data
 
 from ..contents import mechanics_of
-from ..style import GREY, INK, SERIES, SLIP, panels, styled
+from ..palette import GREY, INK, SERIES, SLIP
+from ..style import panels, styled
 
 POINTS = 300
 #: Part of the way between two points, and beyond the last, that is drawn.

@@ -9,7 +9,7 @@ from cosim.report.columns import Data
 from cosim.report.contents import mechanics_of
 from cosim.report.heat_numbers import SINKS, Film, all_other_heat, ambient_degC, film_of, held
 from cosim.report.live import Curve, Panel, TimeFigure
-from cosim.report.style import (
+from cosim.report.palette import (
     BLUE,
     GREEN,
     GREY,

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.figure import Figure
 
 from cosim.report.columns import Data
 from cosim.report.contents import break_aways, mechanics_of, ramp_end, slip_intervals
-from cosim.report.live import Live, TimeFigure
-from cosim.report.style import INK, draw_over_time
+from cosim.report.live import TimeFigure
 
 from .events import through_events
 
@@ -43,23 +40,6 @@ def time_figure(describe: Describe, dataset: Data) -> TimeFigure:
         marks=[(ramp, "speed ramp ends")] if time[0] < ramp < time[-1] else (),
         part=zoom_of(dataset),
         title=titled(described.title, dataset),
-    )
-
-
-def over_time(
-    describe: Describe,
-) -> tuple[Callable[[Data], Figure], Callable[[Data], Live]]:
-    """How a run's figure is drawn, and what the page's scripts draw, with the run's events."""
-    return drawn_and_live(partial(time_figure, describe))
-
-
-def drawn_and_live(
-    describe: Describe,
-) -> tuple[Callable[[Data], Figure], Callable[[Data], Live]]:
-    """The same of a figure as it is described."""
-    return (
-        lambda dataset: draw_over_time(describe(dataset)),
-        lambda dataset: describe(dataset).live(),
     )
 
 
@@ -108,8 +88,3 @@ def titled(text: str, dataset: Data) -> str:
     status = dataset.attrs["status"]
     ending = "" if status == "complete" else f"  ({status})"
     return f"{text}: {dataset.attrs['title']}{ending}"
-
-
-def title(figure: Figure, text: str, dataset: Data) -> None:
-    """The same as the title of a figure, at the left."""
-    figure.suptitle(titled(text, dataset), x=0.008, ha="left", color=INK)

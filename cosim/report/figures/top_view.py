@@ -5,10 +5,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
-from matplotlib.figure import Figure
-from matplotlib.patches import Arc, Circle, Rectangle
 from numpy.typing import NDArray
 from stickslip import Parameters
 from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
@@ -17,20 +13,9 @@ from cosim.report.bounds import WIDTH
 from cosim.report.columns import Data
 from cosim.report.contents import mechanics_of, value_of
 from cosim.report.live import Live, packed
-from cosim.report.style import (
-    BLUE,
-    DARK_RED,
-    GREY,
-    INK,
-    PALE_BLUE,
-    PALE_GREY,
-    RED,
-    plain_ticks,
-    styled,
-)
 
 from .motion import SMALLEST_ANGLE_DEG
-from .over_time import title, zoom_of
+from .over_time import zoom_of
 
 Array = NDArray[np.float64]
 
@@ -44,8 +29,6 @@ class Pose(NamedTuple):
 
 
 REST = Pose(0.0, 0.0, 0.0)
-#: Of a spring that is drawn: turns, and its width, m.
-TURNS, COIL = 9, 0.006
 
 
 def anchors(parameters: Parameters) -> Array:
@@ -60,48 +43,10 @@ def attachments(parameters: Parameters, pose: Pose) -> Array:
     return np.asarray(np.array([pose.x, pose.y]) + arms @ np.array([[c, s], [-s, c]]))
 
 
-def coil(begin: Array, end: Array) -> Array:
-    """A spring drawn as a zigzag from ``begin`` to ``end`` (2,), m: (2 TURNS + 4, 2)."""
-    along = end - begin
-    length = np.hypot(*along)
-    across = np.array([-along[1], along[0]]) / length
-    stations = np.concatenate([[0.0], np.linspace(0.12, 0.88, 2 * TURNS + 2), [1.0]])
-    swing = np.zeros(stations.size)
-    swing[2:-2] = 0.5 * COIL * np.where(np.arange(stations.size - 4) % 2, 1.0, -1.0)
-    return np.asarray(begin + stations[:, None] * along + swing[:, None] * across)
-
-
 MARGIN = 0.03  # m around everything drawn
-SHEET_WIDTH, SHEET_HEIGHT = 9.5, 6.0  # of all panels, inches at most
-ARROW = 0.06  # m, length of the arrow for the surface's direction
 WORDS = 0.015  # m, for what stands below the rig
 
 Box = tuple[float, float, float, float]
-
-
-@styled
-def draw_top_view(dataset: Data) -> Figure:
-    """Block, springs and surface; a panel for each position, all to the same scale."""
-    parameters = mechanics_of(dataset)
-    poses = extreme_poses(dataset)
-    box = _box(parameters, [pose for _, pose in poses])
-    width, height = box[1] - box[0], box[3] - box[2]
-    across, down = (1, len(poses)) if width > 1.6 * height else (len(poses), 1)
-    # beside panels of equal scale there is room for labels, for titles of two lines, for the title
-    scale = min(SHEET_WIDTH / across / width, SHEET_HEIGHT / down / height)
-    size = across * (scale * width + 0.8), down * (scale * height + 0.6) + 0.8
-    figure = Figure(figsize=size, layout="compressed")
-    panels = figure.subplots(down, across, squeeze=False, sharex=True, sharey=True)
-    for axes, (text, pose) in zip(panels.flat, poses, strict=True):
-        _draw_surface(axes, dataset, parameters, box)
-        _draw_rig(axes, parameters, pose)
-        axes.set(title=text, xlim=box[:2], ylim=box[2:], aspect="equal")
-        axes.grid(visible=False)
-        plain_ticks(axes)
-        axes.label_outer()
-        axes.set(xlabel="x [m]", ylabel="y [m]")
-    title(figure, "Block and springs from above, to scale", dataset)
-    return figure
 
 
 def _known(dataset: Data) -> Data:
@@ -135,7 +80,7 @@ def centre_of(parameters: Parameters) -> tuple[float, float] | None:
     return (0.0, 1.0 / curvature) if curvature != 0.0 else None
 
 
-def _box(parameters: Parameters, poses: list[Pose]) -> Box:
+def box_of(parameters: Parameters, poses: list[Pose]) -> Box:
     """x from, to and y from, to of block and springs, m; a slab's far centre is not part of it."""
     reach = max(parameters.rig.attachment_radius, parameters.rig.contact_radius)
     points = [*anchors(parameters)]
@@ -152,26 +97,6 @@ def belt_width(dataset: Data) -> float | None:
         return None
     width = dataset.attrs.get(WIDTH, value_of(dataset, "belt", "width"))
     return float(width) if width else None
-
-
-def _draw_surface(axes: Axes, dataset: Data, parameters: Parameters, box: Box) -> None:
-    """The belt as a band of its width (a slab fills the view), its name and where it moves to."""
-    width = belt_width(dataset)
-    low, high = (-0.5 * width, 0.5 * width) if width else (box[2], box[3])
-    axes.add_patch(Rectangle((box[0], low), box[1] - box[0], high - low, color=PALE_GREY, zorder=0))
-    centre = centre_of(parameters)
-    if centre is not None:
-        radius = abs(centre[1])
-        axes.add_patch(Arc(centre, 2 * radius, 2 * radius, color=RED, linewidth=0.8, linestyle=":"))
-    # the lower left corner: neither springs nor block ever come there
-    left, y, speed = box[0] + 0.012, box[2] + 0.012, parameters.surface.speed
-    if speed != 0.0:
-        ends = ((left, y), (left + ARROW, y))[:: 1 if speed > 0.0 else -1]
-        look = {"arrowstyle": "-|>", "color": RED, "linewidth": 1.8, "shrinkA": 0, "shrinkB": 0}
-        axes.annotate("", ends[1], ends[0], arrowprops=look)
-    place = (left + (ARROW if speed else 0.0) + 0.005, y)
-    words = surface_words(dataset, " (grey)")
-    axes.annotate(words, place, va="center", color=DARK_RED, fontsize=9)
 
 
 def surface_words(dataset: Data, look: str = "") -> str:
@@ -194,27 +119,6 @@ def _compared(dataset: Data) -> str:
     if width is None or block <= width:
         return ""
     return f"; the block stands {0.5e3 * (block - width):.3g} mm over each edge of the belt"
-
-
-def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
-    """Anchors, springs, the contact disc and where it is at rest, its arms and a mark that turns
-    with it.
-    """
-    fixed, moving = anchors(parameters), attachments(parameters, pose)
-    middle, radius = np.array(pose[:2]), parameters.rig.contact_radius
-    springs = [coil(begin, end) for begin, end in zip(fixed, moving, strict=True)]
-    axes.add_collection(LineCollection(springs, colors=INK, linewidths=1.0, zorder=3))
-    arms = [np.array([middle, end]) for end in moving]
-    axes.add_collection(LineCollection(arms, colors=BLUE, linewidths=2.2, zorder=1))
-    look = {"facecolor": PALE_BLUE, "edgecolor": BLUE, "linewidth": 1.6, "zorder": 2}
-    axes.add_patch(Circle(pose[:2], radius, **look))
-    if pose != REST:
-        axes.add_patch(Circle((0.0, 0.0), radius, fill=False, edgecolor=GREY, ls=":", zorder=4))
-    tip = middle + 0.8 * radius * np.array([np.cos(pose.phi), np.sin(pose.phi)])
-    axes.plot(*np.array([middle, tip]).T, color=BLUE, linewidth=1.4, zorder=4)
-    axes.plot(*middle, "o", color=BLUE, markersize=4, zorder=5)
-    axes.plot(*moving.T, "o", color=INK, markersize=4, zorder=5)
-    axes.plot(*fixed.T, "s", color=INK, markersize=7, zorder=5)
 
 
 #: Frames of an animation at most: ten a second of a run of five minutes, all rows of a short one.
@@ -248,7 +152,7 @@ def top_view_live(dataset: Data) -> Live:
         "ring": 2.0 * parameters.rig.contact_radius,
         "curvature": float(curvature),
         "speed": parameters.surface.speed,
-        "box": [float(edge) for edge in _box(parameters, [pose for _, pose in poses])],
+        "box": [float(edge) for edge in box_of(parameters, [pose for _, pose in poses])],
         "words": surface_words(dataset) + _compared(dataset),
         "start": zoom.begin if (zoom := zoom_of(dataset)) else 0.0,
         "map": "belt_temperature" if "belt_temperature" in dataset else None,

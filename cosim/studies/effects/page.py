@@ -17,7 +17,8 @@ from stickslip.friction.law_curves import LawCurve, axis_of, law_curve
 
 from cosim.report.live import Curve, Live, Panel, Series, TimeFigure, panels_on_one_axis
 from cosim.report.page import Picture, render, unit_text
-from cosim.report.style import BLUE, GREY, panels, picture
+from cosim.report.palette import BLUE, GREY
+from cosim.report.style import panels, picture
 from cosim.studies.effects import Entry, allowed, described
 
 INTERVAL = 0.005  # s

@@ -17,16 +17,8 @@ from stickslip import friction_coefficient
 from cosim.files import write_bytes, write_text
 from cosim.report.files import write_table
 from cosim.report.page import Picture, number, render
-from cosim.report.style import (
-    GREY,
-    INK,
-    PALE_GREY,
-    SERIES,
-    logarithmic_x,
-    logarithmic_y,
-    panels,
-    picture,
-)
+from cosim.report.palette import GREY, INK, PALE_GREY, SERIES
+from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
 
 from .laws import laws_of
 from .map import SAME, FrictionMap, SteadySliding, steady_scenario

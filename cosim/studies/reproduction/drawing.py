@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.figure import Figure
 
-from cosim.report.live import live_of
-from cosim.report.style import BLUE, GREEN, INK, RED, SERIES, panels, picture
+from cosim.report.live_of_figure import live_of
+from cosim.report.palette import BLUE, GREEN, INK, RED, SERIES
+from cosim.report.style import panels, picture
 
 from .cases import MASSES, SPEEDS
 from .claim import WRITTEN, Claim

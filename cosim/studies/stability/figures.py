@@ -10,7 +10,8 @@ from matplotlib.patches import Patch
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP
 from stickslip.steady_motion.starts import RAMP, REST, RIDING
 
-from cosim.report.style import BLUE, INK, RED, SAND, SOFT_GREY, panels, picture
+from cosim.report.palette import BLUE, INK, RED, SAND, SOFT_GREY
+from cosim.report.style import panels, picture
 
 from .maps import MAPPED, Case, PretensionMap, RegimeMap
 

@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from cosim.names import nearest
 from cosim.report.page import unit_text
-from cosim.report.style import BLUE, FAINT_BLUE, INK, LIGHT_BLUE, at_least, picture
+from cosim.report.palette import BLUE, FAINT_BLUE, INK, LIGHT_BLUE
+from cosim.report.style import at_least, picture
 
 from .axis import SweepError
 from .features import ALL

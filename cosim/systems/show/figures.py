@@ -15,18 +15,8 @@ from cosim.packaged import packaged_tables
 from cosim.report.columns import Columns
 from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.page import Picture, number, unit_text
-from cosim.report.style import (
-    BLUE,
-    FAINT_BLUE,
-    INK,
-    SERIES,
-    Scaled,
-    displayed,
-    draw_over_time,
-    picture_over_time,
-    readable,
-    shown,
-)
+from cosim.report.palette import BLUE, FAINT_BLUE, INK, SERIES, Scaled, readable
+from cosim.report.style import displayed, draw_over_time, picture_over_time, shown
 from cosim.systems.run import SystemRun
 from cosim.systems.show.dataset import is_rounding
 from cosim.systems.show.diagram import colour_key, diagram, is_legible

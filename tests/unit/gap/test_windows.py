@@ -192,14 +192,15 @@ def test_judged_runs_are_those_of_the_fit(plain, found):
     assert "offset.friction@run04" not in strict.values
 
 
-def test_own_numbers_of_judged_runs_set_out_moved_as_those_of_the_fit(plain, found):
-    first, second, third, judged = (run.name for run in plain.runs)
-    speeds = dict.fromkeys((f"offset.speed@{name}" for name in (first, second, third)), 0.001)
-    starts = [{**speeds, f"offset.speed@{judged}": 0.004, "friction.mu_k": 0.2}]
-    moved_by = zip(speeds, (-0.014, -0.02, -0.016), strict=True)
-    values = {label: 0.001 + by for label, by in moved_by}
-    own = _of_held_out(plain.held_out_runs, starts, replace(found, values=values))
-    assert own == {f"offset.speed@{judged}": pytest.approx(0.004 - 0.016)}
+def test_set_points_of_judged_runs_follow_the_wave_length(plain, found):
+    (judged,) = (run.name for run in plain.held_out_runs)
+    own = {f"offset.speed@{judged}": 0.004, f"offset.x@{judged}": 1e-4}
+    starts = [{**own, "offset.speed@run01": 0.001, "friction.mu_k": 0.2}]
+    wave = Number("surface_pattern.wavelength", 0.1)
+    shorter = replace(found, values={wave.key: 0.098})
+    moved_by = _of_held_out(plain.held_out_runs, [wave], starts, shorter)
+    assert moved_by == {**own, f"offset.speed@{judged}": pytest.approx(0.004 - 0.02)}
+    assert _of_held_out(plain.held_out_runs, [], starts, found) == own
 
 
 def test_the_track_is_what_the_residuals_are_of(plain, found):

@@ -5,7 +5,8 @@ import base64
 import numpy as np
 from matplotlib.figure import Figure
 
-from cosim.report.live import Curve, Series, live_of, on_one_axis
+from cosim.report.live import Curve, Series, on_one_axis
+from cosim.report.live_of_figure import live_of
 
 
 def unpacked(values):

@@ -12,7 +12,7 @@ from test_report_dataset import coupled_dataset, mechanics_dataset, scenario
 from cosim.report.figures import PLATES, plates_of
 from cosim.report.figures.over_time import zoom_of
 from cosim.report.figures.top_view import Pose, anchors, attachments, extreme_poses
-from cosim.report.style import readable
+from cosim.report.palette import readable
 
 SMALLEST_TYPE = 9.0
 THERMAL = {"temperatures", "melting", "belt_temperature"}
@@ -74,7 +74,7 @@ def shown_label(axes, axis: str) -> str:
 
 @pytest.mark.parametrize(("make", "plate"), CASES)
 def test_axes_are_labelled_with_units_and_drawn_in_full(make, plate):
-    figure = plate.draw(make())
+    figure = plate.drawn(make())
     figure.savefig(io.BytesIO(), format="png", dpi=40)
     for axes in figure.axes:
         for axis in ("x", "y"):
@@ -110,7 +110,7 @@ def test_thermal_figures_only_where_there_is_heat_to_show():
 
 def test_house_style_whatever_the_users_settings():
     with matplotlib.rc_context({"font.size": 30.0, "axes.formatter.useoffset": True}):
-        figure = PLATES[0].draw(mechanics_dataset())
+        figure = PLATES[0].drawn(mechanics_dataset())
         assert figure.axes[0].yaxis.label.get_fontsize() == 10.0
         assert matplotlib.rcParams["font.size"] == 30.0
 

@@ -22,6 +22,6 @@ def test_there_is_a_line_for_each_temperature(friction, rows):
     dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml(), wall_time=0.1)
     assert (TABLE in plates_of(dataset)) == bool(rows)
     if rows:
-        (ax,) = TABLE.draw(dataset).axes
+        (ax,) = TABLE.drawn(dataset).axes
         marked = [line for line in ax.lines if line.get_marker() == "o"]
         assert len(marked) == rows and all(line.get_xdata().size == 2 for line in marked)

@@ -11,7 +11,7 @@ from test_report_dataset import coupled_dataset
 from cosim.report import write_results
 from cosim.report.figures.over_time import zoom_of
 
-LIVE = 6  # figures of a coupled run of a short belt: all but the phase portrait
+LIVE = 7  # figures of a coupled run of a short belt
 SMALL = 3_000_000  # bytes
 
 
@@ -33,7 +33,7 @@ def bounds(browser):
     """From and to of every plot over time, s."""
     return np.array(
         browser.js(
-            "return [...document.querySelectorAll('figure:not([data-name=top_view]) .plot')].map("
+            "return [...document.querySelectorAll('figure .plot[data-from]')].map("
             "(each) => [Number(each.dataset.from), Number(each.dataset.to)])"
         )
     )

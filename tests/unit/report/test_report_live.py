@@ -12,11 +12,12 @@ from cosim.report.contents import mechanics_of, mode_changes
 from cosim.report.figures import PLATES
 from cosim.report.figures.belt_map import belt_map
 from cosim.report.figures.events import through_events
+from cosim.report.figures.phase_portrait import phase_portrait
 from cosim.report.heat_numbers import ambient_degC
 from cosim.report.live import MOST_ROWS, Curve, Panel, TimeFigure, packed, thinned
 from cosim.report.page import Picture, figure
 
-LIVE = {plate.name: plate.live for plate in PLATES if plate.live}
+SHOWN = {plate.name: plate.show for plate in PLATES if plate.show}
 
 
 def unpacked(values):
@@ -47,7 +48,7 @@ def test_a_long_run_keeps_its_peaks_and_events():
 
 def test_a_page_has_the_events_to_the_last_digit():
     dataset = mechanics_dataset()
-    sent = LIVE["motion"](dataset)
+    sent = SHOWN["motion"](dataset).live()
     time = unpacked(sent["time"])
     events = dataset["event_time"].values
     inside = events[(events > 0.0) & (events < time[-1])]
@@ -56,6 +57,17 @@ def test_a_page_has_the_events_to_the_last_digit():
     # mm, with the seven digits of a page
     np.testing.assert_allclose(x, 1e3 * dataset["event_x"].values[: inside.size], rtol=1e-6)
     assert np.all(np.diff(time) > 0.0)
+
+
+def test_a_phase_plane_has_the_points_that_are_drawn():
+    dataset = mechanics_dataset()
+    (plane, *_), sent = phase_portrait(dataset), SHOWN["phase_portrait"](dataset)
+    assert sent["planes"][0]["across"] == "x [mm]"
+    for way, told in zip(plane.ways, sent["planes"][0]["ways"], strict=True):
+        np.testing.assert_allclose(unpacked(told["y"]), way.y, rtol=1e-6)
+        assert (told["x"] is None) == (way.x is None) == (way.label == "speed of the surface")
+    joined = np.concatenate([way.x for way in plane.ways if way.x is not None])
+    assert 1e-3 * joined.max() == pytest.approx(float(dataset["x"].max()), rel=0.02)
 
 
 def test_a_coupled_run_locates_its_events_as_the_mechanics_alone():

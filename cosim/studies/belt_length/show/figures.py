@@ -15,7 +15,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from cosim.report.style import BLUE, GREY, INK, RED, SERIES, panels, picture
+from cosim.report.palette import BLUE, GREY, INK, RED, SERIES
+from cosim.report.style import panels, picture
 
 from ..case import Case
 from ..drift import endless_belt, followed, never_comes_round, steady_drift

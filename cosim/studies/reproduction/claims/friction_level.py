@@ -15,7 +15,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
-from cosim.report.style import LIGHT_GREY, panels
+from cosim.report.palette import LIGHT_GREY
+from cosim.report.style import panels
 
 from .. import cases
 from ..claim import MODELS, STUDY, WRITTEN, Claim, judges, responsible

@@ -9,7 +9,7 @@ import numpy as np
 from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import TREATMENTS
 
-from cosim.report.style import SERIES
+from cosim.report.palette import SERIES
 
 from ..cases import DATASET_1, DATASETS, Case, exact_motion, scheme, scheme_motion
 from ..claim import FAR, OPEN, STUDY, Claim, judges, responsible, responsible_pairs

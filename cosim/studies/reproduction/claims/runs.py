@@ -13,7 +13,7 @@ from stickslip.reference.interpreted_scheme import interpreted_run
 from stickslip.reference.linearised import Scheme, SchemeRun
 from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
-from cosim.report.style import INK
+from cosim.report.palette import INK
 
 from ..cases import CASE, CYCLES, DATASET_1, Case, exact_motion, longest, plan, scheme
 from ..claim import Claim, judges, responsible

@@ -10,7 +10,7 @@ from scipy.stats import linregress, spearmanr
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.scheme_errors import PRINTED
 
-from cosim.report.style import INK
+from cosim.report.palette import INK
 
 from .. import cases
 from ..cases import CASE, GUIDED, MASSES, SPEEDS, STIFFNESSES, Case

@@ -20,7 +20,8 @@ from cosim.gap.show.model_file import safe_name as safe_name
 from cosim.gap.show.numbers import ranked, tree
 from cosim.report.files import json_text
 from cosim.report.page import Picture, render
-from cosim.report.style import BLUE, GREY, INK, PALE_GREY, RED, panels, picture
+from cosim.report.palette import BLUE, GREY, INK, PALE_GREY, RED
+from cosim.report.style import panels, picture
 
 from ..cases import SETTLING, WINDOW
 from .result import SummaryGap

@@ -13,7 +13,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from cosim.report.style import BLUE, GREY, panels, png, styled
+from cosim.report.palette import BLUE, GREY
+from cosim.report.style import panels, png, styled
 
 from .answers import Row
 from .outcome import Outcome, outcome, probability

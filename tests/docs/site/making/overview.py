@@ -9,7 +9,8 @@ import numpy as np
 import xarray as xr
 
 from cosim.report.contents import slip_intervals
-from cosim.report.style import BLUE, GREEN, INK, RED, SLIP, panels, png, styled
+from cosim.report.palette import BLUE, GREEN, INK, RED, SLIP
+from cosim.report.style import panels, png, styled
 
 PANELS = (
     ("x", "x [mm]", 1e3, BLUE),

@@ -1,0 +1,190 @@
+"""A run's figures as drawings: a page's scripts draw most of them by themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import Arc, Circle, Rectangle
+from numpy.typing import NDArray
+from stickslip import Parameters
+
+from cosim.report.columns import Data
+from cosim.report.contents import mechanics_of
+from cosim.report.live import Live, TimeFigure
+from cosim.report.palette import BLUE, DARK_RED, GREY, INK, PALE_BLUE, PALE_GREY, RED
+from cosim.report.style import draw_over_time, line, plain_ticks, styled
+
+from .friction_table import draw_friction_table
+from .over_time import titled
+from .phase_portrait import Way, phase_portrait
+from .top_view import (
+    REST,
+    Box,
+    Pose,
+    anchors,
+    attachments,
+    belt_width,
+    box_of,
+    centre_of,
+    extreme_poses,
+    surface_words,
+)
+
+Array = NDArray[np.float64]
+
+#: Of a spring that is drawn: turns, and its width, m.
+TURNS, COIL = 9, 0.006
+SHEET_WIDTH, SHEET_HEIGHT = 9.5, 6.0  # of all panels, inches at most
+ARROW = 0.06  # m, length of the arrow for the surface's direction
+#: Opacity of the beginning and the end of what fades in.
+FAINT, FULL = 0.15, 0.9
+
+
+@styled
+def draw_top_view(dataset: Data) -> Figure:
+    """Block, springs and surface; a panel for each position, all to the same scale."""
+    parameters = mechanics_of(dataset)
+    poses = extreme_poses(dataset)
+    box = box_of(parameters, [pose for _, pose in poses])
+    width, height = box[1] - box[0], box[3] - box[2]
+    across, down = (1, len(poses)) if width > 1.6 * height else (len(poses), 1)
+    # beside panels of equal scale there is room for labels, for titles of two lines, for the title
+    scale = min(SHEET_WIDTH / across / width, SHEET_HEIGHT / down / height)
+    size = across * (scale * width + 0.8), down * (scale * height + 0.6) + 0.8
+    figure = Figure(figsize=size, layout="compressed")
+    panels = figure.subplots(down, across, squeeze=False, sharex=True, sharey=True)
+    for axes, (text, pose) in zip(panels.flat, poses, strict=True):
+        _draw_surface(axes, dataset, parameters, box)
+        _draw_rig(axes, parameters, pose)
+        axes.set(title=text, xlim=box[:2], ylim=box[2:], aspect="equal")
+        axes.grid(visible=False)
+        plain_ticks(axes)
+        axes.label_outer()
+        axes.set(xlabel="x [m]", ylabel="y [m]")
+    _title(figure, "Block and springs from above, to scale", dataset)
+    return figure
+
+
+def _draw_surface(axes: Axes, dataset: Data, parameters: Parameters, box: Box) -> None:
+    """The belt as a band of its width (a slab fills the view), its name and where it moves to."""
+    width = belt_width(dataset)
+    low, high = (-0.5 * width, 0.5 * width) if width else (box[2], box[3])
+    axes.add_patch(Rectangle((box[0], low), box[1] - box[0], high - low, color=PALE_GREY, zorder=0))
+    centre = centre_of(parameters)
+    if centre is not None:
+        radius = abs(centre[1])
+        axes.add_patch(Arc(centre, 2 * radius, 2 * radius, color=RED, linewidth=0.8, linestyle=":"))
+    # the lower left corner: neither springs nor block ever come there
+    left, y, speed = box[0] + 0.012, box[2] + 0.012, parameters.surface.speed
+    if speed != 0.0:
+        ends = ((left, y), (left + ARROW, y))[:: 1 if speed > 0.0 else -1]
+        look = {"arrowstyle": "-|>", "color": RED, "linewidth": 1.8, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", ends[1], ends[0], arrowprops=look)
+    place = (left + (ARROW if speed else 0.0) + 0.005, y)
+    words = surface_words(dataset, " (grey)")
+    axes.annotate(words, place, va="center", color=DARK_RED, fontsize=9)
+
+
+def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
+    """Anchors, springs, the contact disc and where it is at rest, its arms and a mark that turns
+    with it.
+    """
+    fixed, moving = anchors(parameters), attachments(parameters, pose)
+    middle, radius = np.array(pose[:2]), parameters.rig.contact_radius
+    springs = [coil(begin, end) for begin, end in zip(fixed, moving, strict=True)]
+    axes.add_collection(LineCollection(springs, colors=INK, linewidths=1.0, zorder=3))
+    arms = [np.array([middle, end]) for end in moving]
+    axes.add_collection(LineCollection(arms, colors=BLUE, linewidths=2.2, zorder=1))
+    look = {"facecolor": PALE_BLUE, "edgecolor": BLUE, "linewidth": 1.6, "zorder": 2}
+    axes.add_patch(Circle(pose[:2], radius, **look))
+    if pose != REST:
+        axes.add_patch(Circle((0.0, 0.0), radius, fill=False, edgecolor=GREY, ls=":", zorder=4))
+    tip = middle + 0.8 * radius * np.array([np.cos(pose.phi), np.sin(pose.phi)])
+    axes.plot(*np.array([middle, tip]).T, color=BLUE, linewidth=1.4, zorder=4)
+    axes.plot(*middle, "o", color=BLUE, markersize=4, zorder=5)
+    axes.plot(*moving.T, "o", color=INK, markersize=4, zorder=5)
+    axes.plot(*fixed.T, "s", color=INK, markersize=7, zorder=5)
+
+
+def coil(begin: Array, end: Array) -> Array:
+    """A spring drawn as a zigzag from ``begin`` to ``end`` (2,), m: (2 TURNS + 4, 2)."""
+    along = end - begin
+    length = np.hypot(*along)
+    across = np.array([-along[1], along[0]]) / length
+    stations = np.concatenate([[0.0], np.linspace(0.12, 0.88, 2 * TURNS + 2), [1.0]])
+    swing = np.zeros(stations.size)
+    swing[2:-2] = 0.5 * COIL * np.where(np.arange(stations.size - 4) % 2, 1.0, -1.0)
+    return np.asarray(begin + stations[:, None] * along + swing[:, None] * across)
+
+
+@styled
+def draw_phase_portrait(dataset: Data) -> Figure:
+    """Its planes side by side."""
+    planes = phase_portrait(dataset)
+    figure = Figure(figsize=(11.0 if len(planes) > 1 else 7.5, 5.0), layout="constrained")
+    panels = figure.subplots(1, len(planes), squeeze=False)[0]
+    for axes, plane in zip(panels, planes, strict=True):
+        plain_ticks(axes)
+        for way in plane.ways:
+            _draw_way(axes, way)
+        axes.autoscale_view()
+        axes.set(xlabel=plane.across, ylabel=plane.upwards)
+    _title(figure, "Phase portrait", dataset)
+    handles, labels = panels[0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(handles))
+    return figure
+
+
+def _draw_way(axes: Axes, way: Way) -> None:
+    look: dict[str, Any] = {"color": way.colour, "linewidth": way.width, "label": way.label}
+    if way.dash:
+        look |= {"linestyle": "--", "zorder": 3}
+    if way.x is None:
+        axes.axhline(float(way.y[0]), **look)
+    elif way.fades:
+        _fading(axes, way.x, way.y, way.colour, way.width)
+        axes.plot([], [], **look)
+    elif way.dash:
+        axes.plot(way.x, way.y, **look)
+    else:
+        line(axes, way.x, way.y, **look)
+
+
+def _fading(axes: Axes, x: Array, y: Array, colour: str, width: float) -> None:
+    """A way that comes out of the paper: its beginning is of the least weight."""
+    ends = np.stack([x, y], axis=1)
+    colours = np.empty((max(x.size - 1, 0), 4))
+    colours[:, :3] = to_rgb(colour)
+    colours[:, 3] = np.linspace(FAINT, FULL, colours.shape[0])
+    pieces = np.stack([ends[:-1], ends[1:]], axis=1)
+    axes.add_collection(LineCollection(list(pieces), colors=colours, linewidths=width))
+    axes.update_datalim(ends[np.isfinite(ends).all(axis=1)])
+
+
+def _title(figure: Figure, text: str, dataset: Data) -> None:
+    """At the left, with the case's name."""
+    figure.suptitle(titled(text, dataset), x=0.008, ha="left", color=INK)
+
+
+#: Of the figures that are not over time.
+DRAWN = {
+    "top_view": draw_top_view,
+    "phase_portrait": draw_phase_portrait,
+    "friction_table": draw_friction_table,
+}
+
+
+def drawing(name: str, show: Callable[[Data], TimeFigure | Live] | None, dataset: Data) -> Figure:
+    """A figure by its name, or what is shown over time."""
+    if name in DRAWN:
+        return DRAWN[name](dataset)
+    shown = show(dataset) if show else None
+    if not isinstance(shown, TimeFigure):
+        raise TypeError(f"{name}: nothing draws it")
+    return draw_over_time(shown)
