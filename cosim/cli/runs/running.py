@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shlex
 import sys
 import time
@@ -19,12 +20,12 @@ from cosim.cli.bar import Bar
 from cosim.cli.console import note
 from cosim.cli.numbers import NOT_ASKED, Numbers
 from cosim.cli.runs.closing_lines import closing_lines
-from cosim.cli.runs.run_io import COLLECTION, FIELDS, ended, log_files, own_folder
+from cosim.cli.runs.run_io import COLLECTION, FIELDS, LAST_OF_DATA, ended, log_files, own_folder
 from cosim.cli.scenarios import given_scenario
 from cosim.coupling.record import LOG, MessageLog
 from cosim.interrupts import Patience
 from cosim.manifest import other_command
-from cosim.report import Views, summary, write_results
+from cosim.report import Views, write_results
 from cosim.report.bounds import bounds_sentences, is_believed
 from cosim.report.columns import Data
 from cosim.report.contents import attach_assessment, material_of
@@ -154,7 +155,8 @@ def finish(
                 released(name)
 
             write_results(dataset, folder, progress=written, figures=figures, page=page, **further)
-        return summary(dataset)
+        numbers: Mapping[str, Any] = json.loads((folder / LAST_OF_DATA).read_text("utf-8"))
+        return numbers
 
     def lines_of(numbers: Mapping[str, Any]) -> Iterator[str]:
         coupling = numbers.get("coupling", {})

@@ -69,8 +69,8 @@ def read_campaign(path: str | Path) -> Campaign:
     kept, noise, estimated, differs = with_noise(kept, table.noise.given)
     regimes = [f"{run.name}: {remark}" for run in kept for remark in regime_remarks(run)]
     if any(run.track is not None for run in kept):
-        alone = [run.name for run in kept if run.track is None]
-        regimes += [f"{name}: summary: ignored beside runs with a file" for name in alone]
+        unused = [run.name for run in kept if run.track is None]
+        regimes += [f"{name}: summary: ignored beside runs with a file" for name in unused]
     return replace(
         campaign, noise=noise, noise_estimated=estimated, runs=kept,
         remarks=(*remarks, *copies, *held, *cut, *differs, *regimes),
