@@ -10,6 +10,7 @@ few values. With unit priors, X scaled by the standard deviations,
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -71,10 +72,10 @@ class System:
         self.scatter: list[Unknown] = scatter(self.level)
         self.rows: np.ndarray = np.concatenate([np.zeros(0), *(run.values for run in self.fitted)])
         self.square: float = float(self.rows @ self.rows)
+        #: id of an unknown that there still is -> its columns, X'z, and X'Y with others by theirs.
         self._columns: dict[int, np.ndarray] = {}
-        self._grams: dict[tuple[int, int], np.ndarray] = {}
         self._rights: dict[int, np.ndarray] = {}
-        self._kept: list[Unknown] = []
+        self._grams: dict[int, dict[int, np.ndarray]] = {}
         ends = np.cumsum([0, *map(len, self.fitted)])
         self._places = {id(run): (number, slice(ends[number], ends[number + 1]))
                         for number, run in enumerate(self.fitted)}  # fmt: skip
@@ -86,8 +87,11 @@ class System:
     def columns(self, unknown: Unknown) -> np.ndarray:
         """(rows, unknowns) of the fitted runs; made once."""
         if id(unknown) not in self._columns:
-            self._kept.append(unknown)  # its id must not be given to another
+            weakref.finalize(
+                unknown, _forget, id(unknown), self._columns, self._rights, self._grams
+            )
             columns = unknown.columns(self.fitted)
+            self._grams.setdefault(id(unknown), {})
             self._rights[id(unknown)] = columns.T @ self.rows
             self._columns[id(unknown)] = columns  # last: another thread may ask for both
         return self._columns[id(unknown)]
@@ -107,10 +111,11 @@ class System:
         )
 
     def _pair(self, a: Unknown, b: Unknown) -> np.ndarray:
-        if (id(a), id(b)) not in self._grams:
+        product = self._grams.get(id(a), {}).get(id(b))
+        if product is None:
             product = self.columns(a).T @ self.columns(b)
-            self._grams[id(a), id(b)], self._grams[id(b), id(a)] = product, product.T
-        return self._grams[id(a), id(b)]
+            self._grams[id(a)][id(b)], self._grams[id(b)][id(a)] = product, product.T
+        return product
 
     def right(self, unknowns: Sequence[Unknown]) -> np.ndarray:
         """X'z"""
@@ -122,6 +127,18 @@ class System:
         """The rows with the rig's own unknowns and some more."""
         base = [*self.rung_zero, *self.contact * contact, *self.scatter * scatter]
         return Rung(self, tuple(Added(each) for each in base), tuple(added), (contact, scatter))
+
+
+def _forget(
+    gone: int, columns: dict[int, np.ndarray], rights: dict[int, np.ndarray],
+    grams: dict[int, dict[int, np.ndarray]],
+) -> None:  # fmt: skip
+    """What was made of an unknown that nobody has any more: its id may be another's next."""
+    columns.pop(gone, None)
+    rights.pop(gone, None)
+    for other in list(grams.pop(gone, ())):
+        if other in grams:
+            grams[other].pop(gone, None)
 
 
 @dataclass(frozen=True)
