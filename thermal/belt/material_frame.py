@@ -16,8 +16,8 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.fft import irfft, rfft
 from numpy.typing import NDArray
-from scipy.fft import irfft, rfft
 from scipy.sparse import coo_matrix
 from skfem import BilinearForm, CellBasis, ElementLineP1, MeshLine
 
