@@ -5,11 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from . import readings
 from .claim import WRITTEN
 from .claims.friction_level import misfit, observed
 from .claims.rotation import ROTATES, turns_far_and_near
-from .readings import AS_PRINTED, MARKS, Outcome, Reading, reading_figures
+from .readings import (
+    AS_PRINTED,
+    BALANCED,
+    MARKS,
+    READINGS,
+    ROUNDED,
+    Outcome,
+    Reading,
+    outcome,
+    reading_figures,
+    standing,
+)  # fmt: skip
 
 #: Claims that this bears on.
 CLAIMS = ("C5", "C6", "C7")
@@ -27,13 +37,14 @@ def attribution(reading: Reading) -> dict[str, Any]:
     def fit(one: Reading, dataset: int) -> float:
         return misfit(observed(lambda k: reading_figures(one, dataset, stiffness=k)))
 
-    first, second = (reading_figures(reading, dataset).max_rotation for dataset in (1, 2))
+    def turned(one: Reading, dataset: int) -> float:
+        return reading_figures(one, dataset)["max_rotation"]
+
+    first, second = turned(reading, 1), turned(reading, 2)
     full, quarter, mended = fit(reading, 1), fit(reading, 2), fit(reading.mended("F1"), 1)
     return {
         "rotates": first > ROTATES,
-        "without": {
-            fault: reading_figures(reading.mended(fault), 1).max_rotation for fault in ("F2", "F13")
-        },
+        "without": {fault: turned(reading.mended(fault), 1) for fault in ("F2", "F13")},
         "misfits": (full, quarter, mended),
         "both": turns_far_and_near(first, second),
         "quarter_fits_better": quarter < full,
@@ -44,8 +55,8 @@ def attribution(reading: Reading) -> dict[str, Any]:
 
 def datasets() -> dict[str, Any]:
     """Every reading beside the marks, and the claims as printed and under those that stand."""
-    bearing = [AS_PRINTED, *(one for one in readings.standing() if one != AS_PRINTED)]
-    return as_data(readings.outcomes(), [attribution(one) for one in bearing])
+    bearing = dict.fromkeys([AS_PRINTED, *standing()])
+    return as_data([outcome(one) for one in READINGS], [attribution(one) for one in bearing])
 
 
 def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dict[str, Any]:
@@ -58,8 +69,8 @@ def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dic
     found = most == len(MARKS)
     says = written["says"].format(
         printed=of[AS_PRINTED].values,
-        balanced=of[readings.BALANCED].values,
-        rounded=of[readings.ROUNDED],
+        balanced=of[BALANCED].values,
+        rounded=of[ROUNDED],
         marks=len(MARKS),
         most=most,
         closest=_names(one.reading.name for one in outcomes if sum(one.met) == most),

@@ -17,12 +17,14 @@ from cosim.report.style import INK
 
 from ..cases import CASE, CYCLES, DATASET_1, Case, exact_motion, longest, plan, scheme
 from ..claim import Claim, judges, responsible
-from ..drawing import COLOURS, LABELS, Curve, Panel, add_picture
+from ..drawing import LINES, Curve, Panel, add_picture
 
 # one stick and one slip, then the next ones begin: what a script needs grows with the slips
 DURATION = 0.7
 WHOLE = 20.0
 COMPARED_CYCLES = 40  # the runs that the study compares
+
+
 KINDS = ("updated", "zero")
 
 
@@ -59,20 +61,17 @@ def _threshold(case: Case) -> float:
     return JUMP * case.speed * float(np.sqrt(4.0 * case.stiffness / case.mass))
 
 
-def _run(case: Case, faults: Faults) -> SchemeRun:
-    return scheme(case, faults).run(cycles=CYCLES, duration=longest(case))
-
-
-def _ends(case: Case, run: SchemeRun) -> np.ndarray:
-    """When slips end in stick with a jump of the velocity, s."""
+def _run(case: Case, faults: Faults) -> tuple[SchemeRun, np.ndarray]:
+    """A run, and when its slips end in stick with a jump of the velocity, s."""
+    run = scheme(case, faults).run(cycles=CYCLES, duration=longest(case))
     slips = run.slip_phases
-    return np.asarray(slips[np.abs(slips[:, 4]) > _threshold(case), 1])
+    return run, slips[np.abs(slips[:, 4]) > _threshold(case), 1]
 
 
 @cache
 def jumps(case: Case, faults: Faults) -> int:
     """Slips of a run that end in stick with a jump of the velocity."""
-    return len(_ends(case, _run(case, faults)))
+    return len(_run(case, faults)[1])
 
 
 def _jumping(cases: list[Case], faults: Faults) -> list[Case]:
@@ -95,11 +94,15 @@ def judge_jumps(claim: Claim) -> dict[str, Any]:
     exact = sum(map(_exact_jumps, NAMED))
     for case in NAMED:
         claim.row("jumps", [jumps(case, PRINTED), jumps(case, MENDED), exact], v=case.speed)
-    claim.row("runs", [len(jumping), mended, None], plan=len(cases))
+    claim.row("runs", [len(jumping), mended], plan=len(cases))
     some = len(jumping) > 0
-    claim.check("anomaly", answers=[some, some and not mended, some and not exact], margin=exact)
+    claim.check("anomaly", [some, some and not mended, some and not exact], margin=exact)
     for case in NAMED:
-        _check_named(claim, case)
+        claim.check("named", [jumps(case, PRINTED)], v=case.speed)
+        # laws of friction that the study's drawing cannot be told from
+        for other in case.over("weakening", OTHER_WEAKENINGS):
+            claim.turn("slope", jumps(other, PRINTED), part=100.0 * other.weakening)
+        claim.turn("located", jumps(case, PRINTED.without("F6")))
     claim.check("rare", [len(jumping)], plan=len(cases))
     with_r = _jumping(cases, PRINTED.without("F2"))
     claim.turn("with_r", len(with_r), named=sum(case in NAMED for case in with_r))
@@ -112,29 +115,20 @@ def judge_jumps(claim: Claim) -> dict[str, Any]:
         sum(jumps(case, one) for case in witnesses)
         for one in (PRINTED, PRINTED.without("F6"), PRINTED.without("F14"))
     )
-    models = zip((PRINTED, MENDED), LABELS, COLOURS, strict=False)
-    panels = [[_panel((jumping or NAMED)[-1], *model)] for model in models]
-    add_picture(claim, "C14_jump", panels)
+    shown = (jumping or NAMED)[-1]
+    models = zip((PRINTED, MENDED), LINES, strict=False)
+    add_picture(claim, "C14_jump", [[_panel(shown, faults, line)] for faults, line in models])
     said = {"n": len(witnesses), "faults": ", ".join(faults) or "none", "plan": len(cases)}
     return said | {"printed": printed, "located": located, "uncut": uncut}
 
 
-def _check_named(claim: Claim, case: Case) -> None:
-    """A named run, and under laws of friction that the study's drawing cannot be told from."""
-    claim.check("named", [jumps(case, PRINTED)], v=case.speed)
-    for other in case.over("weakening", OTHER_WEAKENINGS):
-        claim.turn("slope", jumps(other, PRINTED), part=100.0 * other.weakening)
-    claim.turn("located", jumps(case, PRINTED.without("F6")))
-
-
-def _panel(case: Case, faults: Faults, label: str, colour: str) -> Panel:
+def _panel(case: Case, faults: Faults, line: dict[str, Any]) -> Panel:
     """x' of a run, and where it jumps."""
-    run = _run(case, faults)
-    ends = _ends(case, run)
+    run, ends = _run(case, faults)
     marks = {"marker": "x", "ls": "", "color": INK, "ms": 7, "label": "jump to stick"}
     curves = [
-        Curve(run.time, run.velocity[:, 0], {"color": colour, "lw": 0.8, "label": label}),
+        Curve(run.time, run.velocity[:, 0], {"lw": 0.8} | line),
         Curve(ends, np.full(len(ends), case.speed), marks),
     ]
     numbers = f"k {case.stiffness:.2f} N/m, m {case.mass:.2f} kg, v {case.speed:.2f} m/s"
-    return Panel(curves, f"{label}, {numbers}", end=16.0)
+    return Panel(curves, f"{line['label']}, {numbers}", end=16.0)

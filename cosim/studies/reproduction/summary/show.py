@@ -22,7 +22,8 @@ from cosim.report.files import json_text
 from cosim.report.page import Picture, render
 from cosim.report.style import BLUE, GREY, INK, PALE_GREY, RED, panels, picture
 
-from ..cases import SETTLING, WINDOW
+from ..cases import SETTLING
+from ..motion import WINDOW
 from .result import SummaryGap
 
 #: What is written as it stands in an answer.
