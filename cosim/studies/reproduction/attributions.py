@@ -5,21 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+from . import readings
 from .claim import WRITTEN
 from .claims.friction_level import misfit, observed
 from .claims.rotation import ROTATES, turns_far_and_near
-from .readings import (
-    AS_PRINTED,
-    BALANCED,
-    MARKS,
-    READINGS,
-    ROUNDED,
-    Outcome,
-    Reading,
-    outcome,
-    reading_figures,
-    standing,
-)  # fmt: skip
+from .readings import AS_PRINTED, MARKS, READINGS, Outcome, Reading, outcome, reading_figures
 
 #: Claims that this bears on.
 CLAIMS = ("C5", "C6", "C7")
@@ -55,7 +45,7 @@ def attribution(reading: Reading) -> dict[str, Any]:
 
 def datasets() -> dict[str, Any]:
     """Every reading beside the marks, and the claims as printed and under those that stand."""
-    bearing = dict.fromkeys([AS_PRINTED, *standing()])
+    bearing = dict.fromkeys([AS_PRINTED, *readings.standing()])
     return as_data([outcome(one) for one in READINGS], [attribution(one) for one in bearing])
 
 
@@ -69,8 +59,8 @@ def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dic
     found = most == len(MARKS)
     says = written["says"].format(
         printed=of[AS_PRINTED].values,
-        balanced=of[BALANCED].values,
-        rounded=of[ROUNDED],
+        balanced=of[readings.BALANCED].values,
+        rounded=of[readings.ROUNDED],
         marks=len(MARKS),
         most=most,
         closest=_names(one.reading.name for one in outcomes if sum(one.met) == most),

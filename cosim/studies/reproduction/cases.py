@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from stickslip import Parameters, simulate
-from stickslip.reference.linearised import GRAVITY, Scheme
+from stickslip.reference.linearised import GRAVITY, Scheme, SchemeRun
 from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
 from .motion import WINDOW, Motion, figures
@@ -130,11 +130,15 @@ def longest(case: Case) -> float:
     return CYCLES * (max(period, LONGEST_SLIP) + stick)
 
 
+def scheme_run(case: Case, faults: Faults, seed: int = 0) -> SchemeRun:
+    """A whole run of the study's scheme."""
+    return scheme(case, faults).run(cycles=CYCLES, duration=longest(case), seed=seed)
+
+
 @lru_cache(maxsize=32)
 def scheme_motion(case: Case, faults: Faults, seed: int = 0) -> Motion:
-    """A whole run of the study's scheme."""
-    run = scheme(case, faults).run(cycles=CYCLES, duration=longest(case), seed=seed)
-    return Motion.of_scheme(run)
+    """The motion of such a run."""
+    return Motion.of_scheme(scheme_run(case, faults, seed))
 
 
 @cache
