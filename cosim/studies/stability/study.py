@@ -65,10 +65,10 @@ class Stability(Result):
 
         The first only of a rig that can leave its line. done: called with 1 after each cell.
         """
-        parameters = self.case.parameters
-        speeds = abs(parameters.surface.speed) * np.linspace(*SPEEDS, grid)
-        if parameters.rig.degrees_of_freedom != ("x",):
-            stretched = parameters.rig.spring_length * np.linspace(*PRETENSIONS, grid)
+        rig, surface = self.case.parameters.rig, self.case.parameters.surface
+        speeds = abs(surface.speed) * np.linspace(*SPEEDS, grid)
+        if rig.degrees_of_freedom != ("x",):
+            stretched = rig.spring_length * np.linspace(*PRETENSIONS, grid)
             self.pretension = pretension_map(self.case, stretched, speeds, done)
         self.regimes = regime_map(self.case, np.linspace(*RATIOS, grid), speeds, done)
 
