@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from . import readings
@@ -63,10 +63,10 @@ def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dic
         rounded=of[readings.ROUNDED],
         marks=len(MARKS),
         most=most,
-        closest=_names(one.reading.name for one in outcomes if sum(one.met) == most),
+        closest="; ".join(one.reading.name for one in outcomes if sum(one.met) == most),
     )
     turning = [one["without"] for one in every if one["rotates"]]
-    others = _names(one["reading"] for one in every if not one["one_spring_explains"])
+    others = "; ".join(one["reading"] for one in every if not one["one_spring_explains"])
     both = [one["reading"] for one in every if one["both"]]
     bears = written["bears"].format(
         all=len(every),
@@ -75,7 +75,7 @@ def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dic
         explained=sum(one["one_spring_explains"] for one in every),
         others=f"; not in: {others}" if others else "",
         both=len(both),
-        both_in=f": {_names(both)}" if both else "",
+        both_in=f": {'; '.join(both)}" if both else "",
     )
     return {
         "says": written["found" if found else "none"].format(said=says),
@@ -89,7 +89,3 @@ def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dic
         ],
         "attributions": every,
     }
-
-
-def _names(of: Iterable[str]) -> str:
-    return "; ".join(of)

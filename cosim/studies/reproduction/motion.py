@@ -73,8 +73,9 @@ def figures(*motions: Motion, between_rows: bool = False, visible: float = 0.0) 
     Cut motions to their steady part first. mean_x, mean_y, amplitude_x (half range), and
     break_away_x, restick_x, where x is as a phase begins, m; frequency: oscillations of x per
     second; oscillations: in 20 s; slip_share: of the time; slip_duration, stick_duration: means of
-    whole phases, s; max_rotation: either way; friction: mean size of the force along x in slip,
-    N; swing_rate: angle by duration of the fastest swing of phi, deg/s.
+    whole phases, s; hold: median stick, s; max_rotation: either way, deg; friction: mean size of
+    the force along x in slip, N; swing_rate: angle by duration of the fastest swing of phi, deg/s.
+
     between_rows: of `upward_crossings`; visible: half range of x (m) of the least oscillation.
     """
     each = [_figures(one, between_rows, visible) for one in motions]
@@ -89,6 +90,7 @@ def _figures(motion: Motion, between_rows: bool, visible: float) -> dict[str, fl
     upward = upward_crossings(time, x, between_rows) if half_range > visible else np.empty(0)
     lasting, slips = motion.phases[:, 1] - motion.phases[:, 0], motion.phases[:, 2] == 1
     whole = slice(1, -1)  # the first and the last are cut
+    held = lasting[~slips & (lasting > 0.0)]  # the scheme has sticks that end as they begin
     begins = np.interp(motion.phases[whole, 0], time, x)
     return {
         "mean_x": cycle_mean(time, x, upward),
@@ -98,6 +100,7 @@ def _figures(motion: Motion, between_rows: bool, visible: float) -> dict[str, fl
         "slip_share": float(lasting[slips].sum() / lasting.sum()),
         "slip_duration": mean(lasting[whole][slips[whole]]),
         "stick_duration": mean(lasting[whole][~slips[whole]]),
+        "hold": float(np.median(held)) if held.size else math.nan,
         "break_away_x": mean(begins[slips[whole]]),
         "restick_x": mean(begins[~slips[whole]]),
         "max_rotation": motion.rotation,

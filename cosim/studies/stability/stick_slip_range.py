@@ -40,17 +40,13 @@ def stick_slip_range(
     number = known[NUMBERS[word]]
     starts = other_starts(case.parameters)
     windows = {}
-    tried = (RAMP,) if number.key == rig.RAMP else MAPPED
-    for start in tried:
+    for start in (RAMP,) if number.key == rig.RAMP else MAPPED:
         parameters = disturbed(starts[start])
         duration = run_length(parameters)
         borders = all_borders(parameters, number, duration, case.interface, look)
         steady = duration - parameters.surface.run_up_time
-        lowest = (
-            borders[0].below
-            if borders
-            else follower(parameters, number, steady, case.interface)(number.value)
-        )
+        does = follower(parameters, number, steady, case.interface)
+        lowest = borders[0].below if borders else does(number.value)
         windows[start] = _windows(lowest[0], [(one.value, one.above[0]) for one in borders])
     own = number.value - number.least or number.first
     return {

@@ -90,12 +90,8 @@ class Stability(Result):
         """Of the maps."""
         from .figures import draw_pretension_map, draw_regime_map
 
-        drawn = []
-        if self.pretension is not None:
-            drawn.append(draw_pretension_map(self.pretension, self.case))
-        if self.regimes is not None:
-            drawn.append(draw_regime_map(self.regimes, self.case))
-        return drawn
+        maps = ((draw_pretension_map, self.pretension), (draw_regime_map, self.regimes))
+        return [draw(found, self.case) for draw, found in maps if found is not None]
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
         return self.sentences[0], tiles(self.summary())

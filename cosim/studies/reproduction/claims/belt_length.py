@@ -66,8 +66,7 @@ def judge_length(claim: Claim) -> dict[str, float]:
     """Whether the rise on a belt of 1 m goes unseen."""
     told = [round(printed - AMBIENT, 4) for printed in TABLE.values()]
     found = [rises(length) for length in TABLE]
-    for length, derived, ours in zip(TABLE, told, found, strict=True):
-        claim.row("rise", ours, derived=derived, length=length)
+    claim.row_each("rise", np.transpose(found), derived=told, length=[*TABLE])
     claim.row("camera")
     # the scheme as printed is the table
     claim.check("table", (None, *found[0][1:]), limit=AS_TOLD * told[0], table=told[0])
@@ -94,10 +93,10 @@ def judge_length(claim: Claim) -> dict[str, float]:
 def judge_table(claim: Claim) -> dict[str, str]:
     """The printed table, from the printed force, from its factors, and accumulated."""
     checks = PRINTED, FROM_FACTORS
-    found = np.array([[check.temperature_degC(length) for check in checks] for length in TABLE])
-    for length, ours in zip(TABLE, found, strict=True):
-        claim.row("temperature", ours, study=f"belt_{length:.0f}", length=length)
-    off = np.abs(found.T - list(TABLE.values())).max(axis=1)
+    found = np.array([[check.temperature_degC(length) for length in TABLE] for check in checks])
+    names = [f"belt_{length:.0f}" for length in TABLE]
+    claim.row_each("temperature", found, study=names, length=[*TABLE])
+    off = np.abs(found - list(TABLE.values())).max(axis=1)
     claim.row("force", [check.friction_force for check in checks])
     claim.row("rise", [check.rise for check in checks])
     claim.check("table", off, faults=("F11",))

@@ -17,7 +17,7 @@ from .. import cases
 from ..cases import DATASET_1, DATASET_2, GUIDED, SPEEDS, STIFFNESSES, WEAKENING, Case
 from ..claim import FAR, OPEN, STUDY, Claim, judges
 from ..drawing import LABELS, Panel, add_picture, models_over_time
-from ..motion import WINDOW, Motion, figures
+from ..motion import WINDOW, figures
 from ..readings import Reading, standing, steady
 from .belt_length import belt_case
 
@@ -95,31 +95,18 @@ SERIES = [
 ]
 
 
-def hold(motion: Motion) -> float:
-    """Median duration of a stick, s."""
-    sticks = motion.phases[motion.phases[:, 2] == 0]
-    lengths = sticks[:, 1] - sticks[:, 0]
-    return float(np.median(lengths[lengths > 0.0]))  # the scheme has sticks that end as they begin
-
-
-def _holds(case: Case) -> list[float]:
-    """As printed, mended, exact, s."""
-    *schemes, exact = cases.three_motions(case, rig=GUIDED)
-    return [*(hold(run.last(cases.STEADY)) for run in schemes), hold(exact.between(cases.SETTLING))]
-
-
 @judges("C18")
 def judge_strengthening(claim: Claim) -> dict[str, float]:
     """Hold times of the series against the threshold, and what they would make of mu_s."""
     needed = THRESHOLD / SPEEDS[0]
-    times = np.array([_holds(case) for case in SERIES])
-    factors = times.max(axis=0) / times.min(axis=0)
+    times = cases.tabulated("hold", SERIES)
+    factors = times.max(axis=1) / times.min(axis=1)
     spreads = GROWTH * np.log10(factors)
     claim.row("needed", derived=1e4 * needed)
-    claim.row_each("hold", times.T, of=SERIES)
+    claim.row_each("hold", times, of=SERIES)
     claim.row("spread", spreads)
-    claim.check("holds", times[0], limit=needed)
-    claim.turn("measured", sound=times[0, 2] > 0.3, hold=times[0, 2])
+    claim.check("holds", times[:, 0], limit=needed)
+    claim.turn("measured", sound=times[2, 0] > 0.3, hold=times[2, 0])
     claim.check("contains", spreads, limit=CONTAINED * DATASET_1.mu_s)
     claim.turn("weaker", (GROWTH - UNCERTAIN) * np.log10(factors[2]))
     return {"factor": factors[2], "spread": spreads[2]}
@@ -175,8 +162,7 @@ def judge_ratio(claim: Claim) -> dict[str, Any]:
 
 
 def _mended(fault: str) -> Array:
-    faults = PRINTED.without(fault)
-    return np.array([cases.scheme_figures(case, faults)["oscillations"] for case in RATIO_CASES])
+    return cases.scheme_table("oscillations", RATIO_CASES, PRINTED.without(fault))
 
 
 @cache
