@@ -17,8 +17,7 @@ from cosim.manifest import made_by, own_folder, results_in
 from cosim.report.files import json_text
 from cosim.studies.reproduction import Claim, Reproduction, claim_ids, reproduce
 from cosim.studies.reproduction import claims as claims  # what judges them, once and for all
-
-RESULT, PAGE = "reproduction.json", "report.html"
+from cosim.studies.reproduction.result import PAGE, RESULT
 
 
 def execute(arguments: Namespace) -> int:

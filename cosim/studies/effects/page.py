@@ -38,23 +38,18 @@ ABREAST = 5
 
 def page(told: Sequence[Entry], pictures: dict[str, Picture]) -> str:
     """HTML of the entries, each with its picture inside and folded."""
-    entries, by_id = (
-        [described(each.effect) for each in told],
-        {each.effect.id: each for each in told},
-    )
-    names = dict.fromkeys(entry["enters"] for entry in entries)
-    rooms = {name: [each for each in entries if each["enters"] == name] for name in names}
-    ids = [each["id"] for inside in rooms.values() for each in inside if each["id"] in pictures]
-    drawn = [by_id[name] for name in ids]
+    rooms: dict[str, list[Entry]] = {}
+    for each in told:
+        rooms.setdefault(each.effect.enters, []).append(each)
+    drawn = [each for inside in rooms.values() for each in inside if each.effect.id in pictures]
     return render(
         "effects.html.j2",
         "cosim.studies.effects",
-        entries=entries,
-        rooms=rooms,
+        rooms={name: [described(each.effect) for each in inside] for name, inside in rooms.items()},
         sentence=sentence(rooms),
         overview=draw_overview(drawn) if len(drawn) >= ABREAST else None,
         pictures=pictures,
-        laws={name: law_figure(by_id[name]) for name in pictures},
+        laws={each.effect.id: law_figure(each) for each in drawn},
         allowed=allowed,
     )
 
@@ -96,12 +91,8 @@ def draw_overview(entries: Sequence[Entry]) -> Figure:
 def effect_figure(entry: Entry) -> Picture:
     """PNG of the law and the two motions, with the numbers of the case in its caption."""
     case = entry.effect.case
-    sizes = ", ".join(f"{name} = {value:g}" for name, value in case.effect.items())
-    rig = ", ".join(
-        f"{block}.{name} = {value:g}"
-        for block, keys in case.rig.items()
-        for name, value in keys.items()
-    )
+    sizes = _sizes(case.effect)
+    rig = ", ".join(_sizes(keys, f"{block}.") for block, keys in case.rig.items())
     where = f"; both with {rig}" if rig else ""
     if case.warmer:
         where += f"; interface {case.warmer:g} K above the reference"
@@ -113,15 +104,17 @@ def effect_figure(entry: Entry) -> Picture:
     return replace(picture(entry.effect.id, caption, alt=alt)(_draw)(entry), live=_live(entry))
 
 
+def _sizes(numbers: Mapping[str, float], block: str = "") -> str:
+    return ", ".join(f"{block}{name} = {value:g}" for name, value in numbers.items())
+
+
 def _live(entry: Entry) -> Live:
     """The motions for the page, which has the law as a drawing above them."""
     panels = []
     for name in channels_shown(entry):
         label, factor = CHANNELS[name]
-        series = [
-            Series(run.time, Curve(said, factor * run[name], colour))
-            for said, run, colour in _runs(entry)
-        ]
+        runs = _runs(entry)
+        series = [Series(run.time, Curve(said, factor * run[name], hue)) for said, run, hue in runs]
         panels.append((Panel(label, []), series))
     return TimeFigure(*panels_on_one_axis(panels, entry.effect.case.window)).live()
 
@@ -155,8 +148,7 @@ def _draw(entry: Entry) -> Figure:
         _draw_motion(ax, entry, name)
         ax.label_outer()
     axes[0].set_title("motion")
-    handles, labels = axes[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper right", ncols=2)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=2)
     return figure
 
 
@@ -243,10 +235,8 @@ def _warmth(entry: Entry) -> float | None:
 def case_parameters(entry: Entry, on: bool) -> Parameters:
     """The rig of an effect's case, with the effect or without."""
     case = entry.effect.case
-    tables = {
-        name: PLAIN.get(name, {}) | dict(case.rig.get(name, {})) for name in PLAIN | dict(case.rig)
-    }
-    if on:
-        name = entry.effect.id
-        tables[name] = tables.get(name, {}) | dict(case.effect)
+    tables: dict[str, dict[str, Any]] = {}
+    for laid in (PLAIN, case.rig, {entry.effect.id: case.effect} if on else {}):
+        for name, numbers in laid.items():
+            tables[name] = tables.get(name, {}) | dict(numbers)
     return Parameters.of(entry.catalogue).model_validate(tables)

@@ -99,7 +99,8 @@ def steady_scenario(
     scenario: Scenario, speed: float, ambient_degC: float, duration: float
 ) -> Scenario:
     """The case of steady sliding: guided, damped, at its balance from the start."""
-    changes: dict[str, Any] = {
+    state = ("x", "y", "phi", "vx", "vy", "omega")
+    changes: dict[str, Any] = {f"initial.{name}": 0.0 for name in state} | {
         "surface.speed": speed,
         "surface.run_up_time": 0.0,
         "ambient.temperature_degC": ambient_degC,
@@ -107,8 +108,6 @@ def steady_scenario(
         "run.duration": duration,
         "run.output_interval": scenario.coupling.macro_step,
     }
-    for name in ("x", "y", "phi", "vx", "vy", "omega"):
-        changes[f"initial.{name}"] = 0.0
     case = scenario.changed(changes)
     force, fall = _friction(case.mechanics, speed, ambient_degC)
     reach = 4.0 * case.springs.stiffness * case.rig.spring_length
@@ -118,12 +117,9 @@ def steady_scenario(
             "carries the block into the springs' anchors; allowed is what holds it within "
             f"rig.spring_length = {case.rig.spring_length:g} m"
         )
-    return case.changed(
-        {
-            "initial.x": force / (4.0 * case.springs.stiffness),
-            "structural_damping.coefficient": max(DAMPING * fall, case.mechanics.critical_damping),
-        }
-    )
+    damping = max(DAMPING * fall, case.mechanics.critical_damping)
+    balance = force / (4.0 * case.springs.stiffness)
+    return case.changed({"initial.x": balance, "structural_damping.coefficient": damping})
 
 
 def _friction(parameters: Parameters, speed: float, temperature: float) -> tuple[float, float]:
@@ -230,23 +226,19 @@ class FrictionMap(Result):
         so the first falls faster than the law of a given temperature; the second does not.
         None where the speeds reach over no decade, or no minimum lies inside.
         """
-        points = self.at(ambient_degC)
-        speed = np.array([point.speed for point in points])
-        friction = np.array([point.friction for point in points])
-        warming = np.array([MELTING_POINT - point.interface_degC for point in points])
-        found: dict[str, Any] = {"ambient_degC": ambient_degC}
-        raw = decade_slopes(speed, friction)
-        found["steepest_fall"] = _extreme(raw, min)
-        found["steepest_rise"] = _extreme(raw, max)
-        found["steepest_fall_over_warming"] = None
-        if np.all(warming > 0.0):
-            found["steepest_fall_over_warming"] = _extreme(
-                decade_slopes(speed, friction / warming), min
-            )
-        changes = len(points) >= FEWEST_OF_MINIMUM and not self.is_flat(ambient_degC)
+        told = [(one.speed, one.friction, one.interface_degC) for one in self.at(ambient_degC)]
+        speed, friction, interface = np.transpose(told)
+        slopes, warming = decade_slopes(speed, friction), MELTING_POINT - interface
+        warmed = decade_slopes(speed, friction / warming) if np.all(warming > 0.0) else []
+        changes = len(told) >= FEWEST_OF_MINIMUM and not self.is_flat(ambient_degC)
         lowest = lowest_friction(speed, friction) if changes else None
-        found["minimum"] = lowest and {"speed": lowest[0], "friction": lowest[1]}
-        return found
+        return {
+            "ambient_degC": ambient_degC,
+            "steepest_fall": _extreme(slopes, min),
+            "steepest_rise": _extreme(slopes, max),
+            "steepest_fall_over_warming": _extreme(warmed, min),
+            "minimum": lowest and {"speed": lowest[0], "friction": lowest[1]},
+        }
 
     def __repr__(self) -> str:
         """How many points of which temperatures, in a line."""
@@ -259,8 +251,7 @@ class FrictionMap(Result):
 
     def _page(self) -> str:
         page = import_module(PAGE)
-        text: str = page.page(self, page.draw_map(self), "")
-        return text
+        return str(page.page(self, page.draw_map(self), ""))
 
     def _write(self, folder: Path) -> None:
         import_module(PAGE).write(self, folder)

@@ -62,9 +62,9 @@ def draw_map(found: FrictionMap) -> Figure:
         ylabel="friction coefficient [1]",
         title=f"lines: the law {alike}; points: coupled runs",
     )
-    measured = measured_beside(found)
+    measured, own = measured_beside(found), own_point(found)
     for each in measured:
-        _draw_measured(ax, each, is_own=each == own_point(found))
+        _draw_measured(ax, each, is_own=each == own)
     low, high = ax.dataLim.intervaly
     ax.set_xlim(left=min(speeds) / BELOW)
     if is_flat:
@@ -88,38 +88,41 @@ def _law(found: FrictionMap, ambient: float, speeds: np.ndarray) -> np.ndarray:
 
 def _draw_measured(ax: Axes, measured: Measured, is_own: bool) -> None:
     """A range as a pale box, a published curve dotted between its ends, the rig's own as a star."""
-    (slow, fast), (low, high) = (
-        (values[0], values[-1]) for values in (measured.speeds, measured.friction)
-    )
+    speeds, friction = measured.speeds, measured.friction
     if measured.is_range:
-        box = Rectangle((slow, low), fast - slow, high - low, color=PALE_GREY, zorder=0)
+        (width,), (height,) = np.diff(speeds), np.diff(friction)
+        box = Rectangle((speeds[0], friction[0]), width, height, color=PALE_GREY, zorder=0)
         ax.add_artist(box)  # which, unlike a patch, leaves the axes' limits alone
         return
-    style = "*" if is_own else "s:"
-    size = 12.0 if is_own else 5.0
+    style, size = ("*", 12.0) if is_own else ("s:", 5.0)
     label = f"measured: {measured.what}"
-    line = ax.plot(measured.speeds, measured.friction, style, color=INK, ms=size, label=label)
-    line[0].set_zorder(4)
+    ax.plot(speeds, friction, style, color=INK, ms=size, label=label, zorder=4)
 
 
 def _name_range(ax: Axes, measured: Measured) -> None:
     """In the upper left corner of a box that begins within the axes, else in the lower right."""
     if not measured.is_range:
         return
-    begins = measured.speeds[0] > ax.get_xlim()[0]
-    place = (measured.speeds[0 if begins else -1], min(measured.friction))
-    if begins:
-        place = (place[0], min(max(measured.friction), ax.get_ylim()[1]))
+    place, shift = (measured.speeds[-1], min(measured.friction)), (-3, 3)
+    if measured.speeds[0] > ax.get_xlim()[0]:
+        place = (measured.speeds[0], min(max(measured.friction), ax.get_ylim()[1]))
+        shift = (3, -3)
+    halo = [withStroke(linewidth=2.5, foreground=PALE_GREY)]
+    _say(ax, measured.what, place, shift, color=INK, fontsize=8.0, path_effects=halo)
+
+
+def _say(
+    ax: Axes, words: str, place: tuple[float, float], shift: tuple[float, float], **style: Any
+) -> None:
+    """Words beside a place, shifted (points) to where they stand."""
     ax.annotate(
-        measured.what,
+        words,
         place,
-        xytext=(3, -3) if begins else (-3, 3),
+        xytext=shift,
         textcoords="offset points",
-        color=INK,
-        fontsize=8.0,
-        ha="left" if begins else "right",
-        va="top" if begins else "bottom",
-        path_effects=[withStroke(linewidth=2.5, foreground=PALE_GREY)],
+        ha={-1: "right", 0: "center", 1: "left"}[int(np.sign(shift[0]))],
+        va="bottom" if shift[1] > 0.0 else "top",
+        **style,
     )
 
 
@@ -141,15 +144,7 @@ def _name_regimes(ax: Axes, speed: np.ndarray, law: np.ndarray) -> None:
     for name, at in places.items():
         # beside a falling or rising curve, above a flat one
         side = 0 if abs(slope[at]) < 0.1 else -int(np.sign(slope[at]))
-        ax.annotate(
-            name,
-            (speed[at], law[at]),
-            xytext=(8 * side, 8),
-            textcoords="offset points",
-            ha={-1: "right", 0: "center", 1: "left"}[side],
-            va="bottom",
-            color=INK,
-        )
+        _say(ax, name, (speed[at], law[at]), (8 * side, 8), color=INK)
 
 
 def _mark_slopes(ax: Axes, speed: np.ndarray, law: np.ndarray) -> None:
@@ -164,15 +159,8 @@ def _mark_slopes(ax: Axes, speed: np.ndarray, law: np.ndarray) -> None:
         near = (speed > speed[at] / 6.0) & (speed < speed[at] * 6.0)
         line = 0.75 * law[at] * (speed[near] / speed[at]) ** ideal
         ax.plot(speed[near], line, "--", color=GREY, linewidth=0.9)
-        ax.annotate(
-            "slope −½" if ideal < 0 else "slope ½",
-            (speed[at], 0.75 * law[at]),
-            xytext=(-4 if ideal < 0 else 4, -6),
-            textcoords="offset points",
-            color=GREY,
-            va="top",
-            ha="right" if ideal < 0 else "left",
-        )
+        words, side = ("slope −½", -4) if ideal < 0 else ("slope ½", 4)
+        _say(ax, words, (speed[at], 0.75 * law[at]), (side, -6), color=GREY)
 
 
 def sentence(found: FrictionMap) -> str:
@@ -246,19 +234,14 @@ def page(found: FrictionMap, picture: Picture, command: str) -> str:
     return render(
         "friction_map.html.j2",
         "cosim.studies.friction_map",
-        name=found.scenario.name,
+        found=found,
         sentence=sentence(found),
         tiles=tiles(found),
-        speeds=len({point.speed for point in found.at(found.ambients[0])}),
-        duration=found.duration,
         regimes=[_row(found, ambient) for ambient in found.ambients],
-        points=found.points,
-        failed=found.failed,
         laws=laws_of(found),
         measured=measured_beside(found),
         differences=differences(found),
         picture=picture,
         slope_text=_slope,
-        scenario=found.scenario.to_toml(),
         command=command,
     )

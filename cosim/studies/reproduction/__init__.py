@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from .claim import JUDGES, Check, Claim, Row, UnknownClaim, claim_ids
-from .judged import Reproduction
+from .claim import Check, Claim, Row, UnknownClaim, claim_ids, judged
+from .result import Reproduction
 
 __all__ = ["Check", "Claim", "Reproduction", "Row", "UnknownClaim", "claim_ids", "reproduce"]
 
@@ -22,11 +22,10 @@ def reproduce(
 
     ``progress`` is called with each id when its claim is judged. Raises `UnknownClaim`.
     """
-    wanted = claim_ids(ids)
     from . import claims as claims  # matplotlib and the thermal model: only when there is work
 
-    judged = Reproduction()
-    for one in wanted:
-        judged.append(JUDGES[one]())
+    found = Reproduction()
+    for one in claim_ids(ids):
+        found.append(judged(one))
         progress(one)
-    return judged
+    return found

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from . import readings
 from .claim import WRITTEN
 from .claims.friction_level import misfit, observed
 from .claims.rotation import ROTATES, turns_far_and_near
-from .readings import AS_PRINTED, MARKS, Outcome, Reading, reading_figures
+from .readings import AS_PRINTED, MARKS, READINGS, Outcome, Reading, outcome, reading_figures
 
 #: Claims that this bears on.
 CLAIMS = ("C5", "C6", "C7")
@@ -27,13 +27,14 @@ def attribution(reading: Reading) -> dict[str, Any]:
     def fit(one: Reading, dataset: int) -> float:
         return misfit(observed(lambda k: reading_figures(one, dataset, stiffness=k)))
 
-    first, second = (reading_figures(reading, dataset).max_rotation for dataset in (1, 2))
+    def turned(one: Reading, dataset: int) -> float:
+        return reading_figures(one, dataset)["max_rotation"]
+
+    first, second = turned(reading, 1), turned(reading, 2)
     full, quarter, mended = fit(reading, 1), fit(reading, 2), fit(reading.mended("F1"), 1)
     return {
         "rotates": first > ROTATES,
-        "without": {
-            fault: reading_figures(reading.mended(fault), 1).max_rotation for fault in ("F2", "F13")
-        },
+        "without": {fault: turned(reading.mended(fault), 1) for fault in ("F2", "F13")},
         "misfits": (full, quarter, mended),
         "both": turns_far_and_near(first, second),
         "quarter_fits_better": quarter < full,
@@ -44,8 +45,8 @@ def attribution(reading: Reading) -> dict[str, Any]:
 
 def datasets() -> dict[str, Any]:
     """Every reading beside the marks, and the claims as printed and under those that stand."""
-    bearing = [AS_PRINTED, *(one for one in readings.standing() if one != AS_PRINTED)]
-    return as_data(readings.outcomes(), [attribution(one) for one in bearing])
+    bearing = dict.fromkeys([AS_PRINTED, *readings.standing()])
+    return as_data([outcome(one) for one in READINGS], [attribution(one) for one in bearing])
 
 
 def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dict[str, Any]:
@@ -62,10 +63,10 @@ def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dic
         rounded=of[readings.ROUNDED],
         marks=len(MARKS),
         most=most,
-        closest=_names(one.reading.name for one in outcomes if sum(one.met) == most),
+        closest="; ".join(one.reading.name for one in outcomes if sum(one.met) == most),
     )
     turning = [one["without"] for one in every if one["rotates"]]
-    others = _names(one["reading"] for one in every if not one["one_spring_explains"])
+    others = "; ".join(one["reading"] for one in every if not one["one_spring_explains"])
     both = [one["reading"] for one in every if one["both"]]
     bears = written["bears"].format(
         all=len(every),
@@ -74,7 +75,7 @@ def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dic
         explained=sum(one["one_spring_explains"] for one in every),
         others=f"; not in: {others}" if others else "",
         both=len(both),
-        both_in=f": {_names(both)}" if both else "",
+        both_in=f": {'; '.join(both)}" if both else "",
     )
     return {
         "says": written["found" if found else "none"].format(said=says),
@@ -88,7 +89,3 @@ def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dic
         ],
         "attributions": every,
     }
-
-
-def _names(of: Iterable[str]) -> str:
-    return "; ".join(of)

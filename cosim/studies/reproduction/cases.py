@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 from stickslip import Parameters, simulate
-from stickslip.reference.linearised import GRAVITY, Scheme
+from stickslip.reference.linearised import GRAVITY, Scheme, SchemeRun
 from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
 
-from .motion import Motion, MotionFigures, average, figures
+from .motion import WINDOW, Motion, figures
 
 Array = np.ndarray
 
@@ -23,7 +23,7 @@ STEADY = 0.6
 LONGEST_SLIP = 1.0  # s, the study's; longer natural periods count as they are
 SEEDS = (0, 1, 2)
 # the exact model settles within its first seconds; the study's own speed ramp takes 10 s
-SETTLING, WINDOW = 10.0, 20.0
+SETTLING = 10.0
 SAMPLE = 5e-3
 
 MASSES = (0.67, 0.896667, 1.123333, 1.35, 1.576667, 1.803333, 2.03)
@@ -98,7 +98,8 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **tables: An
     pretension: m by which the springs are stretched as installed; tables: laid over the model's.
     """
     at_rest = case.mu_k + case.mu_slope * SPEEDS[0]  # mu_k is given at the slowest surface
-    parameters: dict[str, Any] = {
+    guided = tables.get("rig") == GUIDED
+    model: dict[str, dict[str, Any]] = {
         "rig": {
             "mass": case.mass,
             "spring_length": LENGTH,
@@ -112,13 +113,10 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **tables: An
         "velocity_weakening": {"linear": case.mu_slope / at_rest if at_rest else 0.0},
         "lateral_friction": {"ratio": 1.0},
         "surface": {"speed": case.speed},
-        "initial": {"vx": case.speed, "phi": TURNED},
+        "initial": {"vx": case.speed, "phi": 0.0 if guided else TURNED},
     }
-    for name, values in tables.items():
-        parameters[name] = parameters.get(name, {}) | values
-    if parameters["rig"].get("degrees_of_freedom") == ("x",):
-        parameters["initial"] |= {"phi": 0.0}
-    return Parameters.model_validate(parameters)
+    laid = {name: model.get(name, {}) | values for name, values in tables.items()}
+    return Parameters.model_validate(model | laid)
 
 
 def longest(case: Case) -> float:
@@ -132,17 +130,21 @@ def longest(case: Case) -> float:
     return CYCLES * (max(period, LONGEST_SLIP) + stick)
 
 
+def scheme_run(case: Case, faults: Faults, seed: int = 0) -> SchemeRun:
+    """A whole run of the study's scheme."""
+    return scheme(case, faults).run(cycles=CYCLES, duration=longest(case), seed=seed)
+
+
 @lru_cache(maxsize=32)
 def scheme_motion(case: Case, faults: Faults, seed: int = 0) -> Motion:
-    """A whole run of the study's scheme."""
-    run = scheme(case, faults).run(cycles=CYCLES, duration=longest(case), seed=seed)
-    return Motion.of_scheme(run)
+    """The motion of such a run."""
+    return Motion.of_scheme(scheme_run(case, faults, seed))
 
 
 @cache
-def scheme_figures(case: Case, faults: Faults, seeds: tuple[int, ...] = SEEDS) -> MotionFigures:
+def scheme_figures(case: Case, faults: Faults, seeds: tuple[int, ...] = SEEDS) -> dict[str, float]:
     """Steady figures of the study's scheme, mean over seeds."""
-    return average([figures(scheme_motion(case, faults, seed).last(STEADY)) for seed in seeds])
+    return figures(*(scheme_motion(case, faults, seed).last(STEADY) for seed in seeds))
 
 
 def exact_motion(case: Case, duration: float = SETTLING + WINDOW, **model: Any) -> Motion:
@@ -162,13 +164,13 @@ def _exact_motion(parameters: Parameters, duration: float) -> Motion:
     return Motion.of_trajectory(run)
 
 
-def exact_figures(case: Case, **model: Any) -> MotionFigures:
+def exact_figures(case: Case, **model: Any) -> dict[str, float]:
     """Steady figures of the exact model."""
     return _exact_figures(exact_parameters(case, **model))
 
 
 @cache
-def _exact_figures(parameters: Parameters) -> MotionFigures:
+def _exact_figures(parameters: Parameters) -> dict[str, float]:
     return figures(_exact_motion(parameters, SETTLING + WINDOW).between(SETTLING))
 
 
@@ -185,17 +187,20 @@ def tabulated(
     rig: dict[str, Any] = GUIDED,
 ) -> Array:
     """A steady figure of each case: (3, n), as printed, mended, exact with the block guided."""
-    found = [
-        [scheme_figures(case, faults, seeds) for faults in (PRINTED, MENDED)]
-        + [exact_figures(case, rig=rig)]
-        for case in cases
-    ]
-    return np.array([[getattr(one, figure) for one in three] for three in found]).T
+    schemes = [scheme_table(figure, cases, faults, seeds) for faults in (PRINTED, MENDED)]
+    return np.stack([*schemes, exact_table(figure, cases, rig=rig)], axis=1).T
+
+
+def scheme_table(
+    figure: str, cases: Sequence[Case], faults: Faults, seeds: tuple[int, ...] = SEEDS
+) -> Array:
+    """A steady figure of each case in the study's scheme: (n,)."""
+    return np.array([scheme_figures(case, faults, seeds)[figure] for case in cases])
 
 
 def exact_table(figure: str, cases: Sequence[Case], **model: Any) -> Array:
     """A steady figure of each case in the exact model: (n,)."""
-    return np.array([getattr(exact_figures(case, **model), figure) for case in cases])
+    return np.array([exact_figures(case, **model)[figure] for case in cases])
 
 
 def gridded(numbers: Array, stiffnesses: Sequence[float] = STIFFNESSES) -> Array:

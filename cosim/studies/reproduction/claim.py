@@ -8,8 +8,8 @@ with other numbers stand there with these.
 from __future__ import annotations
 
 import operator
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import KW_ONLY, dataclass, field, replace
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -34,20 +34,15 @@ def claim_ids(wanted: Sequence[str]) -> tuple[str, ...]:
             raise UnknownClaim(
                 f"claim {one!r}: unknown, allowed are {CLAIM_IDS[0]} to {CLAIM_IDS[-1]}"
             )
-    asked = {one.upper() for one in wanted} or set(CLAIM_IDS)
+    asked = {one.upper() for one in wanted} or CLAIM_IDS
     return tuple(one for one in CLAIM_IDS if one in asked)
 
 
 class Printed(NamedTuple):
     """A number of the study, or in words a range between two of its numbers, and its place."""
 
-    value: float | str
+    value: Any
     place: str
-
-    @property
-    def number(self) -> float:
-        """The value; ValueError where the study prints words."""
-        return float(self.value)
 
 
 #: Every number of the study that is compared with, by name.
@@ -65,8 +60,7 @@ COMPARED = {
 }
 MODELS = ("printed", "mended", "exact")
 #: As printed, mended, exact; None, or nothing: the model has no such number, or cannot tell.
-Numbers = Sequence[float | None] | np.ndarray
-NONE = (None, None, None)
+Numbers = Sequence[Any] | np.ndarray
 
 HOLDS = "holds"
 FOLLOWS = "follows from the assumption"
@@ -118,7 +112,7 @@ class Margin:
     @property
     def text(self) -> str:
         """In words."""
-        unit = "" if self.unit == "1" else self.unit if self.unit == "°" else f" {self.unit}"
+        unit = {"1": "", "°": "°"}.get(self.unit, f" {self.unit}")
         return f"{self.what} {self.value:.4g}{unit}, limit {self.limit:.4g}{unit}"
 
 
@@ -144,9 +138,9 @@ class Check:
     """
 
     says: str
-    printed: bool | None
-    mended: bool | None
-    exact: bool | None
+    printed: bool | None = None
+    mended: bool | None = None
+    exact: bool | None = None
     _: KW_ONLY
     faults: Sequence[str] = ()
     margin: Margin | None = None
@@ -167,9 +161,9 @@ class Check:
     @property
     def verdict(self) -> str:
         """One of the six words."""
+        weights = {turn.weight for turn in self.turned_by}
         if self.sound is None:
             return CANNOT_BE_CHECKED
-        weights = {turn.weight for turn in self.turned_by}
         if self.sound and PUT_IN in weights:
             return FOLLOWS
         if OPEN in weights:
@@ -181,20 +175,21 @@ class Check:
     @property
     def verdict_with_faults(self) -> str:
         """The word, and behind `holds only with fault` the faults, or pairs that act together."""
-        if self.verdict != ONLY_WITH_FAULT:
-            return self.verdict
         pairs = "; ".join(" and ".join(pair) for pair in self.together)
-        named = f"of several together (ended by mending {pairs})" if pairs else SEVERAL
-        return f"{ONLY_WITH_FAULT} {', '.join(self.faults) or named}"
+        several = f"of several together (ended by mending {pairs})" if pairs else SEVERAL
+        return _with_faults(self.verdict, self.faults, several)
 
     @property
     def reason(self) -> str:
         """The part with what the models say to it."""
-        models = zip(
-            ("as printed", *MODELS[1:]), (self.printed, self.mended, self.exact), strict=True
-        )
-        said = [f"{name}: {'yes' if one else 'no'}" for name, one in models if one is not None]
+        models = {"as printed": self.printed, "mended": self.mended, "exact": self.exact}
+        said = [f"{name}: {'yes' if so else 'no'}" for name, so in models.items() if so is not None]
         return f"{self.says} ({', '.join(said) or 'no figure to compare with'})"
+
+
+def _with_faults(verdict: str, faults: Sequence[str], several: str = SEVERAL) -> str:
+    """A verdict, with the faults by which it holds only."""
+    return f"{verdict} {', '.join(faults) or several}" if verdict == ONLY_WITH_FAULT else verdict
 
 
 @dataclass
@@ -228,7 +223,7 @@ class Claim:
         told, place = STUDY.get(study or written.get("study", ""), (None, ""))
         derived = written.get("derived") if derived is None else derived
         how = "" if derived is None else written["how"]
-        numbers = [None if one is None else float(one) for one in (*ours, *NONE)[:3]]
+        numbers = [None if one is None else float(one) for one in ours]
         text, unit = written["says"].format(**said), written.get("unit", "1")
         self.rows.append(
             Row(text, unit, told, place, derived, how, written.get("digits", 4), *numbers)
@@ -244,8 +239,6 @@ class Claim:
         name: str,
         ours: Numbers = (),
         /,
-        *,
-        answers: Iterable[bool | None] | None = None,
         margin: float | None = None,
         limit: float | None = None,
         faults: Sequence[str] = (),
@@ -258,29 +251,22 @@ class Claim:
         """
         written = WRITTEN[self.id]["check"][name]
         limit = written.get("limit", 0.0) if limit is None else limit
-        compare, unit = COMPARED[written.get("so", "below")], written.get("unit", "1")
+        compare = COMPARED[written.get("so", "below")]
         self._said = said = said | {"limit": limit}
-        self._passes: Callable[[float | None], bool | None] = lambda one: (
-            None if one is None else bool(compare(one, limit))
+        self._passes: Callable[[Any], bool] = lambda one: bool(
+            one if isinstance(one, (bool, np.bool_)) else compare(one, limit)
         )
-        known = [one for one in (*ours, margin) if one is not None]
+        beside = next((one for one in (margin, *ours[::-1]) if one is not None), None)
         shown = None
-        if known:
-            shown = Margin(written["margin"].format(**said), float(known[-1]), float(limit), unit)
-        answers = map(self._passes, ours) if answers is None else answers
-        told = [None if one is None else bool(one) for one in (*answers, *NONE)[:3]]
+        if beside is not None:
+            what, unit = written["margin"].format(**said), written.get("unit", "1")
+            shown = Margin(what, float(beside), float(limit), unit)
         says = written["says"].format(**said)
-        self.checks.append(Check(says, *told, faults=faults, margin=shown, together=together))
+        answers = [None if one is None else self._passes(one) for one in ours]
+        self.checks.append(Check(says, *answers, faults=faults, margin=shown, together=together))
 
     def turn(
-        self,
-        name: str,
-        value: float | None = None,
-        /,
-        *,
-        sound: Any = None,
-        weight: str = "",
-        **said: Any,
+        self, name: str, value: Any = None, /, *, sound: Any = None, weight: str = "", **said: Any
     ) -> None:
         """What the last check comes to under a change: a number against the same limit."""
         written, said = WRITTEN[self.id]["turn"][name], self._said | said | {"value": value}
@@ -309,9 +295,7 @@ class Claim:
     @property
     def verdict(self) -> str:
         """The word, and behind `holds only with fault` the faults."""
-        if self.word != ONLY_WITH_FAULT:
-            return self.word
-        return f"{ONLY_WITH_FAULT} {', '.join(self.faults) or SEVERAL}"
+        return _with_faults(self.word, self.faults)
 
     @property
     def deciding(self) -> list[Check]:
@@ -338,38 +322,44 @@ class Claim:
     def reason(self) -> str:
         """Why, in a sentence: the parts that decide, and what became of the others."""
         said = "; ".join(check.reason for check in self.deciding)
-        words = [check.verdict for check in self.checks]
-        others = [word for word in dict.fromkeys(words) if word != self.word]
-        if others:
-            said += " (other parts: " + ", ".join(f"{words.count(w)} {w}" for w in others) + ")"
-        return said
+        words = [check.verdict for check in self.checks if check.verdict != self.word]
+        others = ", ".join(f"{words.count(word)} {word}" for word in dict.fromkeys(words))
+        return f"{said} (other parts: {others})" if others else said
 
 
-#: Id -> what judges the claim, of the modules that have been imported.
-JUDGES: dict[str, Callable[[], Claim]] = {}
 #: What computes the numbers of a claim, and returns what its texts leave open.
 Judge = Callable[[Claim], Mapping[str, Any]]
+#: By the claim's id, of the modules that have been imported.
+JUDGES: dict[str, Judge] = {}
 
 
 def judges(claim: str) -> Callable[[Judge], Judge]:
     """Of a function that fills a claim: it is the one that judges it."""
 
     def named(fill: Judge) -> Judge:
-        def judged() -> Claim:
-            written, shared = WRITTEN[claim], WRITTEN["assumed"]
-            found = Claim(claim, leading=written.get("leading", 0))
-            said = fill(found)
-            for name in ("title", "place", "rests", "first", "scope"):
-                setattr(found, name, written.get(name, "").format(**said))
-            assumed = [shared.get(one, one) for one in written.get("assumed", ())]
-            found.remarks = [text.format(**said) for text in written.get("remarks", ())]
-            found.assumed = [text.format(**said) for text in assumed]
-            return found
-
-        JUDGES[claim] = judged
+        JUDGES[claim] = fill
         return fill
 
     return named
+
+
+def judged(claim: str) -> Claim:
+    """A claim with its numbers, its checks and its texts."""
+    written, found = WRITTEN[claim], Claim(claim)
+    said = JUDGES[claim](found)
+    assumed = [WRITTEN["assumed"].get(one, one) for one in written.get("assumed", ())]
+    texts = {
+        name: written[name].format(**said)
+        for name in ("title", "place", "rests", "first", "scope")
+        if name in written
+    }
+    return replace(
+        found,
+        leading=written.get("leading", 0),
+        remarks=[text.format(**said) for text in written.get("remarks", ())],
+        assumed=[text.format(**said) for text in assumed],
+        **texts,
+    )
 
 
 def responsible(holds: Callable[[Faults], bool]) -> tuple[str, ...]:

@@ -18,6 +18,10 @@ from .motion import Motion
 
 LABELS = ("scheme as printed", "scheme mended", "exact model")
 COLOURS = (RED, BLUE, GREEN)
+#: Style of each model's line.
+LINES: list[dict[str, Any]] = [
+    {"color": colour, "label": label} for colour, label in zip(COLOURS, LABELS, strict=True)
+]
 # the scheme mended and the exact model often coincide: the one shows as a rim about the other
 WIDER: dict[str, Any] = {"linewidth": 4.0, "markersize": 9.0}
 
@@ -43,8 +47,8 @@ def figure_of(rows: Sequence[Sequence[Panel]], written: Mapping[str, Any]) -> Fi
     """Panels in rows; written: labels x and y (or one of each row), and the layout."""
     layout = {key: written[key] for key in ("height", "width", "sharex", "sharey") & written.keys()}
     figure, axes = panels(len(rows), len(rows[0]), **layout)
-    for number, (row, of_row) in enumerate(zip(rows, axes, strict=True)):
-        y = written["y"] if isinstance(written["y"], str) else written["y"][number]
+    labels = [written["y"]] * len(rows) if isinstance(written["y"], str) else written["y"]
+    for row, of_row, y in zip(rows, axes, labels, strict=True):
         for panel, ax in zip(row, of_row, strict=True):
             for curve in panel.curves:
                 ax.plot(curve.x, curve.y, **curve.style)
@@ -74,22 +78,17 @@ def add_picture(
 
 def by_model(x: Any, series: Iterable[Any]) -> list[Curve]:
     """A line with dots for each of the models."""
+    rims: tuple[dict[str, Any], ...] = ({}, WIDER, {})
     return [
-        Curve(x, values, {"color": colour, "label": label, "marker": "o"} | wide)
-        for values, colour, label, wide in zip(
-            series, COLOURS, LABELS, ({}, WIDER, {}), strict=True
-        )
+        Curve(x, values, {"marker": "o"} | line | rim)
+        for values, line, rim in zip(series, LINES, rims, strict=True)
     ]
 
 
 def over_time(
-    motion: Motion,
-    name: str,
-    scale: float = 1.0,
-    begin: float = 0.0,
-    end: float = np.inf,
+    motion: Motion, name: str, scale: float = 1.0, begin: float = 0.0, end: float = np.inf,
     **style: Any,
-) -> Curve:
+) -> Curve:  # fmt: skip
     """A quantity of a motion from ``begin`` to ``end`` (s), time counted from ``begin``."""
     keep = (motion.time >= begin) & (motion.time <= end)
     return Curve(motion.time[keep] - begin, scale * getattr(motion, name)[keep], style)
@@ -100,8 +99,8 @@ def models_over_time(
 ) -> list[Curve]:
     """A quantity of each model's run, from a part of its time on."""
     return [
-        over_time(run, name, scale, settled * run.time[-1], color=colour, label=label, lw=1.0)
-        for run, colour, label in zip(runs, COLOURS, LABELS, strict=True)
+        over_time(run, name, scale, settled * run.time[-1], **line, lw=1.0)
+        for run, line in zip(runs, LINES, strict=True)
     ]
 
 
@@ -111,11 +110,13 @@ def over_mass(values: np.ndarray, stiffnesses: Sequence[float]) -> list[list[Pan
         {"marker": "o", "ms": 2.5, "color": colour, "label": f"v {speed:.2f} m/s"}
         for speed, colour in zip(SPEEDS, SERIES, strict=True)
     ]
-    titles = [f"k {k:.2f} N/m" for k in stiffnesses]
     return [
         [
-            Panel([Curve(MASSES, *line) for line in zip(cell.T, styles, strict=True)], title)
-            for cell, title in zip(of_model, above, strict=True)
+            Panel(
+                [Curve(MASSES, *line) for line in zip(cell.T, styles, strict=True)],
+                f"k {k:.2f} N/m" if number == 0 else "",
+            )
+            for cell, k in zip(of_model, stiffnesses, strict=True)
         ]
-        for of_model, above in zip(values, (titles, *[[""] * len(titles)] * 2), strict=True)
+        for number, of_model in enumerate(values)
     ]

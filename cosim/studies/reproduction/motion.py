@@ -67,55 +67,46 @@ class Motion:
         return float(np.abs(self.phi_deg).max())
 
 
-@dataclass(frozen=True)
-class MotionFigures:
-    """What is read off a run; m, s, deg, 1. A figure that a run does not have is NaN."""
+def figures(*motions: Motion, between_rows: bool = False, visible: float = 0.0) -> dict[str, float]:
+    """Figures of all of a motion, or the mean of those of several, by name; NaN: it has none.
 
-    mean_x: float
-    half_range_x: float
-    rate: float  # oscillations of x per second
-    slip_share: float
-    slip_time: float  # mean duration of a whole slip, and of a whole stick
-    stick_time: float
-    max_rotation: float
-    mean_y: float
-    mean_friction: float  # size of the force along x, in slip, N
-    swing_rate: float  # of the fastest swing of phi: its angle by its duration, deg/s
-
-    @property
-    def oscillations(self) -> float:
-        """In 20 s."""
-        return WINDOW * self.rate
-
-
-def figures(motion: Motion, between_rows: bool = False, visible: float = 0.0) -> MotionFigures:
-    """Figures of all of ``motion``; cut it to the steady part first.
+    Cut motions to their steady part first. mean_x, mean_y, amplitude_x (half range), and
+    break_away_x, restick_x, where x is as a phase begins, m; frequency: oscillations of x per
+    second; oscillations: in 20 s; slip_share: of the time; slip_duration, stick_duration: means of
+    whole phases, s; hold: median stick, s; max_rotation: either way, deg; friction: mean size of
+    the force along x in slip, N; swing_rate: angle by duration of the fastest swing of phi, deg/s.
 
     between_rows: of `upward_crossings`; visible: half range of x (m) of the least oscillation.
     """
-    time, x, slip = motion.time, motion.x, motion.mode == 1
+    each = [_figures(one, between_rows, visible) for one in motions]
+    known = {name: np.array([one[name] for one in each]) for name in each[0]}
+    found = {name: mean(values[np.isfinite(values)]) for name, values in known.items()}
+    return found | {"oscillations": WINDOW * found["frequency"]}
+
+
+def _figures(motion: Motion, between_rows: bool, visible: float) -> dict[str, float]:
+    time, x = motion.time, motion.x
     half_range = 0.5 * float(np.ptp(x))
     upward = upward_crossings(time, x, between_rows) if half_range > visible else np.empty(0)
     lasting, slips = motion.phases[:, 1] - motion.phases[:, 0], motion.phases[:, 2] == 1
-    inner = slice(1, -1)  # the first and the last are cut
-    return MotionFigures(
-        mean_x=cycle_mean(time, x, upward),
-        half_range_x=half_range,
-        rate=_rate(upward),
-        slip_share=float(lasting[slips].sum() / lasting.sum()),
-        slip_time=mean(lasting[inner][slips[inner]]),
-        stick_time=mean(lasting[inner][~slips[inner]]),
-        max_rotation=motion.rotation,
-        mean_y=time_mean(time, motion.y),
-        mean_friction=mean(np.abs(motion.friction[slip])),
-        swing_rate=_swing_rate(motion),
-    )
-
-
-def average(many: list[MotionFigures]) -> MotionFigures:
-    """Mean of each figure over several runs, of those that have it."""
-    table = np.array([list(vars(one).values()) for one in many])
-    return MotionFigures(*(mean(column[np.isfinite(column)]) for column in table.T))
+    whole = slice(1, -1)  # the first and the last are cut
+    held = lasting[~slips & (lasting > 0.0)]  # the scheme has sticks that end as they begin
+    begins = np.interp(motion.phases[whole, 0], time, x)
+    return {
+        "mean_x": cycle_mean(time, x, upward),
+        "mean_y": time_mean(time, motion.y),
+        "amplitude_x": half_range,
+        "frequency": rate(upward),
+        "slip_share": float(lasting[slips].sum() / lasting.sum()),
+        "slip_duration": mean(lasting[whole][slips[whole]]),
+        "stick_duration": mean(lasting[whole][~slips[whole]]),
+        "hold": float(np.median(held)) if held.size else math.nan,
+        "break_away_x": mean(begins[slips[whole]]),
+        "restick_x": mean(begins[~slips[whole]]),
+        "max_rotation": motion.rotation,
+        "friction": mean(np.abs(motion.friction[motion.mode == 1])),
+        "swing_rate": _swing_rate(motion),
+    }
 
 
 def mean(values: np.ndarray) -> float:
@@ -137,19 +128,15 @@ def upward_crossings(time: np.ndarray, x: np.ndarray, between_rows: bool = False
     band = BAND * float(np.ptp(x))
     side = np.where(away > band, 1, np.where(away < -band, -1, 0))
     seen = np.flatnonzero(side)
-    after = seen[1:][(side[seen[1:]] == 1) & (side[seen[:-1]] == -1)]
+    after = seen[1:][np.diff(side[seen]) > 0]
     if not between_rows:
         return np.asarray(time[after])
     share = (band - away[after - 1]) / (away[after] - away[after - 1])
     return np.asarray(time[after - 1] + share * (time[after] - time[after - 1]))
 
 
-def oscillation_rate(time: np.ndarray, x: np.ndarray) -> float:
-    """Oscillations of x about its mean per second, from the first upward crossing to the last."""
-    return _rate(upward_crossings(time, x))
-
-
-def _rate(upward: np.ndarray) -> float:
+def rate(upward: np.ndarray) -> float:
+    """Oscillations per second, from the first upward crossing to the last."""
     return float((len(upward) - 1) / np.ptp(upward)) if len(upward) > 1 else math.nan
 
 
@@ -157,9 +144,8 @@ def cycle_mean(time: np.ndarray, x: np.ndarray, upward: np.ndarray) -> float:
     """Mean over whole oscillations, so that a cut one does not tilt it; else over all the time."""
     if len(upward) < 2:
         return time_mean(time, x)
-    ends = upward[[0, -1]]
-    inside = time[(time > ends[0]) & (time < ends[1])]
-    whole = np.concatenate([ends[:1], inside, ends[1:]])
+    inside = time[(time > upward[0]) & (time < upward[-1])]
+    whole = np.concatenate([upward[:1], inside, upward[-1:]])
     return time_mean(whole, np.interp(whole, time, x))
 
 
@@ -170,7 +156,7 @@ def _swing_rate(motion: Motion) -> float:
     """
     turns = np.diff(motion.phi)
     moves = np.flatnonzero(turns)
-    turning = moves[1:][np.sign(turns[moves[1:]]) != np.sign(turns[moves[:-1]])]
+    turning = moves[1:][np.diff(np.sign(turns[moves])) != 0]
     angle = np.abs(np.diff(motion.phi_deg[turning]))
     if not len(angle):
         return 0.0

@@ -16,9 +16,9 @@ from stickslip.reference.scheme_errors import PRINTED, Faults
 
 from cosim.packaged import packaged_tables
 
-from .cases import DATASETS, SEEDS, Case, scheme
+from .cases import DATASETS, SEEDS, scheme
 from .claim import STUDY
-from .motion import Motion, MotionFigures, average, figures
+from .motion import Motion, figures
 
 SETTLING_CYCLES = 10  # section 5 of the study
 STEADY = 20.0  # s
@@ -30,13 +30,12 @@ WRITTEN = packaged_tables(__package__, "readings.toml")
 
 def _mark(study: str = "", **written: Any) -> dict[str, Any]:
     """A mark as it is written; the number is the study's of that name, where there is one."""
-    known = {"printed": STUDY[study].value, "place": STUDY[study].place} if study else {}
-    return written | known
+    return written | (dict(zip(("printed", "place"), STUDY[study], strict=True)) if study else {})
 
 
 #: Printed figures of a dataset, and what counts as each, low to high in its unit: a run turns by
 #: half as much again as another of the same kind; a window may cut an oscillation. figure: of
-#: `MotionFigures`, or the onset of a rotation that is seen.
+#: `figures`, or the onset of a rotation that is seen.
 MARKS = [_mark(**written) for written in WRITTEN["mark"]]
 
 
@@ -58,11 +57,6 @@ class Reading:
     second: dict[str, float] = field(default_factory=dict)
     turned: float = 1e-15
 
-    def case(self, dataset: int, **changes: float) -> Case:
-        """The dataset as this reading has it, with further changes."""
-        own = self.both | (self.second if dataset == 2 else {})
-        return DATASETS[dataset].changed(**own | changes)
-
     @property
     def seeds(self) -> tuple[int, ...]:
         """One where there is no chance in the reading."""
@@ -73,12 +67,12 @@ class Reading:
         """This reading with some faults mended."""
         return replace(self, faults=self.faults.without(*faults))
 
-    def motion(self, dataset: int, seed: int = 0, **case: float) -> Motion:
-        """A whole run."""
-        one = scheme(self.case(dataset, **case), self.faults, **self.changes)
-        return Motion.of_scheme(
-            one.run(cycles=CYCLES, duration=LONGEST, seed=seed, turned=self.turned)
-        )
+    def motion(self, dataset: int, seed: int = 0, **changes: float) -> Motion:
+        """A whole run of a dataset as this reading has it, with further changes of its numbers."""
+        own = self.both | (self.second if dataset == 2 else {})
+        one = scheme(DATASETS[dataset].changed(**own | changes), self.faults, **self.changes)
+        run = one.run(cycles=CYCLES, duration=LONGEST, seed=seed, turned=self.turned)
+        return Motion.of_scheme(run)
 
 
 READINGS = [
@@ -88,21 +82,21 @@ READINGS = [
 AS_PRINTED, ROUNDED, BALANCED = READINGS[0], READINGS[3], READINGS[4]
 
 
-def steady_figures(motion: Motion) -> MotionFigures:
-    """Of the 20 s after the first ten cycles, or of what there is."""
+def steady(motion: Motion) -> Motion:
+    """The 20 s after the first ten cycles, or what there is."""
     cycles = motion.phases[motion.phases[:, 2] == 1, 1]
-    start = cycles[min(SETTLING_CYCLES, len(cycles)) - 1]
-    return figures(motion.between(start, min(start + STEADY, motion.time[-1])))
+    start = cycles[:SETTLING_CYCLES][-1]
+    return motion.between(start, min(start + STEADY, motion.time[-1]))
 
 
 @cache
-def reading_figures(reading: Reading, dataset: int, **case: float) -> MotionFigures:
+def reading_figures(reading: Reading, dataset: int, **changes: float) -> dict[str, float]:
     """Steady figures, mean over seeds where the reading has chance in it; largest rotation of all.
 
-    case: of `Reading.case`.
+    changes: of `Reading.motion`.
     """
-    runs = [steady_figures(reading.motion(dataset, seed, **case)) for seed in reading.seeds]
-    return replace(average(runs), max_rotation=max(one.max_rotation for one in runs))
+    runs = [steady(reading.motion(dataset, seed, **changes)) for seed in reading.seeds]
+    return figures(*runs) | {"max_rotation": max(run.rotation for run in runs)}
 
 
 @dataclass(frozen=True)
@@ -136,15 +130,10 @@ def outcome(reading: Reading) -> Outcome:
 def _figure(reading: Reading, dataset: int, name: str) -> float:
     """Of a reading; an onset is the mean over seeds, NaN if one never turns."""
     if name != "onset":
-        return float(getattr(reading_figures(reading, dataset), name))
+        return reading_figures(reading, dataset)[name]
     return float(np.mean([onset(reading.motion(dataset, s), SEEN) for s in reading.seeds]))
-
-
-def outcomes() -> list[Outcome]:
-    """Every reading laid beside the marks, in the order of `READINGS`."""
-    return [outcome(reading) for reading in READINGS]
 
 
 def standing() -> list[Reading]:
     """The readings that meet most marks."""
-    return [one.reading for one in outcomes() if sum(one.met) >= ENOUGH]
+    return [one for one in READINGS if sum(outcome(one).met) >= ENOUGH]

@@ -1,47 +1,88 @@
-"""Judged claims as data, which is what `reproduction.json` holds, and as one HTML page."""
+"""Judged claims as a result, which can become what `stickslip reproduce` leaves."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Sequence
 from dataclasses import asdict
+from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 from stickslip.reference.scheme_errors import DESCRIPTIONS
 
-from cosim.report.files import without_nan
+from cosim.files import write_bytes, write_text
+from cosim.report.files import json_text, without_nan
 from cosim.report.page import render
+from cosim.result import Result
 
 from .claim import Claim
 
-#: The study's faults that are no switch of the scheme but stand behind a verdict.
-OTHER_FAULTS = {
+RESULT, PAGE = "reproduction.json", "report.html"
+#: The study's faults: those of its scheme, and two more that stand behind a verdict.
+FAULTS = DESCRIPTIONS | {
     "F9": "one pass of the belt is counted, all heat goes to it, a conductivity is used as a rate",
     "F11": "the product of the friction force is misprinted: 4.0349 N by its own factors",
 }
 
 
-def as_data(
-    claims: list[Claim], wall_time: float | None = None, datasets: dict[str, Any] | None = None
-) -> dict[str, Any]:
-    """A tree of plain values; numbers that a model does not have are None."""
-    found: dict[str, Any] = without_nan(
-        {
-            "datasets": datasets,
-            "referee": [_referee(one) for one in claims],
-            "claims": [_claim(one) for one in claims],
-            "faults": DESCRIPTIONS | OTHER_FAULTS,
-            "wall_time": wall_time,
+class Reproduction(list[Claim], Result):
+    """Claims in the study's order, each judged.
+
+    wall_time : that they took, s; None where nobody has looked
+
+    >>> from cosim.studies.reproduction import reproduce
+    >>> found = reproduce(["C1"])
+    >>> found.summary()["claims"][0]["verdict"], found.save("results/claims").name
+    ('holds', 'claims')
+    """
+
+    wall_time: float | None = None
+
+    @cached_property
+    def datasets(self) -> Any:
+        """The study's datasets in every reading, where a claim hangs on them; None elsewhere."""
+        from .attributions import CLAIMS, datasets
+
+        return datasets() if {claim.id for claim in self} & set(CLAIMS) else None
+
+    def summary(self) -> dict[str, Any]:
+        """What `reproduction.json` holds; numbers that a model does not have are None."""
+        found = {
+            "datasets": self.datasets,
+            "referee": [_referee(claim) for claim in self],
+            "claims": [_told(claim) for claim in self],
+            "faults": FAULTS,
+            "wall_time": self.wall_time,
         }
-    )
-    return found
+        return dict(without_nan(found))
+
+    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
+        verdicts = Counter(claim.verdict for claim in self)
+        return f"{len(self)} claims are judged.", [(name, str(n)) for name, n in verdicts.items()]
+
+    def _page(self) -> str:
+        return render(
+            "report.html.j2", __package__ or "", claims=self, datasets=self.datasets,
+            faults=FAULTS, words=[claim.word for claim in self],
+        )  # fmt: skip
+
+    def _write(self, folder: Path) -> None:
+        """Numbers first, then figures, then the page."""
+        write_text(json_text(self.summary()), folder / RESULT)
+        for claim in self:
+            for picture in claim.pictures:
+                write_bytes(picture.png, folder / f"{picture.name}.png")
+        write_text(self._page(), folder / PAGE)
 
 
-def _named(one: object, *names: str) -> dict[str, Any]:
-    return {name: getattr(one, name) for name in names}
+def _named(claim: Claim, words: str) -> dict[str, Any]:
+    return {word: getattr(claim, word) for word in words.split()}
 
 
 def _referee(claim: Claim) -> dict[str, Any]:
     """A claim in the referee's table: how firm its verdict is."""
-    return _named(claim, "id", "place", "verdict", "scope", "steady") | {
+    return _named(claim, "id place verdict scope steady") | {
         "claim": claim.title,
         "margins": [asdict(one) | {"text": one.text} for one in claim.margins],
         "turns": [asdict(one) for one in claim.turns],
@@ -49,20 +90,10 @@ def _referee(claim: Claim) -> dict[str, Any]:
     }
 
 
-def _claim(claim: Claim) -> dict[str, Any]:
-    words = ("id", "title", "place", "first", "verdict", "scope", "word", "faults", "reason")
-    return _named(claim, *words, "remarks", "assumed") | {
+def _told(claim: Claim) -> dict[str, Any]:
+    words = "id title place first verdict scope word faults reason remarks assumed"
+    return _named(claim, words) | {
         "checks": [asdict(check) | {"verdict": check.verdict} for check in claim.checks],
         "numbers": [asdict(row) for row in claim.rows],
         "figures": [f"{picture.name}.png" for picture in claim.pictures],
     }
-
-
-def page(
-    claims: list[Claim], faults: dict[str, str], datasets: dict[str, Any] | None = None
-) -> str:
-    """HTML with every picture inside; ``faults`` are the descriptions of the scheme's."""
-    return render(
-        "report.html.j2", "cosim.studies.reproduction", claims=claims, datasets=datasets,
-        faults=faults | OTHER_FAULTS, words=[claim.word for claim in claims],
-    )  # fmt: skip

@@ -38,23 +38,14 @@ def draw_pretension_map(found: PretensionMap, case: Case) -> Figure:
     ax.grid(False)
     speeds, stretched = found.speeds, 1e3 * found.pretensions
     shown = np.log2(np.clip(found.growth, LOW, HIGH))
-    mesh = ax.pcolormesh(
-        speeds,
-        stretched,
-        shown,
-        cmap="RdBu_r",
-        vmin=np.log2(LOW),
-        vmax=np.log2(HIGH),
-        shading="nearest",
-    )
+    ends = {"vmin": np.log2(LOW), "vmax": np.log2(HIGH)}
+    mesh = ax.pcolormesh(speeds, stretched, shown, cmap="RdBu_r", shading="nearest", **ends)
     if np.nanmin(found.growth) < 1.0 < np.nanmax(found.growth):
         ax.contour(speeds, stretched, found.growth, levels=[1.0], colors=INK, linewidths=1.4)
     sliding = np.argwhere(found.sticks == 0.0)
     # seen on dark and on pale colours
-    ax.plot(
-        speeds[sliding[:, 1]], stretched[sliding[:, 0]], "o", color="white", ms=3.2,
-        markeredgecolor=INK, markeredgewidth=0.6,
-    )  # fmt: skip
+    places = speeds[sliding[:, 1]], stretched[sliding[:, 0]]
+    ax.plot(*places, "o", color="white", ms=3.2, mec=INK, mew=0.6)
     _cross(ax, abs(case.parameters.surface.speed), 1e3 * _pretension(case))
     ax.set(
         xlabel="speed of the surface [m/s]",
@@ -62,9 +53,8 @@ def draw_pretension_map(found: PretensionMap, case: Case) -> Figure:
         title=f"Growth of small disturbances: {case.name}",
     )
     bar = figure.colorbar(mesh, ax=ax, label="multiplier of a cycle")
-    bar.set_ticks(
-        np.log2([0.5, 0.7, 1.0, 1.4, 2.0]).tolist(), labels=["≤ 0.5", "0.7", "1", "1.4", "≥ 2"]
-    )
+    ticks = {"≤ 0.5": 0.5, "0.7": 0.7, "1": 1.0, "1.4": 1.4, "≥ 2": 2.0}
+    bar.set_ticks(np.log2([*ticks.values()]).tolist(), labels=[*ticks])
     return figure
 
 
@@ -87,16 +77,14 @@ def draw_regime_map(found: RegimeMap, case: Case) -> Figure:
     colours = ListedColormap([*KINDS.values(), OTHER])
     norm = BoundaryNorm(np.arange(len(kinds) + 2) - 0.5, len(kinds) + 1)
     for k, (ax, start) in enumerate(zip(axes[0], MAPPED, strict=True)):
-        numbers = _numbered(found.simulated[k], kinds)
+        is_kind = [found.simulated[k] == kind for kind in kinds]
+        numbers = np.select(is_kind, range(len(kinds)), default=len(kinds))
         ax.grid(False)
         ax.pcolormesh(
             found.speeds, found.ratios, numbers, cmap=colours, norm=norm, shading="nearest"
         )
         if found.borders:
-            ax.plot(
-                *found.borders[k].T, "o", color=INK, ms=3.2, markeredgecolor="white",
-                markeredgewidth=0.5,
-            )  # fmt: skip
+            ax.plot(*found.borders[k].T, "o", color=INK, ms=3.2, mec="white", mew=0.5)
         friction = case.parameters.friction
         _cross(ax, abs(case.parameters.surface.speed), friction.mu_s / friction.mu_k)
         ax.set(xlabel="speed of the surface [m/s]", title=TITLES[start])
@@ -107,11 +95,6 @@ def draw_regime_map(found: RegimeMap, case: Case) -> Figure:
     figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
     figure.suptitle(f"Regimes: {case.name}", x=0.008, ha="left")
     return figure
-
-
-def _numbered(names: np.ndarray, kinds: list[str]) -> np.ndarray:
-    known = {name: i for i, name in enumerate(kinds)}
-    return np.array([[known.get(name, len(kinds)) for name in row] for row in names])
 
 
 def _cross(ax: Axes, x: float, y: float) -> None:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -179,10 +179,8 @@ def regime_map(
 
 
 def _simulated(parameters: Parameters, interface: Interface) -> list[str]:
-    starts = other_starts(parameters)
-    names = []
-    for start in MAPPED:
-        started = starts[start]
+    starts, names = other_starts(parameters), []
+    for started in (starts[start] for start in MAPPED):
         try:
             names.append(regime_of(started, run_length(started), interface).name)
         except RunEnded:
@@ -213,14 +211,10 @@ def is_coulomb_oscillator(parameters: Parameters) -> bool:
 def belt_start(parameters: Parameters) -> BeltStart:
     """The oscillator of the motion along the line, on a belt that runs up as that of RAMP."""
     rig, friction, load = parameters.rig, parameters.friction, parameters.rig.mass * GRAVITY
+    stiffness, speed = 4.0 * parameters.springs.stiffness, abs(parameters.surface.speed)
+    limits = max(friction.mu_s, friction.mu_k) * load, friction.mu_k * load
     return BeltStart(
-        CoulombOscillator(
-            rig.mass,
-            4.0 * parameters.springs.stiffness,
-            abs(parameters.surface.speed),
-            max(friction.mu_s, friction.mu_k) * load,
-            friction.mu_k * load,
-        ),
+        CoulombOscillator(rig.mass, stiffness, speed, *limits),
         parameters.structural_damping.coefficient,
         other_starts(parameters)[RAMP].surface.run_up_time,
     )
@@ -279,18 +273,17 @@ def as_json(
         and {
             "ratios": regimes.ratios.tolist(),
             "speeds": regimes.speeds.tolist(),
-            "simulated": dict(zip(MAPPED, regimes.simulated.tolist(), strict=True)),
-            "closed_form": None
-            if regimes.closed_form is None
-            else dict(zip(MAPPED, regimes.closed_form.tolist(), strict=True)),
+            "simulated": _by_start(regimes.simulated),
+            "closed_form": None if regimes.closed_form is None else _by_start(regimes.closed_form),
             "cells_that_differ": regimes.wrong,
             "fastest_from_rest": regimes.fastest_from_rest,
-            "closed_form_borders": {
-                start: points.tolist()
-                for start, points in zip(MAPPED, regimes.borders, strict=False)
-            },
+            "closed_form_borders": _by_start(regimes.borders),
         },
     }
+
+
+def _by_start(tables: Iterable[np.ndarray]) -> dict[str, Any]:
+    return {start: table.tolist() for start, table in zip(MAPPED, tables, strict=False)}
 
 
 def page(numbers: dict[str, Any], sentences: Sequence[str], pictures: Sequence[Picture]) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import groupby, pairwise
 from typing import Any
 
 from stickslip.steady_motion import numbers as rig
@@ -39,17 +40,13 @@ def stick_slip_range(
     number = known[NUMBERS[word]]
     starts = other_starts(case.parameters)
     windows = {}
-    tried = (RAMP,) if number.key == rig.RAMP else MAPPED
-    for start in tried:
+    for start in (RAMP,) if number.key == rig.RAMP else MAPPED:
         parameters = disturbed(starts[start])
         duration = run_length(parameters)
         borders = all_borders(parameters, number, duration, case.interface, look)
         steady = duration - parameters.surface.run_up_time
-        lowest = (
-            borders[0].below
-            if borders
-            else follower(parameters, number, steady, case.interface)(number.value)
-        )
+        does = follower(parameters, number, steady, case.interface)
+        lowest = borders[0].below if borders else does(number.value)
         windows[start] = _windows(lowest[0], [(one.value, one.above[0]) for one in borders])
     own = number.value - number.least or number.first
     return {
@@ -66,16 +63,14 @@ def _windows(
     lowest: str, borders: list[tuple[float, str]]
 ) -> list[tuple[float | None, float | None]]:
     """Where the block sticks and slips: by its regime at the least value and above each border."""
-    windows: list[tuple[float | None, float | None]] = []
-    begin: float | None = None
-    sticks = lowest == STICK_SLIP
-    for value, name in borders:
-        if sticks and name != STICK_SLIP:
-            windows.append((begin, value))
-        elif not sticks and name == STICK_SLIP:
-            begin = value
-        sticks = name == STICK_SLIP
-    return [*windows, (begin, None)] if sticks else windows
+    names = [lowest, *(name for _, name in borders)]
+    between = zip(names, pairwise([None, *(value for value, _ in borders), None]), strict=True)
+    windows = []
+    for sticks, neighbours in groupby(between, key=lambda one: one[0] == STICK_SLIP):
+        ends = [end for _, pair in neighbours for end in pair]
+        if sticks:
+            windows.append((ends[0], ends[-1]))
+    return windows
 
 
 def range_sentence(found: dict[str, Any]) -> str:

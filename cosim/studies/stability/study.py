@@ -65,10 +65,10 @@ class Stability(Result):
 
         The first only of a rig that can leave its line. done: called with 1 after each cell.
         """
-        parameters = self.case.parameters
-        speeds = abs(parameters.surface.speed) * np.linspace(*SPEEDS, grid)
-        if parameters.rig.degrees_of_freedom != ("x",):
-            stretched = parameters.rig.spring_length * np.linspace(*PRETENSIONS, grid)
+        rig, surface = self.case.parameters.rig, self.case.parameters.surface
+        speeds = abs(surface.speed) * np.linspace(*SPEEDS, grid)
+        if rig.degrees_of_freedom != ("x",):
+            stretched = rig.spring_length * np.linspace(*PRETENSIONS, grid)
             self.pretension = pretension_map(self.case, stretched, speeds, done)
         self.regimes = regime_map(self.case, np.linspace(*RATIOS, grid), speeds, done)
 
@@ -90,12 +90,8 @@ class Stability(Result):
         """Of the maps."""
         from .figures import draw_pretension_map, draw_regime_map
 
-        drawn = []
-        if self.pretension is not None:
-            drawn.append(draw_pretension_map(self.pretension, self.case))
-        if self.regimes is not None:
-            drawn.append(draw_regime_map(self.regimes, self.case))
-        return drawn
+        maps = ((draw_pretension_map, self.pretension), (draw_regime_map, self.regimes))
+        return [draw(found, self.case) for draw, found in maps if found is not None]
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
         return self.sentences[0], tiles(self.summary())

@@ -13,7 +13,15 @@ from stickslip.reference.scheme_errors import DESCRIPTIONS
 from cosim.cli import main
 from cosim.cli.studies import reproduce as reproduction_command
 from cosim.report.files import json_text
-from cosim.studies.reproduction import Check, Claim, Row, UnknownClaim, claim_ids, reproduce
+from cosim.studies.reproduction import (
+    Check,
+    Claim,
+    Reproduction,
+    Row,
+    UnknownClaim,
+    claim_ids,
+    reproduce,
+)
 from cosim.studies.reproduction.claim import (
     CANNOT_BE_CHECKED,
     DOES_NOT_HOLD,
@@ -26,12 +34,12 @@ from cosim.studies.reproduction.claim import (
     WRITTEN,
     Margin,
     Turn,
+    judged,
     judges,
     responsible,
     responsible_pairs,
 )
 from cosim.studies.reproduction.motion import Motion, figures
-from cosim.studies.reproduction.result import as_data, page
 
 
 def claim_of(*checks: Check) -> Claim:
@@ -113,7 +121,7 @@ def test_numbers_are_judged_by_the_written_limit(monkeypatch, size):
         claim.turn("wider", 2.0 * size)
         return {"n": 7}
 
-    claim = JUDGES["C0"]()
+    claim = judged("C0")
     check, row = claim.checks[0], claim.rows[0]
     assert (check.printed, check.mended, check.exact) == (None, False, size <= 2.0)
     assert check.margin == Margin("size", size, 2.0)
@@ -130,17 +138,23 @@ def test_figures_of_a_known_motion():
     phases = np.array([[0.0, 1.0, 0.0], [1.0, 4.0, 1.0], [4.0, 5.0, 0.0], [5.0, 10.0, 1.0]])
     motion = Motion(time, x, 0.001 + 0 * x, phi, 0 * x, (time > 1.0).astype(float), phases)
     for between_rows in (False, True):
-        ours = figures(motion, between_rows)
-        assert ours.oscillations == pytest.approx(34.0, abs=1e-2)
-        assert ours.mean_x == pytest.approx(0.02, abs=1e-5)
-    assert ours.half_range_x == pytest.approx(0.01, abs=1e-8)
-    assert ours.slip_share == pytest.approx(0.8)
-    assert (ours.slip_time, ours.stick_time) == pytest.approx((3.0, 1.0))
-    assert ours.max_rotation == pytest.approx(20.0, rel=1e-6)
-    assert ours.mean_y == pytest.approx(0.001)
-    assert ours.swing_rate == pytest.approx(40.0, rel=1e-3)
-    assert figures(motion.between(4.5)).slip_share == pytest.approx(5.0 / 5.5)
-    assert math.isnan(figures(motion, visible=0.1).oscillations)
+        ours = figures(motion, between_rows=between_rows)
+        assert ours["oscillations"] == pytest.approx(34.0, abs=1e-2)
+        assert ours["mean_x"] == pytest.approx(0.02, abs=1e-5)
+    assert ours["amplitude_x"] == pytest.approx(0.01, abs=1e-8)
+    assert ours["slip_share"] == pytest.approx(0.8)
+    assert (ours["slip_duration"], ours["stick_duration"]) == pytest.approx((3.0, 1.0))
+    assert ours["max_rotation"] == pytest.approx(20.0, rel=1e-6)
+    assert ours["mean_y"] == pytest.approx(0.001)
+    assert ours["swing_rate"] == pytest.approx(40.0, rel=1e-3)
+    assert figures(motion.between(4.5))["slip_share"] == pytest.approx(5.0 / 5.5)
+    unseen = figures(motion, visible=0.1)
+    assert math.isnan(unseen["oscillations"])
+    # of several the mean of those that have it
+    assert figures(motion, motion.between(4.5))["slip_share"] == pytest.approx(
+        0.5 * (0.8 + 5 / 5.5)
+    )
+    assert figures(motion, motion.between(6.0))["stick_duration"] == pytest.approx(1.0)
 
 
 def test_ids():
@@ -150,14 +164,14 @@ def test_ids():
 
 
 @pytest.fixture(scope="module")
-def quick() -> list[Claim]:
+def quick() -> Reproduction:
     """Claims that take less than a second together."""
     return reproduce(["C1", "C2", "C3"])
 
 
 def test_json(quick):
     scoped = replace(claim_of(Check("good", True, True, True)), scope="up to 0.44 m/s")
-    data = json.loads(json_text(as_data([*quick, scoped], 1.5)))
+    data = json.loads(json_text(Reproduction([*quick, scoped]).summary()))
     assert [one["id"] for one in data["claims"]] == ["C1", "C2", "C3", "C0"]
     numbers = data["claims"][0]["numbers"][0]
     assert set(numbers) == {
@@ -178,12 +192,12 @@ def test_json(quick):
 
 
 def test_page(quick):
-    html = page(quick, DESCRIPTIONS)
+    html = quick._page()
     first_table = html[html.index("<tbody>") : html.index("</tbody>")]
     assert first_table.count("<tr>") == 3
     assert "http" not in html  # needs nothing but itself
     assert html.count('class="verdict holds"') >= 6
-    assert "&lt;" not in page([claim_of()], {})
+    assert "&lt;" not in Reproduction([claim_of()])._page()
     # a fault is explained before it is named in a verdict, and what is read before its numbers
     assert html.index(DESCRIPTIONS["F1"].split(",")[0]) < html.index("Referee")
     drift = html[html.index('<h2 id="C2"') :]

@@ -58,7 +58,7 @@ def test_a_known_number_is_spread_as_it_is_known():
     span = Span("a.b", 0.15, 0.45, prior=(0.3, 0.05))
     drawn = np.array([span.at(share) for share in np.linspace(0.0005, 0.9995, 1000)])
     assert drawn.std() == pytest.approx(0.05, rel=0.02)  # cut at three standard deviations
-    assert span.surprise(0.4) == pytest.approx(4.0)
+    assert Candidate((), "", (span,)).surprise({"a.b": 0.4}) == pytest.approx(4.0)
 
 
 def test_every_effect_of_the_catalogue_is_tried_or_left_out_for_a_reason():
@@ -83,7 +83,7 @@ def drawn(target: Target, *rows: list[float]) -> Draws:
     for place, row in enumerate(rows):
         shown[place, : len(row), 0] = row
     none = np.zeros(len(rows))
-    return Draws(Candidate((), "", ()), target, none[:, None], none, none, shown)
+    return Draws(Candidate((), "", ()), target, none[:, None], none, shown)
 
 
 def test_misfit_is_of_distance_and_of_scatter():

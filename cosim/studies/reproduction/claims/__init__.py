@@ -4,6 +4,5 @@ from . import belt_length as belt_length
 from . import friction_laws as friction_laws
 from . import friction_level as friction_level
 from . import rotation as rotation
-from . import runs as runs
+from . import scheme as scheme
 from . import trends as trends
-from . import verification as verification

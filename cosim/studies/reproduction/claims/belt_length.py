@@ -15,7 +15,8 @@ from ..claim import STUDY, Claim, judges
 from ..drawing import Panel, add_picture, by_model
 
 #: Lengths of belt, m, and the temperature after one pass that the study prints of each, degC.
-TABLE = {float(length): STUDY[f"belt_{length}"].number for length in (1, 2, 3, 4)}
+TABLE: dict[float, float] = {float(one): STUDY[f"belt_{one}"].value for one in (1, 2, 3, 4)}
+AMBIENT = PRINTED.ambient_degC
 RUN, RAMP, SPEED = 20.0, 10.0, 0.82  # s at constant speed; s of speed ramp, §3.4.3; m/s
 # a rise is the table's where it is no further off than by a half
 AS_TOLD = 1.5
@@ -48,45 +49,41 @@ def finite_elements(length: float, **of_case: float) -> tuple[float, float]:
     return end.entry, end.belt_share_so_far
 
 
-def all_mended(length: float) -> float:
-    """Rise after a run by the study's kind of check without its faults, K.
+def rises(length: float) -> tuple[float, float, float]:
+    """Rise of the belt after a run, K: as printed, by the same check mended, by finite elements.
 
-    Every pass counts; the belt takes its share of the heat, on the belt that passes, and cools at
-    the rate that a heat transfer on both faces gives it.
+    Mended, every pass counts; the belt takes its share of the heat, on the belt that passes, and
+    cools at the rate that a heat transfer on both faces gives it.
     """
-    check, share = belt_case(length).single_pass(), finite_elements(length)[1]
+    check, (rise, share) = belt_case(length).single_pass(), finite_elements(length)
     mended = replace(check, friction_force=share * check.friction_force)
-    return repeated(mended, length) - check.ambient_degC
+    printed = PRINTED.temperature_degC(length) - AMBIENT
+    return printed, repeated(mended, length) - check.ambient_degC, rise
 
 
 @judges("C13")
 def judge_length(claim: Claim) -> dict[str, float]:
     """Whether the rise on a belt of 1 m goes unseen."""
-    ambient = PRINTED.ambient_degC
-    told = [round(printed - ambient, 4) for printed in TABLE.values()]
-    rises = [
-        (PRINTED.temperature_degC(one) - ambient, all_mended(one), finite_elements(one)[0])
-        for one in TABLE
-    ]
-    for length, derived, ours in zip(TABLE, told, rises, strict=True):
-        claim.row("rise", ours, derived=derived, length=length)
+    told = [round(printed - AMBIENT, 4) for printed in TABLE.values()]
+    found = [rises(length) for length in TABLE]
+    claim.row_each("rise", np.transpose(found), derived=told, length=[*TABLE])
     claim.row("camera")
     # the scheme as printed is the table
-    claim.check("table", (None, *rises[0][1:]), limit=AS_TOLD * told[0], table=told[0])
+    claim.check("table", (None, *found[0][1:]), limit=AS_TOLD * told[0], table=told[0])
     # 1 m of belt in other air, after a speed ramp, at the slowest speed
     others = {name: finite_elements(1.0, **run)[0] for name, run in claim.changes("run").items()}
     for name, rise in others.items():
         claim.turn(name, rise)
-    claim.check("camera", rises[0], limit=SENSITIVITY)
+    claim.check("camera", found[0], limit=SENSITIVITY)
     for name, limit in claim.changes("limit").items():
-        claim.turn(name, rises[0][2], sound=rises[0][2] < limit)
+        claim.turn(name, found[0][2], sound=found[0][2] < limit)
     for name, rise in others.items():
         claim.turn(name, rise)
-    curves = by_model(list(TABLE), np.transpose(rises))
+    curves = by_model(list(TABLE), np.transpose(found))
     add_picture(claim, "C13_belt", [[Panel(curves, levels={"camera's sensitivity": SENSITIVITY})]])
     return {
         "passes": math.floor(RUN * SPEED),
-        "repeated": repeated(FROM_FACTORS, 1.0) - ambient,
+        "repeated": repeated(FROM_FACTORS, 1.0) - AMBIENT,
         "faster": PRINTED.cooling_rate / belt_case(1.0).single_pass().cooling_rate,
         "ramped": finite_elements(1.0, ramp=RAMP)[0],
     }
@@ -96,12 +93,12 @@ def judge_length(claim: Claim) -> dict[str, float]:
 def judge_table(claim: Claim) -> dict[str, str]:
     """The printed table, from the printed force, from its factors, and accumulated."""
     checks = PRINTED, FROM_FACTORS
-    found = np.array([[check.temperature_degC(length) for check in checks] for length in TABLE])
-    for length, ours in zip(TABLE, found, strict=True):
-        claim.row("temperature", ours, study=f"belt_{length:.0f}", length=length)
-    off = np.abs(found.T - list(TABLE.values())).max(axis=1)
-    claim.row("force", [PRINTED.friction_force, FROM_FACTORS.friction_force])
-    claim.row("rise", [PRINTED.rise, FROM_FACTORS.rise])
+    found = np.array([[check.temperature_degC(length) for length in TABLE] for check in checks])
+    names = [f"belt_{length:.0f}" for length in TABLE]
+    claim.row_each("temperature", found, study=names, length=[*TABLE])
+    off = np.abs(found - list(TABLE.values())).max(axis=1)
+    claim.row("force", [check.friction_force for check in checks])
+    claim.row("rise", [check.rise for check in checks])
     claim.check("table", off, faults=("F11",))
     claim.turn("misprint", off[0])
     accumulated = [f"{length:.0f} m {repeated(FROM_FACTORS, length):.4f}" for length in TABLE]

@@ -17,8 +17,8 @@ from .. import cases
 from ..cases import DATASET_1, DATASET_2, GUIDED, SPEEDS, STIFFNESSES, WEAKENING, Case
 from ..claim import FAR, OPEN, STUDY, Claim, judges
 from ..drawing import LABELS, Panel, add_picture, models_over_time
-from ..motion import Motion
-from ..readings import Reading, standing, steady_figures
+from ..motion import WINDOW, figures
+from ..readings import Reading, standing, steady
 from .belt_length import belt_case
 
 Array = np.ndarray
@@ -37,9 +37,12 @@ MELTED = 0.5  # part of the dry value below which friction is that of melting
 
 def _face_degC(case: Case) -> float:
     """Of the ice after a run of 30 s, all friction heat at the contact; finite elements."""
-    protocol = Protocol(ramp=0.0, run=cases.SETTLING + cases.WINDOW)
-    belt = replace(belt_case(1.0, speed=case.speed), mass=case.mass, friction=case.mu_k)
-    belt = replace(belt, protocol=protocol)
+    belt = replace(
+        belt_case(1.0, speed=case.speed),
+        mass=case.mass,
+        friction=case.mu_k,
+        protocol=Protocol(ramp=0.0, run=cases.SETTLING + WINDOW),
+    )
     return belt.ambient_degC + belt.follow(belt.sliding())[1].ice_face
 
 
@@ -47,17 +50,17 @@ def _face_degC(case: Case) -> float:
 def judge_dry_friction(claim: Claim) -> dict[str, float]:
     """No melting of the face by finite elements; sticking of a block whose asperities melt."""
     melting = cases.exact_figures(DATASET_1, **MELTING)
-    share, part = melting.slip_share, melting.mean_friction / (DRY * DATASET_1.weight)
+    share, part = melting["slip_share"], melting["friction"] / (DRY * DATASET_1.weight)
     claim.row_each("dry", cases.tabulated("slip_share", [DATASET_1], cases.SEEDS))
     claim.row("melting", [None, None, share])
     claim.row("friction", [None, None, part])
-    faces = [_face_degC(case) for case in DATASET_1.over("speed", (SPEEDS[0], SPEEDS[-1]))]
-    for speed, face in zip((SPEEDS[0], SPEEDS[-1]), faces, strict=True):
+    faces = {v: _face_degC(DATASET_1.changed(speed=v)) for v in (SPEEDS[0], SPEEDS[-1])}
+    for speed, face in faces.items():
         claim.row("face", [None, None, face], v=speed)
-    claim.check("face", [None, None, max(faces)])
-    claim.check("contact", answers=[None, None, not (share < 1.0 and part < MELTED)], margin=share)
+    claim.check("face", [None, None, max(faces.values())])
+    claim.check("contact", [None, None, not (share < 1.0 and part < MELTED)], margin=share)
     for case in DATASET_1.over("speed", SPEEDS[1:3]):
-        faster = cases.exact_figures(case, **MELTING).slip_share
+        faster = cases.exact_figures(case, **MELTING)["slip_share"]
         claim.turn("speed", faster, sound=faster == 1.0, v=case.speed)
     return {"sticks": 100.0 * (1.0 - share), "part": 100.0 * part}
 
@@ -66,14 +69,14 @@ def judge_dry_friction(claim: Claim) -> dict[str, float]:
 def judge_falling_friction(claim: Claim) -> dict[str, float]:
     """Mean slip times of the two approaches to friction, in three models."""
     both = DATASET_1.over("weakening", (0.0, WEAKENING))
-    before, after = cases.tabulated("slip_time", both, cases.SEEDS).T
+    before, after = cases.tabulated("slip_duration", both, cases.SEEDS).T
     claim.row("steady", before)
     claim.row("falling", after)
     claim.check("longer", after / before)
     for name, numbers in claim.changes("case").items():
         falling = DATASET_1.changed(**numbers)
         both = falling.over("weakening", (0.0, falling.weakening))
-        pair = cases.exact_table("slip_time", both, rig=GUIDED)
+        pair = cases.exact_table("slip_duration", both, rig=GUIDED)
         claim.turn(name, pair[1] / pair[0], times=pair)
     return {}
 
@@ -92,42 +95,27 @@ SERIES = [
 ]
 
 
-def hold(motion: Motion) -> float:
-    """Median duration of a stick, s."""
-    sticks = motion.phases[motion.phases[:, 2] == 0]
-    lengths = sticks[:, 1] - sticks[:, 0]
-    return float(np.median(lengths[lengths > 0.0]))  # the scheme has sticks that end as they begin
-
-
-def _holds(case: Case) -> list[float]:
-    """As printed, mended, exact, s."""
-    printed, mended, exact = cases.three_motions(case, rig=GUIDED)
-    steady = printed.last(cases.STEADY), mended.last(cases.STEADY), exact.between(cases.SETTLING)
-    return [hold(motion) for motion in steady]
-
-
 @judges("C18")
 def judge_strengthening(claim: Claim) -> dict[str, float]:
     """Hold times of the series against the threshold, and what they would make of mu_s."""
     needed = THRESHOLD / SPEEDS[0]
-    times = np.array([_holds(case) for case in SERIES])
-    factors = times.max(axis=0) / times.min(axis=0)
+    times = cases.tabulated("hold", SERIES)
+    factors = times.max(axis=1) / times.min(axis=1)
     spreads = GROWTH * np.log10(factors)
     claim.row("needed", derived=1e4 * needed)
-    claim.row_each("hold", times.T, of=SERIES)
+    claim.row_each("hold", times, of=SERIES)
     claim.row("spread", spreads)
-    claim.check("holds", times[0], limit=needed)
-    claim.turn("measured", sound=times[0, 2] > 0.3, hold=times[0, 2])
+    claim.check("holds", times[:, 0], limit=needed)
+    claim.turn("measured", sound=times[2, 0] > 0.3, hold=times[2, 0])
     claim.check("contains", spreads, limit=CONTAINED * DATASET_1.mu_s)
     claim.turn("weaker", (GROWTH - UNCERTAIN) * np.log10(factors[2]))
     return {"factor": factors[2], "spread": spreads[2]}
 
 
 RATIOS = (0.5, 0.77, 1.0)
-COEFFICIENTS = [ratio * DATASET_2.mu_s for ratio in RATIOS]
-RATIO_CASES = DATASET_2.over("mu_k", COEFFICIENTS)
-COUNTED = STUDY["oscillations_at_1"].number
-MEASURED = STUDY["oscillations_measured"].number
+RATIO_CASES = DATASET_2.over("mu_k", [ratio * DATASET_2.mu_s for ratio in RATIOS])
+COUNTED = STUDY["oscillations_at_1"].value
+MEASURED = STUDY["oscillations_measured"].value
 # "one or two more" and "29" are counts: half an oscillation either way rounds to them
 MORE = (0.5, 2.5)
 NEAR = 1.0
@@ -147,7 +135,7 @@ def _counts_more(counts: Array) -> Array:
 
 
 def _counts_29(counts: Array) -> Array:
-    return np.abs(counts[..., 2] - COUNTED) <= NEAR
+    return np.asarray(np.abs(counts[..., 2] - COUNTED) <= NEAR)
 
 
 @judges("C11")
@@ -155,35 +143,34 @@ def judge_ratio(claim: Claim) -> dict[str, Any]:
     """Oscillations in 20 s by model, for mu_k/mu_s of 0.5, 0.77 and 1.0."""
     counts, ranges = (
         cases.tabulated(figure, RATIO_CASES, cases.SEEDS, rig={})
-        for figure in ("oscillations", "half_range_x")
+        for figure in ("oscillations", "amplitude_x")
     )
     for ratio, ours in zip(RATIOS, counts.T, strict=True):
         claim.row(f"count_{ratio:g}", ours)
     claim.row_each("half_range", ranges, ratio=RATIOS)
-    claim.check("more", answers=_counts_more(counts), margin=gaps(counts[2]).min())
+    claim.check("more", _counts_more(counts), margin=gaps(counts[2]).min())
     _turn_ratio(claim, _counts_more)
     claim.check("one", np.abs(counts[:, 2] - COUNTED))
     _turn_ratio(claim, _counts_29)
     lines = [models_over_time(cases.three_motions(case), "x", 100.0, 0.4) for case in RATIO_CASES]
-    titles = [f"µ_k/µ_s = {ratio:g}" for ratio in RATIOS]
-    rows = [[Panel(*pair, end=12.0)] for pair in zip(lines, titles, strict=True)]
-    add_picture(claim, "C11_ratio", rows)
+    pairs = zip(lines, RATIOS, strict=True)
+    panels = [[Panel(line, f"µ_k/µ_s = {ratio:g}", end=12.0)] for line, ratio in pairs]
+    add_picture(claim, "C11_ratio", panels)
     near, at = np.unravel_index(np.abs(counts - MEASURED).argmin(), counts.shape)
     nearest = f"{LABELS[near]} at {RATIOS[at]:g} with {counts[near, at]:.1f}"
     return {"more": gaps(_mended("F1")), "nearest": nearest}
 
 
 def _mended(fault: str) -> Array:
-    faults = PRINTED.without(fault)
-    return np.array([cases.scheme_figures(case, faults).oscillations for case in RATIO_CASES])
+    return cases.scheme_table("oscillations", RATIO_CASES, PRINTED.without(fault))
 
 
 @cache
 def _singles(reading: Reading) -> Array:
     """(3, runs): counts of single runs of each ratio, which draw their own scatter."""
     counts = [
-        steady_figures(reading.motion(2, seed, mu_k=mu_k)).oscillations
-        for mu_k, seed in product(COEFFICIENTS, SINGLE_RUNS)
+        figures(steady(reading.motion(2, seed, mu_k=case.mu_k)))["oscillations"]
+        for case, seed in product(RATIO_CASES, SINGLE_RUNS)
     ]
     return np.reshape(counts, (len(RATIOS), -1))
 

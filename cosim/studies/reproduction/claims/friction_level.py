@@ -19,9 +19,10 @@ from cosim.report.palette import LIGHT_GREY
 from cosim.report.style import panels
 
 from .. import cases
+from ..cases import DATASET_1, DATASET_2, DATASETS, Case
 from ..claim import MODELS, STUDY, WRITTEN, Claim, judges, responsible
 from ..drawing import COLOURS, Panel, add_picture, over_time
-from ..motion import Motion, MotionFigures
+from ..motion import Motion
 
 Array = np.ndarray
 
@@ -33,16 +34,15 @@ CLOSE = 0.003  # m: what the curves that were laid one over the other may be off
 #: Figures of the experiment, in the order of every array here; where the study prints no number,
 #: value says what counts as it.
 OBSERVATIONS = WRITTEN["C6"]["observation"]
-OBSERVED = np.array([one.get("value") or STUDY[one["study"]].number for one in OBSERVATIONS])
+OBSERVED = np.array([one.get("value") or STUDY[one["study"]].value for one in OBSERVATIONS])
 SPREADS = np.array([one["spread"] for one in OBSERVATIONS])
 ROTATION, MEAN_X = 3, 1
 
 
-def observed(of: Callable[[float], MotionFigures]) -> Array:
+def observed(of: Callable[[float], dict[str, float]]) -> Array:
     """(5,) what a model shows of the observations; of: its figures, for a stiffness in N/m."""
-    here = of(cases.DATASET_1.stiffness)
-    stiffer = of(Y_STIFFNESS)
-    return np.array([*(getattr(here, one["figure"]) for one in OBSERVATIONS[:-1]), stiffer.mean_y])
+    here, stiffer = of(DATASET_1.stiffness), of(Y_STIFFNESS)
+    return np.array([*(here[one["figure"]] for one in OBSERVATIONS[:-1]), stiffer["mean_y"]])
 
 
 def distances(values: Array) -> Array:
@@ -58,12 +58,12 @@ def misfit(values: Array, weights: Array | float = 1.0) -> float:
     return float(np.sqrt(np.sum((weights * distances(values)) ** 2) / np.sum(weights > 0.0)))
 
 
-def of_scheme(case: cases.Case, faults: Faults) -> Array:
+def of_scheme(case: Case, faults: Faults) -> Array:
     """The study's scheme."""
     return observed(lambda k: cases.scheme_figures(case.changed(stiffness=k), faults))
 
 
-def of_exact(case: cases.Case, pretension: float = cases.PRETENSION) -> Array:
+def of_exact(case: Case, pretension: float) -> Array:
     """The exact model."""
     return observed(lambda k: cases.exact_figures(case.changed(stiffness=k), pretension=pretension))
 
@@ -73,35 +73,36 @@ def variants() -> dict[str, tuple[str, Array]]:
     """Everything that is laid beside the measurements: key -> name, what it shows."""
     found = {}
     for key, one in WRITTEN["C6"]["variant"].items():
-        case, pretension = cases.DATASETS[one["dataset"]], one.get("pretension")
+        case, mended, pretension = (
+            DATASETS[one["dataset"]],
+            one.get("mended"),
+            one.get("pretension"),
+        )
         if pretension == "fitted":
-            pretension = _fitted(case)
-        if pretension is None:
-            mended = one["mended"]
-            values = of_scheme(case, MENDED if mended == "all" else PRINTED.without(*mended))
-        else:
+            pretension = min(PRETENSIONS, key=lambda m: misfit(of_exact(case, m)))
+        if mended is None:
             values = of_exact(case, pretension)
-        name: str = one["name"].format(mm=1e3 * (pretension or 0.0))
-        found[key] = name, values
+        else:
+            values = of_scheme(case, MENDED if mended == "all" else PRINTED.without(*mended))
+        found[key] = str(one["name"]).format(mm=1e3 * (pretension or 0.0)), values
     return found
-
-
-def _fitted(case: cases.Case) -> float:
-    """The pretension of `PRETENSIONS` with which the exact model fits best, m."""
-    return min(PRETENSIONS, key=lambda pretension: misfit(of_exact(case, pretension)))
 
 
 def needed_friction(mean_x: float) -> float:
     """Mean friction by weight of a steady motion: over whole cycles it is the mean spring force."""
-    return 4.0 * cases.DATASET_1.stiffness * mean_x / cases.DATASET_1.weight
+    return 4.0 * DATASET_1.stiffness * mean_x / DATASET_1.weight
+
+
+def _quarter_wins(faults: Faults) -> bool:
+    """Whether the study's dataset #2 fits better than all of mu does under these faults."""
+    return misfit(of_scheme(DATASET_2, PRINTED)) < misfit(of_scheme(DATASET_1, faults))
 
 
 @judges("C6")
 def judge(claim: Claim) -> dict[str, Any]:
     """All observations against every variant; the claim holds where a quarter of mu fits better."""
     of = {key: values for key, (_, values) in variants().items()}
-    full = np.array([of[f"{model}_full"] for model in MODELS])
-    cut = np.array([of[f"{model}_cut"] for model in MODELS])
+    full, cut = (np.array([of[f"{model}_{mu}"] for model in MODELS]) for mu in ("full", "cut"))
     for one, ours in zip(OBSERVATIONS, full.T, strict=True):
         claim.row(one["figure"], ours, study=one["study"], derived=one.get("value"))
     with_full, with_cut = ([misfit(values) for values in models] for models in (full, cut))
@@ -118,27 +119,19 @@ def judge(claim: Claim) -> dict[str, Any]:
             claim.turn(name, fits[1] / fits[0], fits=fits, says=one["name"])
     fits = [misfit(of[key]) for key in ("exact_fitted", "exact_fitted_cut")]
     claim.turn("fitted", fits[1] / fits[0], fits=fits)
-    low, high = (needed_friction(OBSERVED[MEAN_X] + side * CLOSE) for side in (-1.0, 1.0))
     near = np.abs(cut[:, MEAN_X] - OBSERVED[MEAN_X]) <= CLOSE
-    claim.check("balance", answers=near, margin=takes / cases.DATASET_2.mu_s)
-    claim.turn("other_mean", sound=low <= cases.DATASET_2.mu_s, low=low, high=high)
+    claim.check("balance", near, margin=takes / DATASET_2.mu_s)
+    low, high = (needed_friction(OBSERVED[MEAN_X] + side * CLOSE) for side in (-1.0, 1.0))
+    claim.turn("other_mean", sound=low <= DATASET_2.mu_s, low=low, high=high)
     mean = of["exact_fitted_cut"][MEAN_X]
     sound = abs(mean - OBSERVED[MEAN_X]) <= CLOSE
     claim.turn("other_pretension", 1e3 * mean, sound=sound, instead=1e3 * cut[2, MEAN_X])
     add_picture(claim, "C6_observations", draw=_draw_observations)
-    printed, *mended = (
-        _in_motion(f"{model}_full", run)
-        for model, run in zip(MODELS, cases.three_motions(cases.DATASET_1), strict=True)
-    )
-    cut_run = cases.scheme_motion(cases.DATASET_2, PRINTED)
-    panels = [[printed, _in_motion("printed_cut", cut_run)], mended]
-    add_picture(claim, "C6_displacements", panels)
+    runs = dict(zip(MODELS, cases.three_motions(DATASET_1), strict=True))
+    printed, *mended = (_in_motion(f"{model}_full", run) for model, run in runs.items())
+    other = _in_motion("printed_cut", cases.scheme_motion(DATASET_2, PRINTED))
+    add_picture(claim, "C6_displacements", [[printed, other], mended])
     return {"faults": ", ".join(faults) or "none"} | _remarked(of)
-
-
-def _quarter_wins(faults: Faults) -> bool:
-    """Whether the study's dataset #2 fits better than all of mu does under these faults."""
-    return misfit(of_scheme(cases.DATASET_2, PRINTED)) < misfit(of_scheme(cases.DATASET_1, faults))
 
 
 def _remarked(of: dict[str, Array]) -> dict[str, Any]:
@@ -160,14 +153,18 @@ def _remarked(of: dict[str, Array]) -> dict[str, Any]:
     }
 
 
+def _colour(key: str) -> str:
+    """Of a variant: that of its model."""
+    return COLOURS[MODELS.index(key.partition("_")[0])]
+
+
 def _draw_observations(_rows: object, _written: object) -> Figure:
     figure, axes = panels(1, len(OBSERVATIONS), height=3.9, width=10.0, sharey=True)
     names = [name for name, _ in variants().values()]
     for i, (ax, one) in enumerate(zip(axes[0], OBSERVATIONS, strict=True)):
         ax.axvspan(OBSERVED[i] - SPREADS[i], OBSERVED[i] + SPREADS[i], color=LIGHT_GREY)
         for place, (key, (_, values)) in enumerate(variants().items()):
-            model = key.partition("_")[0]
-            ax.plot(values[i], place, "o", color=COLOURS[MODELS.index(model)])
+            ax.plot(values[i], place, "o", color=_colour(key))
         ax.set_title(one["title"], fontsize=8.5)
         ax.locator_params(axis="x", nbins=4)
     axes[0, 0].set_yticks(range(len(names)), names)
@@ -177,6 +174,6 @@ def _draw_observations(_rows: object, _written: object) -> Figure:
 
 def _in_motion(key: str, motion: Motion) -> Panel:
     """x of a variant over 10 s, steady."""
-    begin, colour = 0.4 * motion.time[-1], COLOURS[MODELS.index(key.partition("_")[0])]
-    line = over_time(motion, "x", 100.0, begin, begin + 10.0, color=colour)
+    begin = 0.4 * motion.time[-1]
+    line = over_time(motion, "x", 100.0, begin, begin + 10.0, color=_colour(key))
     return Panel([line], variants()[key][0], {"measured mean": 100.0 * OBSERVED[MEAN_X]})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,6 @@ from .. import cases
 from ..cases import CASE, GUIDED, MASSES, SPEEDS, STIFFNESSES, Case
 from ..claim import Claim, judges
 from ..drawing import Curve, Panel, add_picture, by_model, over_mass
-from ..motion import MotionFigures
 
 Array = np.ndarray
 
@@ -32,11 +32,19 @@ FINE_SPEEDS = np.array(
 # a growth by as much over all speeds: equal slip times have ranks too
 GROWTH = 0.01
 ALL_STIFFNESSES = (*STIFFNESSES, cases.EXTRA_STIFFNESS)
-ENDS = (ALL_STIFFNESSES[0], ALL_STIFFNESSES[-1])
 # the free block turns by chance: three masses of the seven say enough, and cost less
 FREE_MASSES = (MASSES[0], MASSES[3], MASSES[-1])
-#: Pretension, m, and slope of the friction law, which are left open and say how far it turns.
-FREE = ((cases.PRETENSION, 0.4), (0.0, 0.4), (0.0, 0.2), (0.0, 0.6))
+#: What is left open, of the guided block the slope of the friction law, of the free one its
+#: pretension (m), too, which says how far it turns: name of the change, slope, masses, model.
+VARIED: list[tuple[str, float, Sequence[float], dict[str, Any]]] = [
+    *(("slope", part, MASSES[:1], {"rig": GUIDED}) for part in (0.2, 0.6)),
+    *(
+        ("free", part, FREE_MASSES, {"pretension": loose})
+        for loose, part in ((cases.PRETENSION, 0.4), (0.0, 0.4), (0.0, 0.2), (0.0, 0.6))
+    ),
+]
+#: The series' case with a constant mu_k.
+CONSTANT = CASE.changed(weakening=0.0)
 
 
 def straightness(x: Array, y: Array) -> float:
@@ -76,33 +84,9 @@ def judge_mean(claim: Claim) -> dict[str, float]:
     return {"r2": r2[0]}
 
 
-@judges("C9")
-def judge_slip_time(claim: Claim) -> dict[str, Any]:
-    """Slip times over the study's range of speeds, at m 0.67 kg and k 20.17 N/m."""
-    times = cases.tabulated("slip_time", CASE.over("speed", FINE_SPEEDS))
-    ranks = [_rank(of_model) for of_model in times]
-    claim.row("rank", ranks)
-    told = np.isin(FINE_SPEEDS, (0.01, 0.15, 0.37, 0.82))
-    claim.row_each("time", times[:, told], v=FINE_SPEEDS[told])
-    claim.check("grows", ranks, answers=[_grows(of_model) for of_model in times])
-    constant = CASE.changed(weakening=0.0)
-    for name, case in (("constant", constant), ("no_step", constant.changed(mu_s=CASE.mu_k))):
-        varied = over_speeds("slip_time", case, FINE_SPEEDS)
-        known = varied[np.isfinite(varied)]
-        claim.turn(name, sound=_grows(varied), first=known[0], last=known[-1], n=len(known))
-    closed, sticks = [_closed_form(v) for v in FINE_SPEEDS], np.isfinite(times[2])
-    dotted = {"color": INK, "lw": 0.9, "ls": ":", "label": "closed form, constant µ"}
-    curves = [*by_model(FINE_SPEEDS, times), Curve(FINE_SPEEDS, closed, dotted)]
-    add_picture(claim, "C9_slip_time", [[Panel(curves)]])
-    never = ", ".join(f"{v:.2f}" for v in FINE_SPEEDS[~sticks])
-    fastest = FINE_SPEEDS[sticks].max()
-    return {"n": sticks.sum(), "fastest": fastest, "never": never, "closed": closed}
-
-
 def _rank(times: Array) -> float:
     """Spearman's rank correlation with the speed where there was a slip."""
-    known = np.isfinite(times)
-    return float(spearmanr(FINE_SPEEDS[known], times[known]).statistic)
+    return float(spearmanr(FINE_SPEEDS, times, nan_policy="omit").statistic)
 
 
 def _grows(times: Array) -> bool:
@@ -117,12 +101,34 @@ def _closed_form(speed: float) -> float:
     return CoulombOscillator(CASE.mass, 4.0 * CASE.stiffness, speed, *limits).slip_time
 
 
+@judges("C9")
+def judge_slip_time(claim: Claim) -> dict[str, Any]:
+    """Slip times over the study's range of speeds, at m 0.67 kg and k 20.17 N/m."""
+    times = cases.tabulated("slip_duration", CASE.over("speed", FINE_SPEEDS))
+    ranks = [_rank(of_model) for of_model in times]
+    claim.row("rank", ranks)
+    told = np.isin(FINE_SPEEDS, (0.01, 0.15, 0.37, 0.82))
+    claim.row_each("time", times[:, told], v=FINE_SPEEDS[told])
+    claim.check("grows", [_grows(of_model) for of_model in times], margin=ranks[2])
+    for name, case in (("constant", CONSTANT), ("no_step", CONSTANT.changed(mu_s=CASE.mu_k))):
+        varied = over_speeds("slip_duration", case, FINE_SPEEDS)
+        known = varied[np.isfinite(varied)]
+        claim.turn(name, sound=_grows(varied), first=known[0], last=known[-1], n=len(known))
+    closed, sticks = [_closed_form(v) for v in FINE_SPEEDS], np.isfinite(times[2])
+    dotted = {"color": INK, "lw": 0.9, "ls": ":", "label": "closed form, constant µ"}
+    curves = [*by_model(FINE_SPEEDS, times), Curve(FINE_SPEEDS, closed, dotted)]
+    add_picture(claim, "C9_slip_time", [[Panel(curves)]])
+    never = ", ".join(f"{v:.2f}" for v in FINE_SPEEDS[~sticks])
+    fastest = FINE_SPEEDS[sticks].max()
+    return {"n": sticks.sum(), "fastest": fastest, "never": never, "closed": closed}
+
+
 @judges("C10")
 def judge_kinetic_coefficient(claim: Claim) -> dict[str, float]:
     """Range of the mean mu_k, and how mass, speed and stiffness act on it."""
     series = cases.plan(ALL_STIFFNESSES)
     weights = np.array([case.weight for case in series])
-    mu = cases.gridded(cases.tabulated("mean_friction", series) / weights, ALL_STIFFNESSES)
+    mu = cases.gridded(cases.tabulated("friction", series) / weights, ALL_STIFFNESSES)
     by_mass, spreads = mu.mean(axis=(1, 3)), np.ptp(mu.mean(axis=2), axis=2)
     slopes = np.polyfit(MASSES, by_mass.T, 1)[0]
     changes = np.abs(slopes) * (MASSES[-1] - MASSES[0]) / by_mass.mean(axis=1)
@@ -137,39 +143,30 @@ def judge_kinetic_coefficient(claim: Claim) -> dict[str, float]:
     loaded = np.array(MASSES) ** LOAD_POWER
     claim.turn("load", np.ptp(loaded) / loaded.mean())
     claim.check("speed", np.diff(mu.mean(axis=(1, 2))).max(axis=1))
-    even = CASE.changed(weakening=0.0)
-    constant = over_speeds("mean_friction", even) / even.weight
+    constant = over_speeds("friction", CONSTANT) / CONSTANT.weight
     claim.turn("constant", sound=least_fall(constant) > LEVEL, mu=constant)
     ratios = spreads[:, -1] / spreads[:, 0]
     claim.check("spread", ratios)
-    for part in (0.2, 0.6):
-        _turn_spread(claim, "slope", part, MASSES[:1], rig=GUIDED)
-    for pretension, part in FREE:
-        _turn_spread(claim, "free", part, FREE_MASSES, pretension=pretension)
+    for name, part, masses, model in VARIED:
+        case = CASE.changed(weakening=part)
+        found = _spreads(partial(cases.exact_figures, **model), case, masses)
+        mm = 1e3 * model.get("pretension", 0.0)
+        claim.turn(name, found[1] / found[0], spreads=found, part=100.0 * part, mm=mm)
     add_picture(claim, "C10_mu_k", over_mass(mu, ALL_STIFFNESSES))
-    with_r = PRINTED.without("F2")
-    mended = _spreads(lambda case: cases.scheme_figures(case, with_r, (0,)), CASE, MASSES)
-    ratio = mended[1] / mended[0]
-    return {"change": 100.0 * changes[2], "ratio": ratios[0], "mended": ratio}
-
-
-def _turn_spread(
-    claim: Claim, name: str, part: float, masses: Sequence[float], **model: Any
-) -> None:
-    """The exact model with a friction law that falls by a part."""
-    case = CASE.changed(weakening=part)
-    found = _spreads(lambda one: cases.exact_figures(one, **model), case, masses)
-    mm = 1e3 * model.get("pretension", 0.0)
-    claim.turn(name, found[1] / found[0], spreads=found, part=100.0 * part, mm=mm)
+    with_r = partial(cases.scheme_figures, faults=PRINTED.without("F2"), seeds=(0,))
+    softest, stiffest = _spreads(with_r, CASE, MASSES)
+    return {"change": 100.0 * changes[2], "ratio": ratios[0], "mended": stiffest / softest}
 
 
 def _spreads(
-    of: Callable[[Case], MotionFigures], case: Case, masses: Sequence[float]
+    of: Callable[[Case], dict[str, float]], case: Case, masses: Sequence[float]
 ) -> list[float]:
     """Range over the speeds of mu_k, mean over masses, at the softest and the stiffest springs."""
     found = []
-    for k in ENDS:
-        series = [case.changed(stiffness=k, mass=m, speed=v) for m in masses for v in SPEEDS]
-        mu = [of(one).mean_friction / one.weight for one in series]
-        found.append(float(np.ptp(np.reshape(mu, (len(masses), -1)).mean(axis=0))))
+    for k in (ALL_STIFFNESSES[0], ALL_STIFFNESSES[-1]):
+        mu = [
+            [of(one)["friction"] / one.weight for one in heavy.over("speed", SPEEDS)]
+            for heavy in case.changed(stiffness=k).over("mass", masses)
+        ]
+        found.append(float(np.ptp(np.mean(mu, axis=0))))
     return found

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 from scipy.stats import norm
@@ -52,10 +52,6 @@ class Span:
             return math.exp(math.log(self.low) + share * math.log(self.high / self.low))
         return self.low + share * (self.high - self.low)
 
-    def surprise(self, number: float) -> float:
-        """Squared distance from what is known, in standard deviations; 0 where nothing is."""
-        return ((number - self.prior[0]) / self.prior[1]) ** 2 if self.prior else 0.0
-
 
 @dataclass(frozen=True)
 class Candidate:
@@ -69,9 +65,24 @@ class Candidate:
     @property
     def off(self) -> dict[str, float]:
         """Values of what is searched with which the last effect is not there."""
-        own = [span.key for span in self.spans if span.key.split(".")[0] in self.effects[-1:]]
-        fields = TABLES[self.effects[-1]].model_fields if own else {}
-        return {key: float(fields[key.split(".")[1]].default) for key in own}
+        pairs = [span.key.split(".") for span in self.spans]
+        return {
+            f"{block}.{name}": float(TABLES[block].model_fields[name].default)
+            for block, name in pairs
+            if block in self.effects[-1:]
+        }
+
+    def values(self, shares: Iterable[float]) -> dict[str, float]:
+        """block.parameter -> number, of shares (p,) of the ranges; what is set, too."""
+        pairs = zip(self.spans, shares, strict=True)
+        found = dict(self.settings) | {span.key: float(span.at(share)) for span, share in pairs}
+        # a contact at rest holds at least what it holds in sliding
+        return found | {"friction.mu_k": min(found["friction.mu_k"], found["friction.mu_s"])}
+
+    def surprise(self, values: Mapping[str, float]) -> float:
+        """Squared distance of known numbers from what is known, in standard deviations."""
+        known = [(values[span.key], *span.prior) for span in self.spans if span.prior]
+        return sum(((number - value) / sd) ** 2 for number, value, sd in known)
 
     @property
     def added(self) -> int:
@@ -91,19 +102,16 @@ def _unknown(coefficient: str) -> Span:
 
 def plain_candidate(campaign: Campaign) -> Candidate:
     """The model as it is; mu_s and mu_k known as the campaign says, or as the study does."""
-    study = campaign.scheme == "study"
-    known = (STUDY_FRICTION if study else {}) | dict(campaign.friction)
+    is_study = campaign.scheme == "study"
+    known = (STUDY_FRICTION if is_study else {}) | dict(campaign.friction)
     spans = []
-    for name in ("mu_s", "mu_k"):
-        span = _unknown(f"friction.{name}")
-        if name in known:
-            value, sd = known[name]
-            low, high = max(value - FURTHEST * sd, 1e-3), value + FURTHEST * sd
-            span = Span(span.key, low, high, prior=(value, sd))
-        spans.append(span)
-    return Candidate(
-        (), "", tuple(spans), {"stick_stiffness.ratio": PRINTED_RATIO} if study else {}
-    )
+    for key in ("friction.mu_s", "friction.mu_k"):
+        spans.append(_unknown(key))
+        if prior := known.get(key.removeprefix("friction.")):
+            value, reach = prior[0], FURTHEST * prior[1]
+            spans[-1] = Span(key, max(value - reach, 1e-3), value + reach, prior=prior)
+    settings = {"stick_stiffness.ratio": PRINTED_RATIO} if is_study else {}
+    return Candidate((), "", tuple(spans), settings)
 
 
 def extensions(campaign: Campaign, base: Candidate) -> tuple[Candidate, ...]:
@@ -113,14 +121,13 @@ def extensions(campaign: Campaign, base: Candidate) -> tuple[Candidate, ...]:
         left_out.add("turning_surface")  # known: the rig says how far its centre is
     found = []
     for form in CATALOGUE["form"]:
-        settings = form.get("set", {})
-        spans = tuple(_span(form["effect"], number) for number in form.get("searched", ()))
-        keys = [span.key for span in spans] + list(settings)
-        if campaign.scheme == "study" and not all(map(has_meaning, keys)):
-            continue
-        if form["effect"] not in left_out:
+        effect, settings = form["effect"], form.get("set", {})
+        spans = tuple(_span(effect, number) for number in form.get("searched", ()))
+        keys = [*(span.key for span in spans), *settings]
+        told = campaign.scheme != "study" or all(map(has_meaning, keys))
+        if told and effect not in left_out:
             kept = {key: value for key, value in base.settings.items() if key not in keys}
-            effects = (*base.effects, form["effect"])
+            effects = (*base.effects, effect)
             found.append(Candidate(effects, form["name"], base.spans + spans, kept | settings))
     return tuple(found)
 

@@ -128,42 +128,37 @@ class Draws:
     """Numbers tried of a candidate, a row a draw, what came of them, and how far off they are.
 
     shares (d, p): the spans' numbers as shares of their ranges, NaN for one that a draw has not;
-    values (d,): mappings, settings included; surprise (d,): squared distance of known numbers from
-    what is known; shown (d, seeds, n): the observations' figures, NaN where it was not run. kin
-    (n,): scatter of a figure from seed to seed, for draws of too few seeds to tell their own. From
-    `close` on: of all that was tried of the candidate, some of it with several seeds.
+    values (d,): mappings, settings included; shown (d, seeds, n): the observations' figures, NaN
+    where it was not run. kin (n,): scatter of a figure from seed to seed, for draws of too few
+    seeds to tell their own. From `close` on: of all that was tried of the candidate, some of it
+    with several seeds.
     """
 
     candidate: Candidate
     target: Target
     shares: Array
     values: Array
-    surprise: Array
     shown: Array
     kin: Array | float = 0.0
 
     @classmethod
     def of(cls, candidate: Candidate, shares: Array, target: Target) -> Draws:
         """Draws (d, p) of a candidate that have not been run yet."""
-        spans, values = candidate.spans, []
-        for row in shares:
-            numbers = {span.key: float(span.at(one)) for span, one in zip(spans, row, strict=True)}
-            # a contact at rest holds at least what it holds in sliding
-            numbers["friction.mu_k"] = min(numbers["friction.mu_k"], numbers["friction.mu_s"])
-            values.append(dict(candidate.settings) | numbers)
-        surprise = [sum(span.surprise(one[span.key]) for span in spans) for one in values]
+        values = np.array([candidate.values(row) for row in shares], dtype=object)
         shown = np.full((len(values), SEEDS, len(target.sizes)), np.nan)
-        told = np.asarray(shares, float), np.array(values, dtype=object), np.array(surprise)
-        return cls(candidate, target, *told, shown)
+        return cls(candidate, target, np.asarray(shares, float), values, shown)
+
+    @property
+    def effect(self) -> str:
+        """What the candidate has beside what was found before."""
+        return self.candidate.effects[-1]
 
     def __len__(self) -> int:
         return len(self.values)
 
     def _rows(self, of: Callable[[str], Any]) -> Draws:
         """With other rows: of each table, by its name."""
-        return replace(
-            self, **{name: of(name) for name in ("shares", "values", "surprise", "shown")}
-        )
+        return replace(self, **{name: of(name) for name in ("shares", "values", "shown")})
 
     def __add__(self, other: Draws) -> Draws:
         """Both, of one candidate."""
@@ -179,6 +174,11 @@ class Draws:
         values = np.array([candidate.off | one for one in self.values], dtype=object)
         shares = np.hstack([self.shares, more])
         return replace(self, candidate=candidate, shares=shares, values=values)
+
+    @property
+    def surprise(self) -> Array:
+        """(d,) squared distance of known numbers from what is known."""
+        return np.array([self.candidate.surprise(one) for one in self.values])
 
     @property
     def seeds(self) -> Array:
@@ -243,6 +243,11 @@ class Draws:
         """Misfit of the best plus the price of the numbers that were added."""
         return float(self.best.misfit[0]) + self.price
 
+    @property
+    def gap(self) -> float:
+        """Of the best, standard deviations."""
+        return float(self.target.gap(self.best.mean[0]))
+
     @cached_property
     def held_out_gap(self) -> float:
         """Root mean square distance of the figures, each predicted by the fit to the others."""
@@ -268,10 +273,8 @@ class Draws:
     def intervals(self) -> dict[str, tuple[float, float]]:
         """block.parameter -> range over the draws that are nearly as good as the best."""
         values = self.values[self.misfit <= self.best.misfit[0] + WITHIN]
-        keys = [span.key for span in self.candidate.spans]
-        return {
-            key: (min(one[key] for one in values), max(one[key] for one in values)) for key in keys
-        }
+        tried = {span.key: [one[span.key] for one in values] for span in self.candidate.spans}
+        return {key: (min(numbers), max(numbers)) for key, numbers in tried.items()}
 
     def fitted(self, draw: Draws | None = None) -> FittedSummary:
         """A draw beside the observed figures, the best where none is given."""

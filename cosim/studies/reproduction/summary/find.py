@@ -59,7 +59,7 @@ class Found:
     @property
     def rivals(self) -> tuple[str, ...]:
         """Effects that do as well as the best, itself included, best first."""
-        close = [t.candidate.effects[-1] for t in self.tried if t.bic - self.best.bic <= APART]
+        close = [t.effect for t in self.tried if t.bic - self.best.bic <= APART]
         return tuple(dict.fromkeys(close))
 
 
@@ -144,20 +144,19 @@ def _ranked(tried: Sequence[Draws], plain: Draws) -> tuple[Ranked, ...]:
     """The best form of every effect, the least BIC first, of trials in that order."""
     best: dict[str, Draws] = {}
     for trial in tried:
-        best.setdefault(trial.candidate.effects[-1], trial)
-    weights = [math.exp(0.5 * (tried[0].bic - trial.bic)) for trial in best.values()]
-    fits = [trial.fitted() for trial in best.values()]
+        best.setdefault(trial.effect, trial)
+    weights = {effect: math.exp(0.5 * (tried[0].bic - one.bic)) for effect, one in best.items()}
     return tuple(
         Ranked(
-            effect=effect,
-            form=trial.candidate.form,
+            effect,
+            trial.candidate.form,
             evidence=0.5 * (plain.bic - trial.bic),
-            probability=weight / sum(weights),
-            gap=Score(fit.gap, fit.held_out_gap),
-            parameters=dict(fit.values),
+            probability=weights[effect] / sum(weights.values()),
+            gap=Score(trial.gap, trial.held_out_gap),
+            parameters=trial.best.values[0],
             intervals=trial.intervals(),
         )
-        for (effect, trial), fit, weight in zip(best.items(), fits, weights, strict=True)
+        for effect, trial in best.items()
     )
 
 
@@ -170,22 +169,21 @@ def _p_of_the_best(plain: Draws, others: Sequence[Draws], seed: int) -> float:
     """
     rng, target = np.random.default_rng(seed), plain.target
     rows = plain.best.shown[0, : plain.best.seeds[0]]
-    before, after = _table([plain]), _table(others)
+    tables = _table([plain]), _table(others)
 
     def gained(sizes: Array) -> float:
-        drawn = Target(sizes, target.sds)
-        plainly, extended = (
-            float((drawn.misfit(means, variances) + prices).min())
-            for means, variances, prices in (before, after)
-        )
-        return plainly - extended
+        best = [
+            float((Target(sizes, target.sds).misfit(means, variances) + prices).min())
+            for means, variances, prices in tables
+        ]
+        return best[0] - best[1]
 
-    found = gained(target.sizes)
-    as_good = 0
-    for _ in range(BOOTSTRAPS):
-        row = rows[rng.integers(len(rows))]
-        as_good += gained(row + target.sds * rng.standard_normal(len(row))) >= found
-    return (1 + as_good) / (1 + BOOTSTRAPS)
+    found, count = gained(target.sizes), len(target.sizes)
+    drawn = (
+        rows[rng.integers(len(rows))] + target.sds * rng.standard_normal(count)
+        for _ in range(BOOTSTRAPS)
+    )
+    return (1 + sum(gained(sizes) >= found for sizes in drawn)) / (1 + BOOTSTRAPS)
 
 
 def _table(trials: Sequence[Draws]) -> tuple[Array, Array, Array]:
@@ -204,7 +202,7 @@ def _share_that_fits(bench: Bench, trial: Draws) -> float:
     table = search.even_shares(trial.candidate, ROBUST_DRAWS, bench.seed + 3)
     table[:, own:] = trial.best.shares[0, own:]
     gaps = bench.target.gap(bench.draw(trial.candidate, table).mean)
-    return float(np.mean(gaps <= 2.0 * bench.target.gap(trial.best.mean[0])))
+    return float(np.mean(gaps <= 2.0 * trial.gap))
 
 
 def _with_free_friction(bench: Bench, plain: Draws) -> Draws | None:
@@ -219,12 +217,9 @@ def _with_free_friction(bench: Bench, plain: Draws) -> Draws | None:
 
 def _answer(bench: Bench, plain: Draws, free: Draws | None, found: Sequence[Found]) -> SummaryGap:
     held = [one for one in found if one.holds]
-    before = plain.fitted()
     verdict, effects, classes = _judge(plain, held)
-    chance = {"p": 1.0, "draws": 0, "delta_bic": 0.0}
-    if found:
-        chance = {"p": found[0].p, "draws": BOOTSTRAPS, "delta_bic": found[0].gained}
-    intervals = plain.intervals().items()
+    told = (found[0].p, BOOTSTRAPS, found[0].gained) if found else (1.0, 0, 0.0)
+    values, intervals = plain.best.values[0], plain.intervals()
     return SummaryGap(
         campaign=bench.campaign,
         observations=bench.seen,
@@ -234,10 +229,10 @@ def _answer(bench: Bench, plain: Draws, free: Draws | None, found: Sequence[Foun
         classes=classes,
         ranking=_ranked(found[0].tried, plain) if found else (),
         printed=plain.fitted(plain.take(FIRST_ONE)),
-        plain=before,
+        plain=plain.fitted(),
         extended=held[-1].best.fitted() if held else None,
-        chance=chance,
-        determined={key: (before.values[key], *interval) for key, interval in intervals},
+        chance=dict(zip(("p", "draws", "delta_bic"), told, strict=True)),
+        determined={key: (values[key], *interval) for key, interval in intervals.items()},
         free_friction=free.fitted() if free is not None else None,
         remarks=_remarks(bench.campaign, found),
     )
@@ -248,7 +243,7 @@ def _remarks(campaign: Campaign, found: Sequence[Found]) -> tuple[str, ...]:
     lines = [f"model: {scheme}"] if campaign.scheme == "study" else []
     for one in found:
         lines.append(
-            f"{one.best.candidate.effects[-1]}: BIC lower by {one.gained:.1f}, chance {one.p:.3g}, "
+            f"{one.best.effect}: BIC lower by {one.gained:.1f}, chance {one.p:.3g}, "
             f"lack of fit afterwards {one.best.lack_of_fit:.2g}"
         )
     return tuple(lines)

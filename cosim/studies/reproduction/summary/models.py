@@ -20,18 +20,10 @@ from stickslip.reference.scheme_errors import PRINTED
 
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.packaged import packaged_tables
-from cosim.studies.reproduction.cases import (
-    CYCLES,
-    SAMPLE,
-    SCATTER,
-    SETTLING,
-    STEADY,
-    WINDOW,
-    Case,
-    longest,
-)
-from cosim.studies.reproduction.motion import Motion, mean
-from cosim.studies.reproduction.motion import figures as read_off
+
+from ..cases import CYCLES, SAMPLE, SCATTER, SETTLING, STEADY, Case, longest
+from ..motion import WINDOW, Motion
+from ..motion import figures as read_off
 
 Values = Mapping[str, float]  # block.parameter -> number
 
@@ -45,25 +37,11 @@ MISPLACED, TURNED = 1e-3, math.radians(1.0)
 def figures(motion: Motion) -> dict[str, float]:
     """The figures that a campaign's ``summary`` may hold; NaN for one that the motion has not.
 
-    mean_x, mean_y, amplitude_x (half range), break_away_x, restick_x in m; frequency:
-    oscillations of x per second; slip_share: of the time; slip_duration, stick_duration: means of
-    whole phases, s; max_rotation_deg: either way.
+    As `motion.figures` has them; a frequency of 0: x does not come back.
     """
-    seen = read_off(motion, between_rows=True, visible=VISIBLE)
-    begin, _, mode = motion.phases[1:-1].T  # the first and the last are cut
-    x_at = np.interp(begin, motion.time, motion.x)
-    return {
-        "mean_x": seen.mean_x,
-        "mean_y": seen.mean_y,
-        "amplitude_x": seen.half_range_x,
-        "frequency": float(np.nan_to_num(seen.rate)),  # 0: x does not come back
-        "max_rotation_deg": seen.max_rotation,
-        "slip_share": seen.slip_share,
-        "slip_duration": seen.slip_time,
-        "stick_duration": seen.stick_time,
-        "break_away_x": mean(x_at[mode == 1]),
-        "restick_x": mean(x_at[mode == 0]),
-    }
+    found = read_off(motion, between_rows=True, visible=VISIBLE)
+    frequency = float(np.nan_to_num(found["frequency"]))
+    return found | {"frequency": frequency, "max_rotation_deg": found["max_rotation"]}
 
 
 def motion_of(campaign: Campaign, run: MeasuredRun, values: Values, seed: int | None) -> Motion:

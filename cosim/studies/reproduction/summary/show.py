@@ -23,7 +23,8 @@ from cosim.report.page import Picture, render
 from cosim.report.palette import BLUE, GREY, INK, PALE_GREY, RED
 from cosim.report.style import panels, picture
 
-from ..cases import SETTLING, WINDOW
+from ..cases import SETTLING
+from ..motion import WINDOW
 from .result import SummaryGap
 
 #: What is written as it stands in an answer.
@@ -148,21 +149,18 @@ def write_page(
     corrected: Sequence[Path] = (),
 ) -> None:
     """The figure into the folder, and the page with it inside. drawn : called after it."""
-    write_text(page(gap, write_pictures(drawers(gap), folder, drawn)), file)
+    html = render(
+        "summary.html.j2", __package__ or "", gap=gap, text=text, digits=digits,
+        sentence=sentence(gap), gap_line=gap_line(gap), quantities=quantities(gap),
+        quantity=quantity, pictures=write_pictures(drawers(gap), folder, drawn),
+        remarks=_remarks(gap),
+    )  # fmt: skip
+    write_text(html, file)
 
 
 def drawers(gap: SummaryGap) -> dict[str, Callable[[], Picture]]:
     """name -> what draws it, in the page's order."""
     return {"observations": partial(draw_observations, gap)}
-
-
-def page(gap: SummaryGap, pictures: Sequence[Picture]) -> str:
-    """HTML with the picture inside."""
-    return render(
-        "summary.html.j2", "cosim.studies.reproduction.summary", gap=gap, text=text, digits=digits,
-        sentence=sentence(gap), gap_line=gap_line(gap), quantities=quantities(gap),
-        quantity=quantity, pictures=pictures, remarks=_remarks(gap),
-    )  # fmt: skip
 
 
 @picture("observations", (
