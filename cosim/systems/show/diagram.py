@@ -15,8 +15,8 @@ from cosim.coupling import Causality, Connection, CoupledSystem
 from cosim.coupling.conversion import NO_UNIT, watts
 from cosim.coupling.system import ENERGY_UNIT, find_port
 from cosim.report.page import unit_text
-from cosim.report.palette import GREY, INK, ORANGE, PALE_GREY, RED, SERIES, clipped
-from cosim.report.style import picture
+from cosim.report.palette import GREY, INK, ORANGE, PALE_GREY, RED, SERIES
+from cosim.report.style import clipped, picture
 
 #: Inches: of a line of ports, of a box's head, between boxes, between columns, around all.
 LINE, HEAD, BETWEEN, GAP, MARGIN = 0.24, 0.42, 0.45, 1.9, 0.35

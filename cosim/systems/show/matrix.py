@@ -12,8 +12,8 @@ from matplotlib.lines import Line2D
 
 from cosim.coupling import CoupledSystem
 from cosim.coupling.system import find_port
-from cosim.report.palette import BLUE, GREY, INK, ORANGE, PALE_GREY, RED, SOFT_GREY, clipped
-from cosim.report.style import picture
+from cosim.report.palette import BLUE, GREY, INK, ORANGE, PALE_GREY, RED, SOFT_GREY
+from cosim.report.style import clipped, picture
 
 #: Inches for a unit, and of the smallest and the largest sheet without its names.
 EACH, SMALLEST, LARGEST = 0.13, 4.0, 16.0
