@@ -89,6 +89,7 @@ OPEN = {
     "cosim.report": (
         *("cosim.report.style", "cosim.report.page", "cosim.report.live", "cosim.report.files"),
         *("cosim.report.coupling", "cosim.report.columns", "cosim.report.material"),
+        *("cosim.report.palette", "cosim.report.live_of_figure"),
     ),
     "stickslip.kernel": ("stickslip.kernel.layout", "stickslip.kernel.tables"),
 }
