@@ -38,7 +38,7 @@ from cosim.studies.belt_length import (
 )
 from cosim.studies.belt_length.lengths import length_text
 from cosim.studies.belt_length.result import PRINTED
-from cosim.studies.belt_length.show.files import (
+from cosim.studies.belt_length.show.page import (
     CHANGES,
     DOUBT,
     PAGE,

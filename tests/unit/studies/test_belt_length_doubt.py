@@ -173,14 +173,14 @@ def doubt(found, median, high):
 def test_shortest_belts_lie_between_the_lengths_or_are_not_told(found):
     """Rises that fall as a power of the length are met exactly; beyond the lengths a reason."""
     lengths = (1.0, 2.0, 4.0)
-    doubts = [doubt(found, 0.1 * length**-1.5, 0.5 / length) for length in lengths]
-    told = shortest_in_doubt(lengths, doubts, 0.07)["run"]
+    doubts = {length: doubt(found, 0.1 * length**-1.5, 0.5 / length) for length in lengths}
+    told = shortest_in_doubt(doubts, 0.07)["run"]
     assert told["median"].length == pytest.approx((0.1 / 0.07) ** (1.0 / 1.5))
     assert told["high"].length is None and told["high"].says == ">4"
     assert "on 4 m, the longest belt looked at, the 95% level is 0.12 K" in told["high"].reason
-    told = shortest_in_doubt(lengths, doubts, 1.0)["interface"]
+    told = shortest_in_doubt(doubts, 1.0)["interface"]
     assert told["median"].says == told["high"].says == "<1"
-    untold = shortest_in_doubt(lengths, [None] * 3, 0.07)["run"]["high"]
+    untold = shortest_in_doubt(dict.fromkeys(lengths), 0.07)["run"]["high"]
     assert untold.length is None and "--samples 0" in untold.reason
 
 
