@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from functools import cached_property
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -104,8 +105,9 @@ class Answer(Result):
 
     def summary(self) -> dict[str, Any]:
         """What `stickslip belt-length --json` prints of the scenario."""
-        return self._study().summary()
+        return self._study.summary()
 
+    @cached_property
     def _study(self) -> Result:
         """The study that the command makes of the question: with the row of the belt there is."""
         study = import_module(f"{__package__}.study")
@@ -115,13 +117,13 @@ class Answer(Result):
         return made
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        return self._study()._answer()
+        return self._study._answer()
 
     def _page(self) -> str:
-        return self._study()._page()
+        return self._study._page()
 
     def _write(self, folder: Path) -> None:
-        self._study()._write(folder)
+        self._study._write(folder)
 
     def as_dict(self) -> dict[str, Any]:
         """Everything but the rigs, for JSON."""

@@ -145,15 +145,13 @@ def combined(parts: Array, values: Mapping[str, Any]) -> Array:
     return np.asarray(sum(weight * parts[:, i] for i, weight in enumerate(weights(values))))
 
 
-def as_it_is(case: Case, key: str) -> dict[str, float]:
-    """Values with which the rig is as the case says, to be changed in one of them, `key`.
+def as_it_is(case: Case) -> dict[str, float]:
+    """Values with which the rig is as the case says.
 
-    Railing and rollers that it has not take as much heat as the air in their place. To see what a
-    share of the railing's heat or a warm roller does there must be such heat, or a contact:
-    `needs` says with which they are seen.
+    Railing and rollers that it has not take as much heat as the air in their place.
     """
     belt, contact = case.rig.belt, case.rig.contact
-    values = dict.fromkeys((one.key for one in UNKNOWNS if one.unit == "x"), 1.0) | {
+    return dict.fromkeys((one.key for one in UNKNOWNS if one.unit == "x"), 1.0) | {
         "h": case.film,
         "belt_side": contact.belt_side,
         "conductance": contact.conductance if case.conductance is None else case.conductance,
@@ -165,13 +163,17 @@ def as_it_is(case: Case, key: str) -> dict[str, float]:
         "sample_rise": case.ice_rise,
         "air_warming": 0.0,
     }
-    return values | needs(case, key)
 
 
 def with_one(case: Case, key: str, value: float) -> dict[str, float]:
-    """Values with which the rig is as the case says but for one; where no railing or roller is, the
-    air's heat transfer is another there, too."""
-    return as_it_is(replace(case, h=value) if key == "h" else case, key) | {key: value}
+    """The same but for one; where no railing or roller is, the air's heat transfer is another
+    there, too.
+
+    To see what a share of the railing's heat or a warm roller does there must be such heat, or a
+    contact: `needs` says with which they are seen.
+    """
+    own = replace(case, h=value) if key == "h" else case
+    return as_it_is(own) | needs(case, key) | {key: value}
 
 
 def needs(case: Case, key: str) -> dict[str, float]:
