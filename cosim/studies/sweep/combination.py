@@ -112,7 +112,7 @@ def heat_version() -> str:
 
 def content_key(parameters: Parameters, run: Run) -> str:
     """Hash of all that the outcome depends on: two equal combinations have one key."""
-    # a name is none of what a run depends on, nor is how long it may take
+    # a name is none of what a run depends on
     tables = parameters.model_dump(mode="json", exclude={"name"})
     times = run.of(parameters)[:2]
     content: list[Any] = [model_version(parameters.catalogue), *times, tables]
@@ -181,14 +181,14 @@ def compute(work: Work, key: str, changes: Mapping[str, Any]) -> Row:
 
 def _simulated(parameters: Parameters, run: Run) -> tuple[dict[str, float], str]:
     """Features by name; or why there are none."""
-    mechanics = parameters
-    air: dict[str, Any] = {}
+    times, temperature = run.of(parameters)[:2], None
     if isinstance(parameters, Scenario):
         if run.coupled:
             return _coupled(parameters)
-        mechanics = parameters.mechanics
-        air["interface_temperature"] = parameters.ambient.temperature_degC
-    trajectory = simulate(mechanics, *run.of(parameters)[:2], progress=stop_if_told, **air)
+        temperature, parameters = parameters.ambient.temperature_degC, parameters.mechanics
+    trajectory = simulate(
+        parameters, *times, interface_temperature=temperature, progress=stop_if_told
+    )
     return ({}, trajectory.reason) if trajectory.reason else (features(trajectory), "")
 
 

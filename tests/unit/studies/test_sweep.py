@@ -169,10 +169,10 @@ def test_failures_are_recorded_and_end_nothing(tmp_path, computed):
 
 
 def test_errors_of_the_program_are_recorded_and_tried_again(tmp_path, monkeypatch):
-    def broken(parameters, *run, progress):
+    def broken(parameters, *run, **options):
         if parameters.rig.mass == 0.7:
             raise MemoryError("no room")
-        return simulate(parameters, *run, progress=progress)
+        return simulate(parameters, *run, **options)
 
     monkeypatch.setattr(combination_module, "simulate", broken)
     done = sweep(BASE, VARY, **SHORT, folder=tmp_path)

@@ -84,8 +84,9 @@ def test_scenarios_are_an_axis_of_their_own():
     done = sweep([SHORT, other], {"surface.speed": [0.1, 0.2]}, jobs=1)
     assert dict(done.sizes) == {"scenario": 2, "surface.speed": 2}
     assert list(done["scenario"].values) == ["short", "soft"] and done.attrs["coupled"] == 0
-    alone = sweep(other, {"surface.speed": [0.2]}, duration=1.0, output_interval=0.01, jobs=1)
+    alone = sweep(other, {"surface.speed": [0.2]}, jobs=1)
     assert done.x_mean.values[1, 1] == alone.x_mean.values[0]
+    assert alone.attrs["duration"] == 1.0 and 'name = "soft"' in alone.attrs["scenario"]
 
 
 def test_scenarios_that_differ_in_heat_are_run_coupled():
