@@ -6,7 +6,8 @@ import json
 import sys
 import time
 from argparse import Namespace
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -38,7 +39,7 @@ from cosim.studies.belt_length import (
 )
 from cosim.studies.belt_length.lengths import length_text
 from cosim.studies.belt_length.result import PRINTED
-from cosim.studies.belt_length.show.files import (
+from cosim.studies.belt_length.show.page import (
     CHANGES,
     DOUBT,
     PAGE,
@@ -72,15 +73,14 @@ STUDIED = {"length": (1.0, 2.0, 3.0, 4.0), "speed": (0.15, 0.5, 0.82)}
 def execute(arguments: Namespace) -> int:
     """Compute, write, print; 0, or 1 when stopped: what there was by then is written."""
     began = time.perf_counter()
-    wanted, options = _asked(arguments)
+    scenario, wanted, options = _asked(arguments)
     numbers = numbers_asked(arguments, ("limit", "cases", "verdict"))
     own_files = (RESULT, TABLE, PAGE, CHANGES, DOUBT)
     folder = own_folder(arguments.output, own_files, arguments.force)
-    given = given_scenario(arguments.scenario, arguments.changes) if arguments.scenario else None
-    if given is not None:
-        _look_at(given, wanted, arguments.scenario)
-    study, status = Study(options, scenario="" if given is None else given.to_toml()), DONE
-    own = wanted[0] if arguments.scenario else None
+    if scenario is not None:
+        _note(scenario)
+    study, status = Study(options, scenario="" if scenario is None else scenario.to_toml()), DONE
+    own = None if scenario is None else wanted[0]
     study.grid = empty_map(arguments.map, own) if arguments.map else None
     try:
         with Bar(total=steps(study, wanted, own is not None), unit="run") as bar:
@@ -105,14 +105,18 @@ def execute(arguments: Namespace) -> int:
     return status
 
 
-def _asked(arguments: Namespace) -> tuple[list[Case], Options]:
-    """Cases and options, all of them checked before anything is computed."""
+def _asked(arguments: Namespace) -> tuple[Scenario | None, list[Case], Options]:
+    """Scenario, cases and options, all of them checked before anything is computed."""
     check_options(arguments)
-    given = arguments.scenario is not None
-    if arguments.changes and not given:
+    scenario, base, source = None, STUDY, arguments.scenario
+    if source is not None:
+        scenario = given_scenario(source, arguments.changes)
+        with _of_file(source):
+            base = scenario_case(scenario)
+    elif arguments.changes:
         raise BadInput("--set: changes keys of a scenario, so a SCENARIO is needed with it")
-    base = _from_file(arguments) if given else STUDY
     base = with_ranges(replace(base, protocol=_protocol(base, arguments)), arguments.doubt)
+    given = scenario is not None
     if arguments.map is None:
         arguments.map = 12 if given else 30
     choices = {}
@@ -124,16 +128,24 @@ def _asked(arguments: Namespace) -> tuple[list[Case], Options]:
     wanted = cases(base, **choices)
     for case in wanted:
         check_case(case, arguments)
-    return wanted, Options(arguments.limit, arguments.sensitivity, arguments.samples)
+        with _of_file(source):
+            if scenario is not None:
+                check_slides(scenario, case)
+    options = Options(arguments.limit, arguments.sensitivity, arguments.samples)
+    return scenario, wanted, options
 
 
-def _look_at(scenario: Scenario, wanted: list[Case], source: str) -> None:
-    """Whether the block slides in every case; then what was taken, and is computed otherwise."""
+@contextmanager
+def _of_file(source: str) -> Iterator[None]:
+    """Let faults of a scenario begin with its file."""
     try:
-        for case in wanted:
-            check_slides(scenario, case)
+        yield
     except StudyError as error:
         raise StudyError(f"{source}: {error}") from None
+
+
+def _note(scenario: Scenario) -> None:
+    """What was taken, and what is computed otherwise."""
     note_taken(scenario)
     for remark in remarks(scenario):
         note(remark)
@@ -142,15 +154,6 @@ def _look_at(scenario: Scenario, wanted: list[Case], source: str) -> None:
             f"{', '.join(keys)}: ignored, belt-length has a resolution of its own;"
             " `stickslip run` heeds them"
         )
-
-
-def _from_file(arguments: Namespace) -> Case:
-    """The case of a scenario; faults begin with the file."""
-    scenario = given_scenario(arguments.scenario, arguments.changes)
-    try:
-        return scenario_case(scenario)
-    except StudyError as error:
-        raise StudyError(f"{arguments.scenario}: {error}") from None
 
 
 def _protocol(base: Case, arguments: Namespace) -> Protocol:

@@ -17,12 +17,12 @@ from cosim.files import OutputError, not_taken
 from cosim.fmu.build import own_fmu
 from cosim.manifest import made_by, require_own, results_in
 from cosim.scenario import Scenario
-from cosim.studies.sweep import Grid, Run, SweepError, SweepStopped, product_grid, run_grid
+from cosim.studies.sweep import Grid, SweepError, SweepStopped, product_grid, run_grid
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import COMPLETE
-from cosim.studies.sweep.figure import check_shown
 from cosim.studies.sweep.plan import plan_grid, repeats_grid
 from cosim.studies.sweep.result import FIGURE, PAGE, RESULT, TABLE, Sweep, summary, write
+from cosim.studies.sweep.words import check_shown
 
 OWN = (RESULT, FIGURE, TABLE, PAGE)
 #: Group of the result file that holds the test plan's repeats.
@@ -35,8 +35,7 @@ def execute(arguments: Namespace) -> int:
     numbers = numbers_asked(arguments, ("runs",))
     scenario = given_scenario(arguments.scenario, arguments.changes)
     grids = _grids(arguments, scenario)
-    run = _run_of(grids[""], scenario)
-    check_shown(arguments.show, run.features)
+    check_shown(arguments.show, grids[""].run.features)
     folder = Path(arguments.output or Path(RESULTS) / f"{scenario.name}-sweep")
     not_taken(folder, OWN)
     require_own(folder, OWN, arguments.force)
@@ -47,14 +46,8 @@ def execute(arguments: Namespace) -> int:
     try:
         for group, grid in grids.items():
             with Bar(total=len(grid), unit="run") as bar:
-                datasets[group] = run_grid(
-                    grid,
-                    run,
-                    jobs=arguments.jobs,
-                    dask=arguments.dask,
-                    folder=folder,
-                    progress=bar.reach,
-                )
+                where = {"jobs": arguments.jobs, "dask": arguments.dask, "folder": folder}
+                datasets[group] = run_grid(grid, **where, progress=bar.reach)
             datasets[group].attrs["scenario"] = scenario.to_toml()
     except (KeyboardInterrupt, SweepStopped) as stop:
         said = str(stop) or "interrupted"
@@ -98,13 +91,6 @@ def _grids(arguments: Namespace, scenario: Scenario) -> dict[str, Grid]:
         if any(key in keys for keys in varied):
             raise SweepError(f"--set {change}: {key} is varied, allowed is a key that is not")
     return {"": product_grid(scenarios, varied, arguments.coupled)}
-
-
-def _run_of(grid: Grid, scenario: Scenario) -> Run:
-    """How each combination is run: as the scenario says."""
-    own = scenario.run
-    said = {"duration": own.duration, "output_interval": own.output_interval}
-    return grid.run_of({} if isinstance(grid.base, Scenario) else said)
 
 
 def _report(datasets: dict[str, Sweep], folder: Path, wall_time: float) -> None:

@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 
 from cosim.coupling.case.thermal_participant import prepared_block
 from cosim.processes import stop_if_told
+from cosim.scenario.changes import changed_tables
 from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
 from thermal.belt.air import convection, heated_belt, laminar_span, radiation
 from thermal.belt.frost import Frost, frost
@@ -43,11 +44,10 @@ class Protocol:
     lifted: bool = False
 
     def __post_init__(self) -> None:
-        for name, least in (("ramp", 0.0), ("pause", 0.0)):
-            value = getattr(self, name)
-            if not (math.isfinite(value) and value >= least):
+        for name, value in (("ramp", self.ramp), ("pause", self.pause)):
+            if not 0.0 <= value < math.inf:
                 raise StudyError(f"--{name} = {value:g} s: must be at least 0")
-        if not (math.isfinite(self.run) and self.run > 0.0):
+        if not 0.0 < self.run < math.inf:
             raise StudyError(f"--run = {self.run:g} s: must be above 0")
         if not 1 <= self.runs <= _MOST_RUNS:
             raise StudyError(f"--runs = {self.runs}: must be 1 to {_MOST_RUNS}")
@@ -76,7 +76,13 @@ class Range(NamedTuple):
 
 
 #: Resolution of the study: 0.2 % of the rise, a tenth of the time of the model's own.
-ELEMENTS, STRIPS, RADIAL, AXIAL, COARSENESS = 3, 8, 4, 8, 2.0
+RESOLUTION = {
+    "belt.elements": 3,
+    "contact.strips": 8,
+    "ice.radial_elements": 4,
+    "ice.axial_elements": 8,
+}
+COARSENESS = 2.0
 #: Elements where rollers conduct: they take heat from the back within a fraction of a second, and
 #: with half as many a rise was up to 5 % off (1000 W/m2K, three layers), so it is 2 %. What a
 #: roller left comes round as a front, which the steps smear: 11 % where one enters just as the run
@@ -89,12 +95,13 @@ WAVES_PER_METRE, WAVES_PER_CONTACT = 150, 9.0
 FEWEST_WAVES, MOST_WAVES = 40, 7500
 #: Length of belt that the study lets be heated in a pass, m.
 CONTACT_LENGTH = 0.08
+AIR = "belt.air_heat_transfer"
 #: Thermal key -> field of a case that stands in its place.
 OWN_KEYS = {
     "belt.length": "length",
     "belt.conductivity": "conductivity",
     "belt.thickness": "thickness",
-    "belt.air_heat_transfer": "h",
+    AIR: "h",
     "contact.conductance": "conductance",
     "ambient.temperature_degC": "ambient_degC",
 }
@@ -133,7 +140,7 @@ class Case:
     def __post_init__(self) -> None:
         for name in ("speed", "mass", "friction"):
             value = getattr(self, name)
-            if not (math.isfinite(value) and value > 0.0):
+            if not 0.0 < value < math.inf:
                 raise StudyError(f"{name} = {value:g}: must be above 0")
 
     @property
@@ -152,34 +159,32 @@ class Case:
 
         In the ramp, too: the still air of a slower belt would change the drift by less than 0.3 %.
         """
-        return self.h if self.h is not None else self._still_air(self.speed)
+        return self._film(self.speed, self.protocol.moving)
 
     @property
     def pause_film(self) -> float:
         """The same while the belt stands still: a draught stays, air dragged along does not."""
-        return self.h if self.h is not None else self._still_air(0.0)
+        return self._film(0.0, self.protocol.moving)
 
     @property
     def lasting(self) -> Case:
         """The same for ever, when the belt is warmer and still air takes more."""
-        still = self.h is None
-        return replace(self, h=self._still_air(self.speed, math.inf)) if still else self
+        return replace(self, h=self._film(self.speed, math.inf))
 
-    def _still_air(self, speed: float, duration: float | None = None) -> float:
-        """Of a belt as warm as friction makes it in a time, s; left out, in a run."""
+    def _film(self, speed: float, duration: float) -> float:
+        """As given, or by still air at a belt as warm as friction makes it in a time, s."""
+        if self.h is not None:
+            return self.h
         belt = self.rig.belt
         if self.thickness is not None:
             belt = belt.model_copy(update={"thickness": self.thickness})
-        lane = min(belt.width, 2.0 * self.rig.contact.radius)
-        return heated_belt(
-            speed,
-            self._span,
-            self.force * self.speed / (self.length * lane),
-            belt.capacity_per_area,
-            self.protocol.moving if duration is None else duration,
-            self.ambient_degC,
-            belt.width,
-        )
+        heating = self.force * self.speed / (self.length * min(belt.width, self._diameter))
+        capacity, air = belt.capacity_per_area, self.ambient_degC
+        return heated_belt(speed, self._span, heating, capacity, duration, air, belt.width)
+
+    @property
+    def _diameter(self) -> float:
+        return 2.0 * self.rig.contact.radius
 
     @property
     def _span(self) -> float:
@@ -193,10 +198,9 @@ class Case:
     @property
     def shortest(self) -> float:
         """Shortest belt on which contact, railing and rollers have room, m."""
-        belt, contact = self.rig.belt, self.rig.contact
-        touching = _block(self.rig.ice, contact, belt.width)[0].length
+        belt, touching = self.rig.belt, _block(self.rig)[0].length
         one = belt.railing_length + (belt.roller_arc if belt.rollers else 0.0)
-        return 1.05 * max(2.0 * contact.radius, touching, one * max(1, belt.rollers))
+        return 1.05 * max(self._diameter, touching, one * max(1, belt.rollers))
 
     @property
     def _on_rollers(self) -> bool:
@@ -218,35 +222,26 @@ class Case:
 
     def changed(self, keys: Mapping[str, float]) -> Case:
         """The same with other numbers of the thermal model, `block.key` -> value."""
-        own: dict[str, Any] = {
-            OWN_KEYS[key]: value for key, value in keys.items() if key in OWN_KEYS
-        }
-        rig = self.rig.model_dump()
-        rig["belt"]["length"] = self.length  # railing and rollers must find room on this belt
-        for key in keys.keys() - OWN_KEYS.keys():
-            block, _, entry = key.partition(".")
-            rig[block] = rig[block] | {entry: keys[key]}
+        own: Any = {OWN_KEYS[key]: value for key, value in keys.items() if key in OWN_KEYS}
+        others = {key: value for key, value in keys.items() if key not in OWN_KEYS}
+        # railing and rollers must find room on this belt
+        rig = changed_tables(self.rig.model_dump(), {"belt.length": self.length} | others)
         return replace(self, rig=ThermalParameters.checked(rig), **own)
 
-    def thermal(self, *, fine: bool = False) -> ThermalParameters:
-        """Parameters of the thermal model; fine: at the rig's own resolution."""
-        tables = self.rig.model_dump()
-        belt, contact = tables["belt"], tables["contact"]
-        belt |= {"length": self.length, "air_heat_transfer": self.h, "still_air_speed": 0.0}
-        if belt["railing_load"] == 0.0:
-            belt["railing_load"] = self.mass * GRAVITY
-        for owner, name in ((belt, "conductivity"), (belt, "thickness"), (contact, "conductance")):
-            if getattr(self, name) is not None:
-                owner[name] = getattr(self, name)
-        tables["ambient"]["temperature_degC"] = self.ambient_degC
-        if not fine:
-            belt["elements"] = ELEMENTS_ON_ROLLERS if self._on_rollers else ELEMENTS
-            contact["strips"] = STRIPS
-            tables["ice"] |= {"radial_elements": RADIAL, "axial_elements": AXIAL}
+    def thermal(self) -> ThermalParameters:
+        """Parameters of the thermal model, at the resolution of the study."""
+        keys = {key: getattr(self, field) for key, field in OWN_KEYS.items()}
+        keys = {key: value for key, value in keys.items() if value is not None}
+        keys |= RESOLUTION | {"belt.still_air_speed": 0.0}
+        if self.rig.belt.railing_load == 0.0:
+            keys["belt.railing_load"] = self.mass * GRAVITY
+        if self._on_rollers:
+            keys["belt.elements"] = ELEMENTS_ON_ROLLERS
+        tables = changed_tables(self.rig.model_dump(), keys)
         if self.h is None:
             # the length is checked first, for the air's number needs one that can be
-            ThermalParameters.checked(tables | {"belt": belt | {"air_heat_transfer": 1.0}})
-            belt["air_heat_transfer"] = self.film
+            ThermalParameters.checked(changed_tables(tables, {AIR: 1.0}))
+            tables = changed_tables(tables, {AIR: self.film})
         return ThermalParameters.checked(tables)
 
     def sliding(self, sensitivity: float = 0.0) -> SteadySliding:
@@ -256,7 +251,7 @@ class Case:
         """
         stop_if_told()
         parameters = self.thermal()
-        block = _block(parameters.ice, parameters.contact, parameters.belt.width)
+        block = _block(parameters)
         per_metre = max(WAVES_PER_METRE, WAVES_PER_CONTACT / block[0].length)
         waves = min(max(FEWEST_WAVES, round(per_metre * self.length)), MOST_WAVES)
         return SteadySliding(
@@ -265,13 +260,12 @@ class Case:
 
     def follow(self, sliding: SteadySliding) -> tuple[SlidingState, SlidingState]:
         """Through all runs of the protocol: the state where the last ramp ends, and at the end."""
-        protocol = self.protocol
         stop_if_told()
-        for run in range(protocol.runs):
+        for run in range(self.protocol.runs):
             if run > 0:
-                self.rest(sliding, protocol.pause)
-            started = sliding.ramp(protocol.ramp, COARSENESS)
-            ended = sliding.run(protocol.run, COARSENESS)
+                self.rest(sliding, self.protocol.pause)
+            started = sliding.ramp(self.protocol.ramp, COARSENESS)
+            ended = sliding.run(self.protocol.run, COARSENESS)
         return started, ended
 
     def rest(self, sliding: SteadySliding, duration: float) -> SlidingState:
@@ -287,8 +281,7 @@ class Case:
     def single_pass(self) -> SinglePass:
         """The same with its faults mended: the belt's mass per length, cooled by h on two faces."""
         parameters = self.thermal()
-        belt = parameters.belt
-        footprint = _block(parameters.ice, parameters.contact, belt.width)[0]
+        belt, footprint = parameters.belt, _block(parameters)[0]
         capacity = belt.capacity_per_area
         return SinglePass(
             friction_force=self.force,
@@ -301,9 +294,10 @@ class Case:
         )
 
 
-def _block(ice: Ice, contact: Contact, width: float) -> tuple[Footprint, IceBody]:
+def _block(rig: ThermalParameters) -> tuple[Footprint, IceBody]:
     """One block for all belts of its width, in turn: its modes take longer than a belt's."""
-    return _standing(ice, contact.model_copy(update={"conductance": 1.0, "belt_side": 0.5}), width)
+    contact = rig.contact.model_copy(update={"conductance": 1.0, "belt_side": 0.5})
+    return _standing(rig.ice, contact, rig.belt.width)
 
 
 @lru_cache(maxsize=128)

@@ -148,8 +148,7 @@ def endless_belt(case: Case) -> Case:
 
 def _never_round(case: Case) -> float:
     """Length that a belt must have never to come round, m."""
-    heated = 2.0 * CONTACT_LENGTH + case.rig.belt.railing_length
-    return case.travel + heated
+    return case.travel + (2.0 * CONTACT_LENGTH + case.rig.belt.railing_length)
 
 
 #: Shortest and longest pause that is tried, s.
@@ -179,28 +178,40 @@ class Wait:
 
 def wait(case: Case, limit: float) -> Wait:
     """Of a case before its last run, the second if it has but one; limit in K."""
-    runs = max(2, case.protocol.runs)
+    runs, hours = max(2, case.protocol.runs), LONGEST_PAUSE / 3600.0
     once = replace(case, protocol=replace(case.protocol, runs=1))
     sliding = case.sliding()
     first = once.follow(sliding)[1].entry
     after_first = sliding.snapshot()
 
-    def at_start(pause: float) -> SteadySliding:
-        """Where the last run begins."""
-        sliding.restore(after_first)
-        for run in range(1, runs):
-            if run > 1:
-                once.follow(sliding)
-            case.rest(sliding, pause)
-        return sliding
+    def least(rise: Callable[[], float]) -> float | None:
+        """Least pause, s, after which a rise at the start of the last run is below the limit."""
 
-    belt = _least_pause(lambda pause: _warmest(at_start(pause)), limit)
-    ice = _least_pause(lambda pause: abs(at_start(pause).state().ice_face), limit)
-    through = None
-    if first <= limit:
-        through = _least_pause(lambda pause: once.follow(at_start(pause))[1].entry, limit)
+        def after(pause: float) -> float:
+            sliding.restore(after_first)
+            for run in range(1, runs):
+                if run > 1:
+                    once.follow(sliding)
+                case.rest(sliding, pause)
+            return rise()
+
+        if after(0.0) <= limit:
+            return 0.0
+        return least_below(after, limit, (SHORTEST_PAUSE, LONGEST_PAUSE), _TOLERANCE)
+
+    belt, ice = least(lambda: _warmest(sliding)), least(lambda: abs(sliding.state().ice_face))
+    through = least(lambda: once.follow(sliding)[1].entry) if first <= limit else None
     begin = None if belt is None or ice is None else max(belt, ice)
-    return Wait(runs, belt, ice, begin, through, _reason(belt, ice, through, first, limit))
+    said = [
+        f"the {name} is not within {limit:g} K of the air after {hours:g} h"
+        for name, value in (("belt", belt), ("ice", ice))
+        if value is None
+    ]
+    if first > limit:
+        said.append(f"the belt enters {first:.2g} K warm at the end of the first run already")
+    elif through is None:
+        said.append(f"after {hours:g} h the next run still takes the belt above {limit:g} K")
+    return Wait(runs, belt, ice, begin, through, "; ".join(said))
 
 
 def _warmest(sliding: SteadySliding) -> float:
@@ -208,29 +219,3 @@ def _warmest(sliding: SteadySliding) -> float:
     length = sliding.parameters.belt.length
     places = math.ceil(_PLACES * length / sliding.footprint.length)
     return float(np.abs(sliding.face(np.linspace(0.0, length, places, endpoint=False))).max())
-
-
-def _least_pause(rise: Callable[[float], float], limit: float) -> float | None:
-    """Least pause (s) after which a rise (K) is below the limit."""
-    if rise(0.0) <= limit:
-        return 0.0
-    return least_below(rise, limit, (SHORTEST_PAUSE, LONGEST_PAUSE), _TOLERANCE)
-
-
-def _reason(
-    belt: float | None, ice: float | None, through: float | None, first: float, limit: float
-) -> str:
-    """Why what is None is."""
-    hours = LONGEST_PAUSE / 3600.0
-    said = [
-        f"the {name} is not within {limit:g} K of the air after {hours:g} h"
-        for name, value in (("belt", belt), ("ice", ice))
-        if value is None
-    ]
-    if through is None:
-        said.append(
-            f"the belt enters {first:.2g} K warm at the end of the first run already"
-            if first > limit
-            else f"after {hours:g} h the next run still takes the belt above {limit:g} K"
-        )
-    return "; ".join(said)

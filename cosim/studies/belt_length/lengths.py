@@ -6,7 +6,7 @@ The shortest of a rig as it is, and in doubt: between the lengths for which the 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -18,6 +18,8 @@ from cosim.processes import processes
 from .case import Case, StudyError
 from .drift import endless_belt, interface_drift, least_below, run_drift, steady_drift
 from .uncertainty import INTERVAL, Uncertainty
+
+Array = NDArray[np.float64]
 
 #: Longest belt that is tried, m.
 LONGEST = 50.0
@@ -37,11 +39,9 @@ class Length:
 
     @property
     def in_words(self) -> str:
-        """The same with its unit, for sentences."""
-        for sign, words in (("<", "less than "), (">", "more than ")):
-            if self.says.startswith(sign):
-                return f"{words}{self.says[1:]} m"
-        return f"{self.says} m"
+        """The same with its unit, for sentences; "" where nothing is told."""
+        words = self.says.replace("<", "less than ").replace(">", "more than ")
+        return words and f"{words} m"
 
 
 def rounded_up(length: float) -> tuple[str, str]:
@@ -117,15 +117,14 @@ def shortest_belts(case: Case, limit: float) -> tuple[float | None, float | None
     )
 
 
-def shortest_in_doubt(
-    lengths: Sequence[float], doubts: Sequence[Uncertainty | None], limit: float
-) -> Levels:
+def shortest_in_doubt(doubts: Mapping[float, Uncertainty | None], limit: float) -> Levels:
     """Shortest belts by rise and level, median and high; limit in K.
 
-    lengths: in m, increasing, with the doubt on each. Nothing is told beyond them.
+    doubts: on belts of some lengths, m. Nothing is told beyond them.
     """
-    known = [one for one in doubts if one is not None]
-    if len(known) < len(doubts):
+    lengths = sorted(doubts)
+    known = [one for length in lengths if (one := doubts[length]) is not None]
+    if len(known) < len(lengths):
         none = Length(None, "", "no doubt was computed: --samples 0, or the ice melts")
         return {rise: {"median": none, "high": none} for rise in ("run", "interface")}
     levels = {"median": "median", "high": f"{INTERVAL[1]:.0%} level"}
@@ -144,17 +143,14 @@ def between(lengths: Sequence[float], rises: Sequence[float], limit: float, leve
     Beyond the last belt that is above the limit; straight in the logarithms of both. Nothing is
     told beyond the lengths. level: what the rises are called in the reason.
     """
-    above = [i for i, rise in enumerate(rises) if rise > limit]
-    if not above:
+    last = max((i for i, rise in enumerate(rises) if rise > limit), default=None)
+    if last is None:
         short = rounded_up(lengths[0])[0]
         return Length(lengths[0], f"<{short}", "the shortest of the belts looked at")
-    last = above[-1]
     if last == len(lengths) - 1:
-        return Length(
-            None,
-            f">{lengths[-1]:.3g}",
-            f"on {lengths[-1]:.3g} m, the longest belt looked at, the {level} is {rises[-1]:.2g} K",
-        )
+        longest = f"{lengths[-1]:.3g}"
+        where = f"on {longest} m, the longest belt looked at"
+        return Length(None, f">{longest}", f"{where}, the {level} is {rises[-1]:.2g} K")
     # a rise that falls to nothing within a step would draw the place to the shorter belt
     below = max(rises[last + 1], 0.1 * limit)
     part = math.log(rises[last] / limit) / math.log(rises[last] / below)
@@ -170,13 +166,9 @@ LENGTHS, SPEEDS = (0.3, 10.0), (0.05, 1.5)
 class DriftMap:
     """drift (lengths, speeds), K; NaN where a map was stopped before it came there."""
 
-    lengths: NDArray[np.float64]
-    speeds: NDArray[np.float64]
-    drift: NDArray[np.float64]
-
-
-def _column(case: Case, speeds: NDArray[np.float64]) -> list[float]:
-    return [run_drift(replace(case, speed=float(speed))) for speed in speeds]
+    lengths: Array
+    speeds: Array
+    drift: Array
 
 
 def empty_map(points: int, case: Case | None = None) -> DriftMap:
@@ -204,3 +196,7 @@ def fill_map(
         for i, column in enumerate(mapped(_column, belts)):
             grid.drift[i] = column
             progress(grid.speeds.size)
+
+
+def _column(case: Case, speeds: Array) -> list[float]:
+    return [run_drift(replace(case, speed=float(speed))) for speed in speeds]

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from functools import cached_property
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -21,7 +22,7 @@ from cosim.scenario import Scenario
 
 from .case import Case
 from .drift import CAMERA, endless_belt, interface_drift, run_drift
-from .lengths import LONGEST, Length, between, rounded_up, shortest_belts
+from .lengths import LONGEST, Length, Levels, between, rounded_up, shortest_belts
 from .rigs import MOST_MELTING, Rigs
 from .scenario_priors import scenario_case
 from .uncertainty import INTERVAL, quantiles
@@ -104,35 +105,41 @@ class Answer(Result):
 
     def summary(self) -> dict[str, Any]:
         """What `stickslip belt-length --json` prints of the scenario."""
-        numbers: dict[str, Any] = self._study().summary()
-        return numbers
+        return self._study.summary()
 
-    def _study(self) -> Any:
+    @cached_property
+    def _study(self) -> Result:
         """The study that the command makes of the question: with the row of the belt there is."""
         study = import_module(f"{__package__}.study")
-        made = study.Study(study.Options(self.limit, samples=self.evaluations), answers=[self])
-        made.scenario = self.scenario
-        study.work_off(made, [self.case], 1, lambda count: None)
+        options = study.Options(self.limit, samples=self.evaluations)
+        made: Result = study.Study(options, answers=[self], scenario=self.scenario)
+        study.work_off(made, [self.case], 1)
         return made
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        found: tuple[str, Sequence[tuple[str, str]]] = self._study()._answer()
-        return found
+        return self._study._answer()
 
     def _page(self) -> str:
-        text: str = self._study()._page()
-        return text
+        return self._study._page()
 
     def _write(self, folder: Path) -> None:
-        self._study()._write(folder)
+        self._study._write(folder)
 
-    def as_dict(self) -> dict[str, object]:
+    def as_dict(self) -> dict[str, Any]:
         """Everything but the rigs, for JSON."""
-        own = {"speed": self.case.speed, "length": self.case.length}
         names = ("limit", "run", "interface", "evaluations", "unexplained", "reason", "melts")
-        told = {name: getattr(self, name) for name in names}
+        told: dict[str, Any] = {"speed": self.case.speed, "length": self.case.length}
+        told |= {name: getattr(self, name) for name in names}
         told |= {"run": asdict(self.run), "interface": asdict(self.interface)}
-        return own | told | {"lengths": self.lengths.tolist(), "levels": self.levels.tolist()}
+        return told | {"lengths": self.lengths.tolist(), "levels": self.levels.tolist()}
+
+    def shortest_in_doubt(self) -> Levels:
+        """Shortest belts of the sampled rigs by rise and level."""
+        unknown = Length(None, "", self.reason)
+        return {
+            rise: {name: getattr(question, name) or unknown for name in ("low", "median", "high")}
+            for rise, question in (("run", self.run), ("interface", self.interface))
+        }
 
     def __repr__(self) -> str:
         run = self.run
@@ -217,17 +224,17 @@ def _range(case: Case, shortest: float, belts: Sequence[float]) -> tuple[float, 
 
 def _doubted(plain: Answer, rigs: Rigs, lengths: Array, melts: float) -> Answer:
     """An answer with what the sampled rigs say."""
-    case, limit, drawn, levels = plain.case, plain.limit, rigs.drawn(), {}
+    drawn, levels = rigs.drawn(), []
 
     def sure(question: Question, rise: int) -> Question:
-        own = rigs.rise(rise, drawn, case.length)
-        levels[rise] = np.array([quantiles(rigs.rise(rise, drawn, one)) for one in lengths]).T
-        low, median, high = (
-            between(lengths.tolist(), each.tolist(), limit, name)
-            for each, name in zip(levels[rise], LEVELS, strict=True)
+        own = rigs.rise(rise, drawn, plain.case.length)
+        levels.append(np.array([quantiles(rigs.rise(rise, drawn, one)) for one in lengths]).T)
+        belts = (
+            between(lengths.tolist(), each.tolist(), plain.limit, name)
+            for each, name in zip(levels[-1], LEVELS, strict=True)
         )
-        found: Any = {"low": low, "median": median, "high": high}
-        share = float(np.mean(own <= limit))
+        found: Any = dict(zip(("low", "median", "high"), belts, strict=True))
+        share = float(np.mean(own <= plain.limit))
         return replace(question, rises=quantiles(own), share=share, **found)
 
     return replace(
@@ -235,7 +242,7 @@ def _doubted(plain: Answer, rigs: Rigs, lengths: Array, melts: float) -> Answer:
         run=sure(plain.run, ENTRY),
         interface=sure(plain.interface, INTERFACE),
         lengths=lengths,
-        levels=np.array([levels[ENTRY], levels[INTERFACE]]),
+        levels=np.array(levels),
         evaluations=rigs.evaluations,
         unexplained=(rigs.unexplained[ENTRY], rigs.unexplained[INTERFACE]),
         rigs=rigs,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from importlib import import_module
 from pathlib import Path
@@ -17,12 +17,12 @@ from cosim.result import Result
 from .case import Case
 from .changes import Change, FrictionEffect
 from .drift import CAMERA, Drift, Wait
-from .lengths import DriftMap, Length, Levels, shortest_in_doubt
+from .lengths import DriftMap, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
 
 #: What speaks, draws and writes; loaded when asked for.
-VERDICT, PAGE, FILES = (f"{__package__}.show.{name}" for name in ("verdict", "page", "files"))
+HEADLINE, VERDICT, PAGE = (f"{__package__}.show.{n}" for n in ("headline", "verdict", "page"))
 #: Column of the table -> place in a case's JSON.
 _TABLE = packaged_tables(__package__, "columns.toml")
 _COLUMNS, PRINTED = _TABLE["columns"], _TABLE["printed"]
@@ -49,10 +49,21 @@ class Row:
     changes: tuple[Change, ...]
     uncertainty: Uncertainty | None
 
-    def questions(self, limit: float) -> dict[str, dict[str, object]]:
-        """The two questions about a belt, with their answers."""
-        d, u = self.drift, self.uncertainty
-        return {
+    def as_dict(self, limit: float) -> dict[str, object]:
+        """Everything, for JSON, with the two questions about a belt and their answers."""
+        told, d, u = asdict(self), self.drift, self.uncertainty
+        case = {name: value for name, value in told["case"].items() if name not in _NOT_TOLD}
+        thermal = self.case.thermal()
+        layered = bool(thermal.belt.layers)
+        used = {
+            "conductivity": None if layered else thermal.belt.conductivity,
+            "thickness": None if layered else thermal.belt.thickness,
+            "conductance": thermal.contact.conductance,
+            "h": self.case.film,
+            "h_of_still_air": self.case.h is None,
+            "frost": self.case.frost and self.case.frost._asdict(),
+        }
+        questions = {
             "comes_round_cold": {
                 "answer": d.run <= limit,
                 "rise": d.run,
@@ -68,25 +79,10 @@ class Row:
                 "shortest_belt": self.shortest_interface,
             },
         }
-
-    def as_dict(self, limit: float) -> dict[str, object]:
-        """Everything, for JSON."""
-        told = asdict(self)
-        case = {name: value for name, value in told["case"].items() if name not in _NOT_TOLD}
-        thermal = self.case.thermal()
-        layered = bool(thermal.belt.layers)
-        used = {
-            "conductivity": None if layered else thermal.belt.conductivity,
-            "thickness": None if layered else thermal.belt.thickness,
-            "conductance": thermal.contact.conductance,
-            "h": self.case.film,
-            "h_of_still_air": self.case.h is None,
-            "frost": self.case.frost and self.case.frost._asdict(),
-        }
         return told | {
             "case": case | used,
-            "questions": self.questions(limit),
-            "seen_by_camera": self.drift.run > CAMERA,
+            "questions": questions,
+            "seen_by_camera": d.run > CAMERA,
         }
 
 
@@ -125,66 +121,71 @@ class Study(Result):
 
     def summary(self) -> dict[str, Any]:
         """What `belt_length.json` holds."""
-        numbers: dict[str, Any] = self.as_dict() | {"verdict": import_module(VERDICT).verdict(self)}
+        shared: dict[str, object] = {}
+        if self.rows:
+            shared["protocol"] = asdict(self.rows[0].case.protocol)
+            shared["rig"] = _shared([row.case.thermal().model_dump() for row in self.rows])
+        numbers = {
+            "complete": self.complete,
+            "limit": self.options.limit,
+            **shared,
+            "answers": [one.as_dict() for one in self.answers],
+            "cases": self._cases(),
+            "verdict": import_module(VERDICT).verdict(self),
+        }
         if self.grid is not None:
-            numbers["map"] = {
-                "lengths": self.grid.lengths.tolist(),
-                "speeds": self.grid.speeds.tolist(),
-                # where a stopped map did not come is null
-                "drift": without_nan(self.grid.drift.tolist()),
-            }
+            # where a stopped map did not come is null
+            grid = vars(self.grid).items()
+            numbers["map"] = {name: without_nan(values.tolist()) for name, values in grid}
         return numbers
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        page = import_module(PAGE)
-        return page.headline(self), page.tiles(self)
+        headline = import_module(HEADLINE)
+        return headline.headline(self), headline.tiles(self)
 
     def _page(self) -> str:
-        files = import_module(FILES)
-        text: str = files.page_text(self, files.drawn(self))
+        text: str = import_module(PAGE).page(self)[0]
         return text
 
     def _write(self, folder: Path) -> None:
-        files = import_module(FILES)
-        files.write_numbers(self, folder)
-        files.write_page(self, folder)
+        page = import_module(PAGE)
+        page.write_numbers(self, folder)
+        page.write_page(self, folder)
 
     def table(self) -> pd.DataFrame:
         """One row a case; NaN where nothing is known."""
         table = pd.json_normalize(self._cases())
         return table.reindex(columns=list(_COLUMNS.values())).set_axis(list(_COLUMNS), axis=1)
 
+    def _cases(self) -> list[dict[str, object]]:
+        doubted, cases = self.shortest_in_doubt(), []
+        for row in self.rows:
+            levels = doubted[row.case.with_length(1.0)].items()
+            in_doubt = {rise: {level: asdict(one) for level, one in belts.items()}
+                        for rise, belts in levels}  # fmt: skip
+            cases.append(row.as_dict(self.options.limit) | {"shortest_in_doubt": in_doubt})
+        return cases
+
     def shortest_in_doubt(self) -> dict[Case, Levels]:
         """By rise and level, for each choice of everything but the length, which is 1 m there."""
         if self.answers:
-            return {one.case.with_length(1.0): _of_answer(one) for one in self.answers}
+            return {one.case.with_length(1.0): one.shortest_in_doubt() for one in self.answers}
         drives: dict[Case, dict[float, Uncertainty | None]] = {}
         for row in self.rows:
             drives.setdefault(row.case.with_length(1.0), {})[row.case.length] = row.uncertainty
-        found = {}
-        for case, doubts in drives.items():
-            lengths, of_length = zip(*sorted(doubts.items(), key=lambda one: one[0]), strict=True)
-            found[case] = shortest_in_doubt(lengths, of_length, self.options.limit)
-        return found
+        limit = self.options.limit
+        return {case: shortest_in_doubt(doubts, limit) for case, doubts in drives.items()}
 
     def changes(self) -> pd.DataFrame:
         """One row a case and change: what would help."""
-        return self._each(lambda row: [asdict(one) for one in row.changes])
+        return pd.DataFrame(
+            [_place(row.case) | asdict(one) for row in self.rows for one in row.changes]
+        )
 
     def doubt(self) -> pd.DataFrame:
         """One row a case and unknown: single changes beside Sobol indices."""
-        return self._each(lambda row: [] if row.uncertainty is None else row.uncertainty.table())
-
-    def _each(self, of: Callable[[Row], list[dict[str, object]]]) -> pd.DataFrame:
-        rows = []
-        for row in self.rows:
-            case = {
-                "length [m]": row.case.length,
-                "speed [m/s]": row.case.speed,
-                "ambient [degC]": row.case.ambient_degC,
-            }
-            rows += [case | one for one in of(row)]
-        return pd.DataFrame(rows)
+        known = [(row.case, row.uncertainty) for row in self.rows if row.uncertainty is not None]
+        return pd.DataFrame([_place(case) | one for case, found in known for one in found.table()])
 
     @property
     def material(self) -> str:
@@ -203,35 +204,12 @@ class Study(Result):
         known = [row for row in self.rows if row.uncertainty is not None]
         return max(known, key=lambda row: row.drift.run, default=None)
 
-    def as_dict(self) -> dict[str, object]:
-        """Everything, for JSON."""
-        shared: dict[str, object] = {}
-        if self.rows:
-            shared["protocol"] = asdict(self.rows[0].case.protocol)
-            shared["rig"] = _shared([row.case.thermal().model_dump() for row in self.rows])
-        return {
-            "complete": self.complete,
-            "limit": self.options.limit,
-            **shared,
-            "answers": [one.as_dict() for one in self.answers],
-            "cases": self._cases(),
-        }
 
-    def _cases(self) -> list[dict[str, object]]:
-        doubted, cases = self.shortest_in_doubt(), []
-        for row in self.rows:
-            levels = doubted[row.case.with_length(1.0)].items()
-            in_doubt = {rise: {level: asdict(one) for level, one in belts.items()}
-                        for rise, belts in levels}  # fmt: skip
-            cases.append(row.as_dict(self.options.limit) | {"shortest_in_doubt": in_doubt})
-        return cases
-
-
-def _of_answer(answer: Answer) -> Levels:
-    unknown = Length(None, "", answer.reason)
+def _place(case: Case) -> dict[str, object]:
     return {
-        rise: {level: getattr(question, level) or unknown for level in ("low", "median", "high")}
-        for rise, question in (("run", answer.run), ("interface", answer.interface))
+        "length [m]": case.length,
+        "speed [m/s]": case.speed,
+        "ambient [degC]": case.ambient_degC,
     }
 
 

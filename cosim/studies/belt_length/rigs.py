@@ -31,6 +31,8 @@ from .unknowns import (
 )
 
 Array = NDArray[np.float64]
+#: A rig: its case, and the values of what is not known of it.
+Meant = tuple[Case, dict[str, float]]
 
 #: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
 FEWEST_SAMPLES = 32
@@ -76,44 +78,40 @@ class Rigs:
         self._lengths, self._floor = lengths, floor
         self._melts_at = case.rig.ice.melting_point_degC - case.ambient_degC
         self.evaluations = runs_for(samples)
-        tested = self.evaluations - samples
         draws = qmc.Sobol(len(self._columns) + (lengths is not None), rng=1)
-        points = self._levelled(np.concatenate((draws.random(samples), draws.random(tested))))
-        parts = _answered([self._meant(case, point) for point in points], jobs, progress)
+        points = np.concatenate((draws.random(samples), draws.random(self.evaluations - samples)))
+        shares = np.zeros((self.evaluations, len(self.unknowns)))
+        shares[:, self._columns] = points[:, : len(self._columns)]
+        places = points[:, -1]
+        parts = _answered(self._meant(case, shares, places), jobs, progress)
         if lengths is not None:
             parts[..., :SAMPLE] = np.maximum(parts[..., :SAMPLE], floor)
         # a rise falls by orders of magnitude with the length, and is needed at the limit; what the
         # room does goes either way, and has no logarithm
         heats = (False, True) if lengths is None else (True,)
+        points, fit, tested = self._points(shares, places), slice(samples), slice(samples, None)
         self._polynomials = {
             rise: [
-                fitted(
-                    points[:samples],
-                    parts[:samples, rise, column],
-                    heats if column < SAMPLE else (False,),
-                )
-                for column in COLUMNS
+                fitted(points[fit], parts[fit, rise, i], heats if i < SAMPLE else (False,))
+                for i in COLUMNS
             ]
             for rise in (ENTRY, INTERFACE, ICE)
         }
         self.unexplained = {
-            rise: self._misses(points[samples:], parts[samples:, rise], rise)
+            rise: self._misses(rise, shares[tested], places[tested], parts[tested, rise])
             for rise in self._polynomials
         }
 
-    def rise(self, which: int, shares: Array, length: float | None = None) -> Array:
+    def rise(self, which: int, shares: Array, length: float) -> Array:
         """ENTRY, INTERFACE or ICE, K: (n,), of rigs at shares (n, unknowns) of the ranges, 0 ... 1.
 
         length: of the belt, m, where the rigs have several.
         """
-        points = shares[:, self._columns]
+        place = 0.0
         if self._lengths is not None:
-            if length is None:
-                raise ValueError("length: these rigs have belts of several, say which")
             low, high = self._lengths
             place = math.log(length / low) / math.log(high / low)
-            points = np.column_stack((points, np.full(len(points), place)))
-        return self._of(which, self._levelled(points), values(self.unknowns, shares))
+        return self._rise(which, shares, np.full(len(shares), place))
 
     def drawn(self, count: int = DRAWN) -> Array:
         """Shares of the ranges, evenly spread: (count, unknowns); count: a power of two."""
@@ -123,40 +121,38 @@ class Rigs:
         """Share of the rigs, on a belt of a length, m, in which the ice's face comes to melt."""
         return float(np.mean(self.rise(ICE, self.drawn(), length) >= self._melts_at))
 
-    def _of(self, which: int, points: Array, meant: dict[str, Array]) -> Array:
+    def _rise(self, which: int, shares: Array, places: Array) -> Array:
+        """places: (n,) of the lengths between the shortest and the longest, in the logarithm."""
+        points = self._points(shares, places)
         parts = np.stack([one(points) for one in self._polynomials[which]], axis=1)
-        return combined(parts, meant)
+        return combined(parts, values(self.unknowns, shares))
 
-    def _meant(self, case: Case, point: Array) -> tuple[Case, dict[str, float]]:
-        """The belt and the values that a point stands for."""
-        shares = np.zeros((1, len(self.unknowns)))
-        shares[0, self._columns] = point[: len(self._columns)]
-        meant = {key: float(value[0]) for key, value in values(self.unknowns, shares).items()}
-        if self._lengths is None:
-            return case, meant
-        low, high = self._lengths
-        return case.with_length(low * (high / low) ** float(point[-1])), meant
+    def _points(self, shares: Array, places: Array) -> Array:
+        """Where the polynomials are asked: at levels in their middle, at the length last."""
+        found = [self.unknowns[i].levelled(shares[:, i]) for i in self._columns]
+        return np.stack(found if self._lengths is None else [*found, places], axis=1)
 
-    def _levelled(self, points: Array) -> Array:
-        """Points, those of an unknown with levels in the middle of its level; the length's own."""
-        levelled = points.copy()
-        for place, column in enumerate(self._columns):
-            levelled[:, place] = self.unknowns[column].levelled(points[:, place])
-        return levelled
+    def _meant(self, case: Case, shares: Array, places: Array) -> list[Meant]:
+        """The belts and the values that shares and places stand for."""
+        low, high = self._lengths or (case.length, case.length)
+        belts = [case.with_length(low * (high / low) ** float(place)) for place in places]
+        of_all = values(self.unknowns, shares)
+        each = [
+            dict(zip(of_all, one, strict=True)) for one in np.transpose([*of_all.values()]).tolist()
+        ]
+        return list(zip(belts, each, strict=True))
 
-    def _misses(self, points: Array, parts: Array, which: int) -> float:
+    def _misses(self, which: int, shares: Array, places: Array, parts: Array) -> float:
         """Share of a rise's variance over unseen runs; the linear unknowns are drawn for each."""
-        drawn = np.random.default_rng(1).random((len(points), len(self.unknowns)))
-        drawn[:, self._columns] = points[:, : len(self._columns)]
-        meant = values(self.unknowns, drawn)
-        true, found = combined(parts, meant), self._of(which, points, meant)
-        spread = true
+        drawn = np.random.default_rng(1).random(shares.shape)
+        drawn[:, self._columns] = shares[:, self._columns]
+        true = spread = combined(parts, values(self.unknowns, drawn))
+        found = self._rise(which, drawn, places)
         if self._lengths is not None:
             # what a length does is no doubt about a rig: all of them on the belt in the middle
-            same = np.column_stack((points[:, :-1], np.full(len(points), 0.5)))
+            spread = self._rise(which, drawn, np.full(len(drawn), 0.5))
             spread, found, true = (
-                np.log(np.maximum(rises, self._floor))
-                for rises in (self._of(which, same, meant), found, true)
+                np.log(np.maximum(rises, self._floor)) for rises in (spread, found, true)
             )
         return float(np.mean((found - true) ** 2) / np.var(spread))
 
@@ -171,9 +167,7 @@ def values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
     return {one.key: one.at(shares[:, i]) for i, one in enumerate(unknowns)}
 
 
-def _answered(
-    meant: list[tuple[Case, dict[str, float]]], jobs: int, progress: Callable[[int], object]
-) -> Array:
+def _answered(meant: list[Meant], jobs: int, progress: Callable[[int], object]) -> Array:
     """`answers` to each: (n, 3, 5), in as many processes."""
     # neighbours share blocks of ice, whose modes take time
     order = np.lexsort(
@@ -189,5 +183,5 @@ def _answered(
     return parts
 
 
-def _each(meant: list[tuple[Case, dict[str, float]]]) -> Array:
+def _each(meant: list[Meant]) -> Array:
     return np.array([answers(*one) for one in meant]).reshape(-1, 3, len(COLUMNS))

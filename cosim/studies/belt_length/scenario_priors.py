@@ -10,6 +10,7 @@ either.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -117,45 +118,38 @@ def ignored_keys(scenario: Scenario) -> list[str]:
     >>> ignored_keys(read_scenario().changed({"belt": {"elements": 12}}))
     ['belt.elements']
     """
-    return [key for key in _RESOLUTION if _holds(scenario, key)]
+    return [key for key in _RESOLUTION if _said(scenario, key) is not None]
 
 
 def _said_ranges(scenario: Scenario, case: Case) -> Iterator[Range]:
     """The ranges of what a scenario says itself; case: that of the scenario."""
+    of_block = "block" in scenario.model_fields_set
     for unknown in UNKNOWNS:
-        keys = [
-            key for key in unknown.said_by if _holds(scenario, key) and _at(scenario, key) != ()
-        ]
-        absent = bool(unknown.there) and not _at(scenario, unknown.there)
-        if not keys or absent or (unknown.key == "h" and case.h is None):
+        said = {key: _said(scenario, key) for key in unknown.said_by}
+        said = {key: value for key, value in said.items() if value not in (None, ())}
+        absent = unknown.there and not _said(scenario, unknown.there)
+        if not said or absent or (unknown.key == "h" and case.h is None):
             continue
-        own = 1.0 if unknown.unit == "x" else float(_at(scenario, keys[0]))
+        own = 1.0 if unknown.unit == "x" else float(next(iter(said.values())))
         low, high = sorted(min(part * own, unknown.at_most) for part in unknown.good_to)
         if unknown.logarithmic:
             low, high = max(low, _LEAST), max(high, _LEAST)
+        # keys as the scenario's file has them
+        keys = [key.replace("ice.", "block.") if of_block else key for key in said]
         yield Range(
             unknown.key,
             low,
             high,
-            f"{' and '.join(_as_given(scenario, keys))} of the scenario, assumed to be good to"
+            f"{' and '.join(keys)} of the scenario, assumed to be good to"
             f" {unknown.good_to[0]:.2g} to {unknown.good_to[1]:.2g} times",
         )
 
 
-def _as_given(scenario: Scenario, keys: list[str]) -> list[str]:
-    """Keys as the scenario's file has them."""
-    of_block = "block" in scenario.model_fields_set
-    return [key.replace("ice.", "block.") if of_block else key for key in keys]
-
-
-def _holds(scenario: Scenario, key: str) -> bool:
-    table, _, entry = key.partition(".")
-    return entry in getattr(scenario, table).model_fields_set
-
-
-def _at(scenario: Scenario, key: str) -> Any:
-    table, _, entry = key.partition(".")
-    return getattr(getattr(scenario, table), entry)
+def _said(scenario: Scenario, key: str) -> Any:
+    """What a scenario holds itself under a key; None where it leaves that out."""
+    name, _, entry = key.partition(".")
+    table = getattr(scenario, name)
+    return getattr(table, entry) if entry in table.model_fields_set else None
 
 
 def with_ranges(case: Case, texts: Iterable[str]) -> Case:
@@ -166,10 +160,7 @@ def with_ranges(case: Case, texts: Iterable[str]) -> Case:
     >>> with_ranges(Case(1.0, 0.5), ["roller_rise=0,0.1"]).ranges[0].high
     0.1
     """
-    own = {one.key: one for one in case.ranges}
-    for text in texts:
-        found = _given(text)
-        own[found.key] = found
+    own = {one.key: one for one in (*case.ranges, *map(_given, texts))}
     return replace(case, ranges=tuple(own.values()))
 
 
@@ -181,11 +172,9 @@ def _given(text: str) -> Range:
         near = nearest(key, unknowns)
         known = f"nearest: {near}" if near else f"allowed: {', '.join(unknowns)}"
         raise StudyError(f"--doubt {text}: no unknown is named {key}, {known}")
-    unit, (least, most) = unknowns[key].unit, unknowns[key].allowed
-    try:
+    unit, (least, most), ends = unknowns[key].unit, unknowns[key].allowed, []
+    with suppress(ValueError):
         ends = [float(part) for part in said.split(",")]
-    except ValueError:
-        ends = []
     if not (1 <= len(ends) <= 2 and least <= ends[0] <= ends[-1] <= most):
         shown = {"1": "", "x": " times the case's own"}.get(unit, f" {unit}")
         raise StudyError(

@@ -16,7 +16,7 @@ from cosim.processes import processes
 from thermal import Belt, ParameterError
 from thermal.steady_state import NoSteadyState
 
-from .case import OWN_KEYS, Case, StudyError
+from .case import AIR, OWN_KEYS, Case, StudyError
 from .changes import changes, friction_effect
 from .drift import drift, wait
 from .lengths import shortest_belts
@@ -80,58 +80,44 @@ def _within(name: str, value: float, unit: str, low: float, included: bool, high
 
 
 def check_case(case: Case, arguments: Namespace) -> None:
-    """What options and scenario come to together: travel, air, room on the belt."""
-    _check_travel(case, arguments)
+    """What options and scenario come to together: travel, air, room on the belt, its matter.
+
+    A number is named by its option where that was given or there is no scenario; else by the key.
+    """
+    protocol = case.protocol
+    file = "" if arguments.scenario is None else f"{arguments.scenario}: "
+    options = {field: name for name, (field, *_) in BOUNDS.items()}
+    names = {
+        key: f"--{options[field]}"
+        for key, field in OWN_KEYS.items()
+        if not file or getattr(arguments, options[field]) is not None
+    }
+    if case.travel > MOST_TRAVEL:
+        raise StudyError(
+            f"{file}--ramp = {protocol.ramp:g} s, --run = {protocol.run:g} s, --runs ="
+            f" {protocol.runs} at --speed = {case.speed:g} m/s (surface.run_up_time, run.duration,"
+            f" surface.speed of a scenario): the belt would go {case.travel:.3g} m, allowed is at"
+            f" most {MOST_TRAVEL:g} m"
+        )
     if case.h == 0.0:
-        said = _named("h", "belt.air_heat_transfer", arguments)
         raise NoSteadyState(
-            f"{said} = 0: a belt that gives no heat to the air warms for ever, and the study asks"
-            " for its steady state; allowed is above 0 W/m2K"
+            f"{names.get(AIR, file + AIR)} = 0: a belt that gives no heat to the air warms for"
+            " ever, and the study asks for its steady state; allowed is above 0 W/m2K"
         )
     try:
         belt = case.thermal().belt
     except ParameterError as error:
-        raise ParameterError(_in_their_words(str(error), arguments)) from None
-    _check_layers(belt, arguments)
-
-
-def _check_travel(case: Case, arguments: Namespace) -> None:
-    protocol = case.protocol
-    if case.travel <= MOST_TRAVEL:
-        return
-    file = f"{arguments.scenario}: " if arguments.scenario is not None else ""
-    raise StudyError(
-        f"{file}--ramp = {protocol.ramp:g} s, --run = {protocol.run:g} s, --runs = {protocol.runs}"
-        f" at --speed = {case.speed:g} m/s (surface.run_up_time, run.duration, surface.speed of a"
-        f" scenario): the belt would go {case.travel:.3g} m, allowed is at most {MOST_TRAVEL:g} m"
-    )
-
-
-def _check_layers(belt: Belt, arguments: Namespace) -> None:
-    """StudyError for what is no belt: thinner than any foil, or insulating beyond any matter."""
+        fault = str(error)
+        key = next((key for key in names if fault.startswith(key)), "")
+        fault = names[key] + fault.removeprefix(key) if key else file + fault
+        raise ParameterError(fault) from None
+    # what is no belt: thinner than any foil, or insulating beyond any matter
     for number, layer in enumerate(belt.stack, 1):
         for name, unit, least in LEAST:
-            value = getattr(layer, name)
-            if value >= least:
-                continue
-            own = f"{arguments.scenario}: belt.layers[{number}].{name}"
-            said = own if belt.layers else _named(name, f"belt.{name}", arguments)
-            raise StudyError(f"{said} = {value:g} {unit}: must be at least {least:g} {unit}")
-
-
-def _named(option: str, key: str, arguments: Namespace) -> str:
-    """The option where it was given or there is no scenario; else file and key."""
-    if arguments.scenario is None or getattr(arguments, option) is not None:
-        return f"--{option}"
-    return f"{arguments.scenario}: {key}"
-
-
-def _in_their_words(fault: str, arguments: Namespace) -> str:
-    options = {field: name for name, (field, *_) in BOUNDS.items()}
-    for key, field in OWN_KEYS.items():
-        if fault.startswith(key):
-            return _named(options[field], key, arguments) + fault.removeprefix(key)
-    return fault if arguments.scenario is None else f"{arguments.scenario}: {fault}"
+            if (value := getattr(layer, name)) < least:
+                key = f"belt.layers[{number}].{name}" if belt.layers else f"belt.{name}"
+                said = f"{names.get(key, file + key)} = {value:g} {unit}"
+                raise StudyError(f"{said}: must be at least {least:g} {unit}")
 
 
 def cases(base: Case, **choices: Iterable[float | None]) -> list[Case]:
@@ -175,7 +161,9 @@ def steps(study: Study, wanted: list[Case], is_own: bool) -> int:
     return doubts * runs_for(study.options.samples) + len(wanted) + places
 
 
-def work_off(study: Study, wanted: list[Case], jobs: int, progress: Progress) -> None:
+def work_off(
+    study: Study, wanted: list[Case], jobs: int, progress: Progress = lambda count: None
+) -> None:
     """Fill the study's rows, in order; whatever interrupts it, the rows until then stay.
 
     Where the study has answers, the doubt of a row is that of its drive's rigs.

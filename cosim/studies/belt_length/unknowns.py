@@ -17,7 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,6 @@ from thermal.contact.footprint import Footprint
 from .case import Case
 
 Array = NDArray[np.float64]
-Material = TypeVar("Material", Belt, Layer)
 
 #: Rollers and railing where the rig names none: two with 0.1 m of belt each, and as long as the
 #: sample; on a short belt not more than these parts of it.
@@ -95,8 +94,7 @@ def unknowns_of(case: Case) -> tuple[Unknown, ...]:
 #: face from the start, by which it is known whether it comes to melt.
 ENTRY, INTERFACE, ICE = 0, 1, 2
 #: Columns of A to E.
-CONTACT, RAILING, ROLLERS, SAMPLE, AIR = range(5)
-COLUMNS = (CONTACT, RAILING, ROLLERS, SAMPLE, AIR)
+COLUMNS = CONTACT, RAILING, ROLLERS, SAMPLE, AIR = range(5)
 #: K/s in K/min.
 _PER_MINUTE = 1.0 / 60.0
 
@@ -147,35 +145,35 @@ def combined(parts: Array, values: Mapping[str, Any]) -> Array:
     return np.asarray(sum(weight * parts[:, i] for i, weight in enumerate(weights(values))))
 
 
-def as_it_is(case: Case, key: str) -> dict[str, float]:
-    """Values with which the rig is as the case says, to be changed in one of them, `key`.
+def as_it_is(case: Case) -> dict[str, float]:
+    """Values with which the rig is as the case says.
 
-    Railing and rollers that it has not take as much heat as the air in their place. To see what a
-    share of the railing's heat or a warm roller does there must be such heat, or a contact:
-    `needs` says with which they are seen.
+    Railing and rollers that it has not take as much heat as the air in their place.
     """
     belt, contact = case.rig.belt, case.rig.contact
-    factors = dict.fromkeys((one.key for one in UNKNOWNS if one.unit == "x"), 1.0)
-    railing, rollers = belt.railing_length > 0.0, belt.rollers > 0
-    values = factors | {
+    return dict.fromkeys((one.key for one in UNKNOWNS if one.unit == "x"), 1.0) | {
         "h": case.film,
         "belt_side": contact.belt_side,
         "conductance": contact.conductance if case.conductance is None else case.conductance,
         "railing_friction": belt.railing_friction,
         "railing_share": belt.railing_share,
-        "railing_conductance": belt.railing_conductance if railing else case.film,
-        "roller_conductance": belt.roller_conductance if rollers else case.film,
-        "roller_rise": belt.roller_rise if rollers else 0.0,
+        "railing_conductance": belt.railing_conductance if belt.railing_length else case.film,
+        "roller_conductance": belt.roller_conductance if belt.rollers else case.film,
+        "roller_rise": belt.roller_rise if belt.rollers else 0.0,
         "sample_rise": case.ice_rise,
         "air_warming": 0.0,
     }
-    return values | needs(case, key)
 
 
 def with_one(case: Case, key: str, value: float) -> dict[str, float]:
-    """Values with which the rig is as the case says but for one; where no railing or roller is, the
-    air's heat transfer is another there, too."""
-    return as_it_is(replace(case, h=value) if key == "h" else case, key) | {key: value}
+    """The same but for one; where no railing or roller is, the air's heat transfer is another
+    there, too.
+
+    To see what a share of the railing's heat or a warm roller does there must be such heat, or a
+    contact: `needs` says with which they are seen.
+    """
+    own = replace(case, h=value) if key == "h" else case
+    return as_it_is(own) | needs(case, key) | {key: value}
 
 
 def needs(case: Case, key: str) -> dict[str, float]:
@@ -209,7 +207,22 @@ def _shaped(case: Case, values: dict[str, float]) -> Case:
         footprint = Footprint(contact.radius, belt.width, contact.strips, contact.length)
         keys["contact.length"] = footprint.length * values["contact_area"]
     shaped = replace(case, h=values["h"], ice_rise=0.0, drawn=True)
-    return _with_belt(shaped, values["conductivity"], values["heat_capacity"]).changed(keys)
+    return shaped.changed(keys | _material(case, values))
+
+
+def _material(case: Case, values: dict[str, float]) -> dict[str, Any]:
+    """The belt's conductivity and heat capacity, or those of each of its layers, times factors."""
+
+    def scaled(material: Belt | Layer) -> dict[str, float]:
+        names = ("conductivity", "heat_capacity")
+        return {name: values[name] * getattr(material, name) for name in names}
+
+    belt = case.rig.belt
+    if belt.layers:
+        return {"belt.layers": [layer.model_dump() | scaled(layer) for layer in belt.layers]}
+    if case.conductivity is not None:
+        belt = belt.model_copy(update={"conductivity": case.conductivity})
+    return {f"belt.{name}": value for name, value in scaled(belt).items()}
 
 
 def _room_for_railing(case: Case) -> float:
@@ -219,19 +232,3 @@ def _room_for_railing(case: Case) -> float:
     if not belt.rollers:
         return length
     return min(length, 0.95 * (case.length / belt.rollers - belt.roller_arc))
-
-
-def _with_belt(case: Case, conductivity: float, heat_capacity: float) -> Case:
-    """Factors on the belt's conductivity and heat capacity, on those of each of its layers."""
-
-    def scaled(material: Material) -> Material:
-        factors = {"conductivity": conductivity, "heat_capacity": heat_capacity}
-        return material.model_copy(
-            update={name: factor * getattr(material, name) for name, factor in factors.items()}
-        )
-
-    belt = case.rig.belt
-    layers = tuple(scaled(layer) for layer in belt.layers)
-    belt = belt.model_copy(update={"layers": layers}) if layers else scaled(belt)
-    own = None if case.conductivity is None else conductivity * case.conductivity
-    return replace(case, rig=case.rig.model_copy(update={"belt": belt}), conductivity=own)

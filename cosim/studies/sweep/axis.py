@@ -12,17 +12,15 @@ from functools import cache
 from typing import Any, get_args
 
 import numpy as np
+import xarray as xr
 from pydantic.fields import FieldInfo
 from stickslip import Parameters
-from stickslip.quantity import details
 
 from cosim.names import nearest_key
 from cosim.scenario import Scenario
-from cosim.scenario.validation import known_keys
+from cosim.scenario.validation import known_keys, unit_of
 
 LINK = "+"
-#: In place of a key: a whole scenario.
-SCENARIO = "scenario"
 #: A key of one table of a list: the list's key, the table's number from 1, its own key.
 LIST_ENTRY = re.compile(r"^(\w+\.\w+)\[(\d+)\]\.(\w+)$")
 _LARGEST = 2**1023
@@ -48,12 +46,12 @@ class Axis:
     ----------
     name : of the dimension
     settings : for each of its values, `block.key` -> value
-    coordinates : name -> (values as a result file holds them, attributes with unit and long name)
+    coordinates : name -> values along it as a result file holds them, with unit and long name
     """
 
     name: str
     settings: tuple[Mapping[str, Any], ...]
-    coordinates: Mapping[str, tuple[np.ndarray, dict[str, str]]] = field(repr=False)
+    coordinates: Mapping[str, xr.Variable] = field(repr=False)
 
     def __len__(self) -> int:
         return len(self.settings)
@@ -73,21 +71,22 @@ def axis(keys: str | Sequence[str], values: Sequence[Any], kind: type[Scenario] 
     'friction.mu_s+friction.mu_k'
     """
     keys = tuple(keys.split(LINK)) if isinstance(keys, str) else tuple(keys)
-    name = LINK.join(keys)
-    for key in keys:
-        _check_key(key, kind)
-    if len(set(keys)) < len(keys):
+    name, fields = LINK.join(keys), {key: _field(key, kind) for key in keys}
+    if len(fields) < len(keys):
         raise SweepError(f"{name}: links a key with itself, allowed are different keys")
-    rows = [_row(name, keys, value) for value in _listed(name, values)]
+    rows = [_row(name, len(keys), value) for value in _listed(name, values)]
     if not rows:
         raise SweepError(f"{name}: no values, allowed is at least one")
+    labels = [":".join(map(_label, row)) for row in rows]
     for i, row in enumerate(rows):
         if row in rows[:i]:
-            shown = ":".join(_label(value) for value in row)
-            raise SweepError(f"{name}: {shown} is there twice, allowed is each value once")
-    columns = {key: [row[i] for row in rows] for i, key in enumerate(keys)}
-    settings = tuple(dict(zip(keys, row, strict=True)) for row in rows)
-    return Axis(name, settings, _coordinates(name, columns, kind))
+            raise SweepError(f"{name}: {labels[i]} is there twice, allowed is each value once")
+    coordinates = {name: _coordinate(name, labels, "1", name)}  # of one key, its own values instead
+    for (key, of), column in zip(fields.items(), zip(*rows, strict=True), strict=True):
+        number = int if of.annotation is int else float
+        long_name = of.description or key
+        coordinates[key] = _coordinate(name, column, unit_of(of), long_name, number)
+    return Axis(name, tuple(dict(zip(keys, row, strict=True)) for row in rows), coordinates)
 
 
 def labelled_axis(
@@ -95,21 +94,10 @@ def labelled_axis(
     long_name: str,
     unit: str,
     labels: Sequence[Any],
-    settings: Sequence[Mapping[str, Any]],
+    settings: Iterable[Mapping[str, Any]],
 ) -> Axis:
     """An axis with values of its own, that stand for some settings."""
-    coordinate = (_column(labels), {"units": unit, "long_name": long_name})
-    return Axis(name, tuple(settings), {name: coordinate})
-
-
-def scenario_axis(scenarios: Sequence[Scenario]) -> Axis:
-    """Whole scenarios, by their names; SweepError for two of one name."""
-    names = [scenario.name for scenario in scenarios]
-    for i, name in enumerate(names):
-        if name in names[:i]:
-            raise SweepError(f"two scenarios are named {name}, allowed is each name once")
-    settings = [{SCENARIO: scenario} for scenario in scenarios]
-    return labelled_axis(SCENARIO, "scenario", "1", names, settings)
+    return Axis(name, tuple(settings), {name: _coordinate(name, labels, unit, long_name)})
 
 
 def list_entry(key: str) -> tuple[str, int, str] | None:
@@ -118,83 +106,62 @@ def list_entry(key: str) -> tuple[str, int, str] | None:
     return None if found is None else (found[1], int(found[2]), found[3])
 
 
-def field_of(key: str, kind: type[Scenario]) -> FieldInfo | None:
-    """What a key of a scenario holds; None where there is no such key."""
-    known = keys_of(kind)
-    place = list_entry(key)
-    if place is None:
-        return known.get(key)
-    field = known.get(place[0])
-    kinds = get_args(field.annotation) if field else ()
-    return getattr(kinds[0], "model_fields", {}).get(place[2]) if kinds else None
-
-
-def _check_key(key: str, kind: type[Scenario]) -> None:
-    if field_of(key, kind) is not None:
-        return
+def _field(key: str, kind: type[Scenario]) -> FieldInfo:
+    """What a key of a scenario holds; SweepError where there is no such key."""
     every = keys_of(kind)
-    tables = dict.fromkeys(known.partition(".")[0] for known in every)
+    of_list, _, entry = list_entry(key) or (key, 0, "")
+    found = every.get(of_list)
+    if entry and found is not None:
+        tables = get_args(found.annotation)
+        found = getattr(tables[0], "model_fields", {}).get(entry) if tables else None
+    if found is not None:
+        return found
+    tables_known = dict.fromkeys(known.partition(".")[0] for known in every)
     siblings = [known for known in every if known.partition(".")[0] == key.partition(".")[0]]
-    allowed = ", ".join(siblings) or f"a key of {', '.join(tables)}"
+    allowed = ", ".join(siblings) or f"a key of {', '.join(tables_known)}"
     near = nearest_key(key, every)
     hint = f"nearest: {near}" if near else f"allowed: {allowed}"
     raise SweepError(f"{key}: no such key of a scenario, {hint}")
 
 
 def _listed(name: str, values: Any) -> list[Any]:
-    scalar = isinstance(values, (str, bytes, Mapping)) or not hasattr(values, "__iter__")
-    if scalar or isinstance(values, np.ndarray) and values.ndim == 0:
-        raise SweepError(f"{name}: not a list ({values!r}), allowed is a list of values")
-    return list(values)
+    if not isinstance(values, (str, bytes, Mapping)):
+        with suppress(TypeError):  # of what has no length, such as a number of numpy
+            return list(values)
+    raise SweepError(f"{name}: not a list ({values!r}), allowed is a list of values")
 
 
-def _row(name: str, keys: tuple[str, ...], value: Any) -> tuple[Any, ...]:
-    """One value for each key, in plain Python types (numpy's are refused by strict models)."""
-    if len(keys) == 1:
+def _row(name: str, count: int, value: Any) -> tuple[Any, ...]:
+    """One value for each of some keys, in plain Python types."""
+    if count == 1:
         return (_plain(value),)
-    if isinstance(value, str) or not hasattr(value, "__len__") or len(value) != len(keys):
+    if isinstance(value, str) or not hasattr(value, "__len__") or len(value) != count:
         raise SweepError(
-            f"{name}: not one value for each linked key ({value!r}), allowed are {len(keys)}"
+            f"{name}: not one value for each linked key ({value!r}), allowed are {count}"
         )
-    return tuple(_plain(entry) for entry in value)
+    return tuple(map(_plain, value))
 
 
 def _plain(value: Any) -> Any:
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, (list, tuple, np.ndarray)):
-        return tuple(_plain(entry) for entry in value)
+    """Python's own types in place of numpy's, which strict models refuse."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        value = value.tolist()
     if isinstance(value, Mapping):
         return {key: _plain(entry) for key, entry in value.items()}
-    return value
+    return tuple(map(_plain, value)) if isinstance(value, (list, tuple)) else value
 
 
-def _coordinates(name: str, columns: dict[str, list[Any]], kind: type[Scenario]) -> dict[str, Any]:
-    coordinates: dict[str, Any] = {}
-    if len(columns) > 1:
-        rows = zip(*columns.values(), strict=True)
-        labels = [":".join(_label(value) for value in row) for row in rows]
-        coordinates[name] = (_column(labels), {"units": "1", "long_name": name})
-    for key, values in columns.items():
-        field = field_of(key, kind)
-        assert field is not None, "checked before"
-        attributes = {
-            "units": details(field).get("unit", "1"),
-            "long_name": field.description or key,
-        }
-        number = int if field.annotation is int else float
-        coordinates[key] = (_column(values, number), attributes)
-    return coordinates
-
-
-def _column(values: Sequence[Any], kind: type = float) -> np.ndarray:
+def _coordinate(
+    dim: str, values: Sequence[Any], unit: str, long_name: str, number: type = float
+) -> xr.Variable:
     """Numbers as they are, anything else by its label."""
-    if all(_is_number(value) for value in values):
-        return np.array(values, dtype=kind)
+    attributes = {"units": unit, "long_name": long_name}
+    if all(map(_is_number, values)):
+        return xr.Variable(dim, np.array(values, number), attributes)
     labels = [_label(value) for value in values]
-    if any(len(label) > LONGEST_LABEL for label in labels):
+    if max(map(len, labels)) > LONGEST_LABEL:
         labels = [f"{i}: {label}"[:LONGEST_LABEL] for i, label in enumerate(labels, 1)]
-    return np.array(labels, dtype=object)
+    return xr.Variable(dim, np.array(labels, object), attributes)
 
 
 def _is_number(value: Any) -> bool:
@@ -205,7 +172,7 @@ def _is_number(value: Any) -> bool:
 
 def _label(value: Any) -> str:
     if isinstance(value, tuple):
-        return " ".join(_label(entry) for entry in value)
+        return " ".join(map(_label, value))
     if isinstance(value, Mapping):
         return "(" + ", ".join(f"{key} {_label(entry)}" for key, entry in value.items()) + ")"
     if isinstance(value, bool):
@@ -214,7 +181,6 @@ def _label(value: Any) -> str:
 
 
 FORM = "allowed is key=v1,v2,... or, linked, key+key=v1:w1,v2:w2,..."
-QUOTES = "\"'"
 
 
 def parse_vary(texts: Iterable[str]) -> dict[tuple[str, ...], list[Any]]:
@@ -233,23 +199,21 @@ def parse_vary(texts: Iterable[str]) -> dict[tuple[str, ...], list[Any]]:
             raise SweepError(f"--vary {text}: not a key with values, {FORM}")
         if keys in varied:
             raise SweepError(f"--vary {name.strip()}: varied twice, allowed is once")
-        varied[keys] = _values(text, values, len(keys))
+        if not values.strip():
+            raise SweepError(f"--vary {text}: no values, {FORM}")
+        varied[keys] = [_entry(text, part, len(keys)) for part in _split(text, values, ",")]
     return varied
 
 
-def _values(text: str, values: str, count: int) -> list[Any]:
-    if not values.strip():
-        raise SweepError(f"--vary {text}: no values, {FORM}")
-    wanted = "a value" if count == 1 else f"{count} values for the linked keys"
-    found = []
-    for part in _split(text, values, ","):
-        entry = [part] if count == 1 else _split(text, part, ":")
-        if len(entry) != count or not all(one.strip() for one in entry):
-            shown = ":".join(entry).strip() or "an empty value"
-            raise SweepError(f"--vary {text}: {shown} is not {wanted}, {FORM}")
-        row = tuple(_value(text, one) for one in entry)
-        found.append(row[0] if count == 1 else row)
-    return found
+def _entry(text: str, part: str, count: int) -> Any:
+    """The value of one key, or a tuple of those of linked ones."""
+    parts = [part] if count == 1 else _split(text, part, ":")
+    if len(parts) != count or not all(one.strip() for one in parts):
+        wanted = "a value" if count == 1 else f"{count} values for the linked keys"
+        shown = part.strip() or "an empty value"
+        raise SweepError(f"--vary {text}: {shown} is not {wanted}, {FORM}")
+    values = tuple(_value(text, one) for one in parts)
+    return values[0] if count == 1 else values
 
 
 def _split(text: str, values: str, separator: str) -> list[str]:
@@ -258,7 +222,7 @@ def _split(text: str, values: str, separator: str) -> list[str]:
     for character in values:
         if quote:
             quote = "" if character == quote else quote
-        elif character in QUOTES:
+        elif character in "\"'":
             quote = character
         else:
             depth += (character in "[{") - (character in "]}")

@@ -26,7 +26,7 @@ from cosim.scenario import Scenario, ScenarioError
 from cosim.scenario.changes import changed_tables
 
 from . import features as feature_module
-from .axis import SCENARIO, list_entry
+from .axis import list_entry
 from .features import ALL, FEATURES, Feature, features
 
 
@@ -34,27 +34,30 @@ class SweepStopped(RuntimeError):
     """A sweep that could not be finished; one line, with what is kept and how to go on."""
 
 
+#: In place of a key: a whole scenario.
+SCENARIO = "scenario"
 COMPLETE, FAILED, ERROR = 0, 1, 2
 STATUS_MEANINGS = "complete failed error"
 KEY_DIGITS = 32
 
 
 class Run(NamedTuple):
-    """How every combination is run: duration and time between two rows, s; coupled to the heat.
+    """How every combination is run: duration, time between two rows, most that it may take, s.
 
-    Where the combinations are whole scenarios, each has a duration and an interval of its own.
+    coupled: to the heat. Where the combinations are whole scenarios, each has times of its own.
     """
 
-    duration: float
-    output_interval: float
+    duration: float = 30.0
+    output_interval: float = 0.01
+    patience: float = math.inf
     coupled: bool = False
 
     def of(self, parameters: Parameters) -> Run:
         """Of one combination."""
         if not isinstance(parameters, Scenario):
             return self
-        run = parameters.run
-        return self._replace(duration=run.duration, output_interval=run.output_interval)
+        own = parameters.run
+        return Run(own.duration, own.output_interval, own.patience, self.coupled)
 
     @property
     def features(self) -> dict[str, Feature]:
@@ -74,19 +77,16 @@ class Row(NamedTuple):
     values: tuple[float, ...] = ()
 
 
+#: One combination: its content key, and how it differs from the base.
+Task = tuple[str, Mapping[str, Any]]
+
+
 class Work(NamedTuple):
     """What all combinations of a sweep have in common."""
 
     base: Parameters
     run: Run
     version: str
-
-
-class Task(NamedTuple):
-    """One combination: its content key and how it differs from the base."""
-
-    key: str
-    changes: Mapping[str, Any]
 
 
 @cache
@@ -112,12 +112,11 @@ def heat_version() -> str:
 
 def content_key(parameters: Parameters, run: Run) -> str:
     """Hash of all that the outcome depends on: two equal combinations have one key."""
-    duration, output_interval, coupled = run.of(parameters)
-    whole = isinstance(parameters, Scenario)
     # a name is none of what a run depends on
-    tables = parameters.model_dump(mode="json", exclude={"name"} if whole else None)
-    content: list[Any] = [model_version(parameters.catalogue), duration, output_interval, tables]
-    if coupled:
+    tables = parameters.model_dump(mode="json", exclude={"name"})
+    times = run.of(parameters)[:2]
+    content: list[Any] = [model_version(parameters.catalogue), *times, tables]
+    if run.coupled:
         content.append(heat_version())
     text = json.dumps(content, sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()[:KEY_DIGITS]
@@ -166,35 +165,30 @@ def compute_chunk(work: Work, tasks: Sequence[Task]) -> list[Row]:
     with warnings.catch_warnings():
         # what there is to warn of was said when the combinations were checked
         warnings.simplefilter("ignore", UserWarning)
-        return [compute(work, task) for task in tasks]
+        return [compute(work, *task) for task in tasks]
 
 
-def compute(work: Work, task: Task) -> Row:
+def compute(work: Work, key: str, changes: Mapping[str, Any]) -> Row:
     """Simulate one combination. What goes wrong is in the row: it never ends a sweep."""
     try:
-        numbers, reason = _simulated(with_changes(work.base, task.changes), work.run)
+        numbers, reason = _simulated(with_changes(work.base, changes), work.run)
     except Exception as error:  # noqa: BLE001 - named in the row, for whoever reads the sweep
-        return Row(task.key, ERROR, f"{type(error).__name__}: {' '.join(str(error).split())}")
+        return Row(key, ERROR, f"{type(error).__name__}: {' '.join(str(error).split())}")
     if reason:
-        return Row(task.key, FAILED, reason)
-    return Row(task.key, COMPLETE, "", tuple(numbers[name] for name in work.run.features))
+        return Row(key, FAILED, reason)
+    return Row(key, COMPLETE, "", tuple(numbers[name] for name in work.run.features))
 
 
 def _simulated(parameters: Parameters, run: Run) -> tuple[dict[str, float], str]:
     """Features by name; or why there are none."""
-    duration, output_interval, coupled = run.of(parameters)
-    if not isinstance(parameters, Scenario):
-        trajectory = simulate(parameters, duration, output_interval, progress=stop_if_told)
-    elif coupled:
-        return _coupled(parameters)
-    else:
-        trajectory = simulate(
-            parameters.mechanics,
-            duration,
-            output_interval,
-            interface_temperature=parameters.ambient.temperature_degC,
-            progress=stop_if_told,
-        )
+    times, temperature = run.of(parameters)[:2], None
+    if isinstance(parameters, Scenario):
+        if run.coupled:
+            return _coupled(parameters)
+        temperature, parameters = parameters.ambient.temperature_degC, parameters.mechanics
+    trajectory = simulate(
+        parameters, *times, interface_temperature=temperature, progress=stop_if_told
+    )
     return ({}, trajectory.reason) if trajectory.reason else (features(trajectory), "")
 
 

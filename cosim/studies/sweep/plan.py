@@ -16,8 +16,8 @@ from stickslip import Parameters
 from cosim.packaged import packaged_tables
 
 from .axis import axis, labelled_axis
-from .combination import with_changes
-from .grid import Grid, mechanics_of, merged, patience_of
+from .combination import Run, with_changes
+from .grid import Grid, mechanics_of, merged
 
 PLAN = packaged_tables(__package__, "plan.toml")
 #: mu_k at -8 degC
@@ -47,14 +47,15 @@ def plan_grid(
         axis("surface.speed", PLAN["speeds"]),
         labelled_axis("guides", "motion that the rig allows", "1", list(guides), free),
     )
-    return Grid(mechanics_of(parameters), axes, _with_friction, patience_of(parameters))
+    return Grid(mechanics_of(parameters), axes, Run().of(parameters), _with_friction)
 
 
 def repeats_grid(parameters: Parameters) -> Grid:
     """Ten runs of ``parameters``, each over another place of a surface whose friction scatters."""
     deviation = parameters.surface_scatter.deviation or PLAN["scatter"]
     base = with_changes(mechanics_of(parameters), {"surface_scatter.deviation": deviation})
-    return Grid(base, (axis("surface_scatter.seed", range(1, PLAN["repeats"] + 1)),))
+    seeds = axis("surface_scatter.seed", range(1, PLAN["repeats"] + 1))
+    return Grid(base, (seeds,), Run().of(parameters))
 
 
 def _with_friction(settings: Sequence[Mapping[str, Any]]) -> dict[str, Any]:

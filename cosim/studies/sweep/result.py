@@ -1,4 +1,4 @@
-"""A sweep's dataset, which can become what `stickslip sweep` leaves."""
+"""A sweep's dataset, which can become what `stickslip sweep` leaves: table, figure, page."""
 
 from __future__ import annotations
 
@@ -12,12 +12,22 @@ import xarray as xr
 
 from cosim.files import write_bytes, write_text
 from cosim.report.files import without_nan, write_netcdf, write_table
+from cosim.report.page import render
 from cosim.result import Result
+
+from .features import ALL
+from .words import records, regime, sentence, shown_features, still_sentence, tiles, titled, unit_of
 
 if TYPE_CHECKING:
     from cosim.report.page import Picture
 
 RESULT, FIGURE, TABLE, PAGE = "sweep.nc", "sweep.png", "sweep.csv", "report.html"
+#: Runs that the page lists; the rest is in the file.
+MOST_ROWS = 500
+FILES = {
+    RESULT: "all features of all runs, with units: netCDF 4, for xarray, Matlab",
+    TABLE: "the same as a table, a line for each run",
+}
 
 
 class Sweep(xr.Dataset, Result):  # type: ignore[no-untyped-call]
@@ -37,7 +47,7 @@ class Sweep(xr.Dataset, Result):  # type: ignore[no-untyped-call]
         return summary({"": self})
 
     def _page(self) -> str:
-        return _drawn(self, (), "")[0]
+        return _drawn(self)[0]
 
     def _write(self, folder: Path) -> None:
         write({"": self}, folder)
@@ -45,11 +55,8 @@ class Sweep(xr.Dataset, Result):  # type: ignore[no-untyped-call]
 
 def summary(datasets: Mapping[str, xr.Dataset]) -> dict[str, Any]:
     """Every run of each group, "" being the first."""
-    from .page import records
-
-    found: dict[str, Any] = without_nan(
-        {group or "runs": records(dataset) for group, dataset in datasets.items()}
-    )
+    runs = {group or "runs": records(dataset) for group, dataset in datasets.items()}
+    found: dict[str, Any] = without_nan(runs)
     return found
 
 
@@ -60,24 +67,42 @@ def write(
 
     asked: features that are drawn (those that vary).
     """
-    from .page import records
-
-    dataset = datasets[""]
     write_netcdf(datasets, folder / RESULT)
-    write_table(pd.DataFrame(records(dataset)), folder / TABLE, index=False)
-    text, picture = _drawn(dataset, asked, command)
+    write_table(pd.DataFrame(records(datasets[""])), folder / TABLE, index=False)
+    text, picture = _drawn(datasets[""], asked, command)
     write_bytes(picture.png, folder / FIGURE)
     write_text(text, folder / PAGE)
 
 
-def _drawn(dataset: xr.Dataset, asked: Sequence[str], command: str) -> tuple[str, Picture]:
+def _drawn(
+    dataset: xr.Dataset, asked: Sequence[str] = (), command: str = ""
+) -> tuple[str, Picture]:
     """Page and figure."""
-    from .figure import draw_sweep, shown_features  # matplotlib, which no worker needs
-    from .page import page
+    from .figure import draw_sweep  # matplotlib, which no worker needs
 
-    drawn, still = shown_features(dataset, list(asked))
+    drawn, still = shown_features(dataset, asked)
     picture = draw_sweep(dataset, drawn)
     scenario = str(dataset.attrs.get("scenario", ""))
-    name = tomllib.loads(scenario).get("name", "Mechanics")
-    said = {"name": name, "command": command, "scenario": scenario}
-    return page(dataset, picture, drawn, still, **said), picture
+    dims = {str(dim): unit_of(dataset[dim]) for dim in dataset["status"].dims}
+    rows = records(dataset)
+    text = render(
+        "sweep.html.j2",
+        "cosim.studies.sweep",
+        name=tomllib.loads(scenario).get("name", "Mechanics"),
+        coordinates=[dataset[dim] for dim in dims],
+        coupled=bool(dataset.attrs["coupled"]),
+        sentence=sentence(rows, dims),
+        tiles=tiles(rows, dims),
+        still=still_sentence(dataset, still),
+        figure_of=picture,
+        drawn={name: ALL[name] for name in drawn},
+        rows=rows,
+        most=MOST_ROWS,
+        failed=[row for row in rows if row["reason"]],
+        files=FILES,
+        command=command,
+        scenario=scenario,
+        titled=titled,
+        regime=regime,
+    )
+    return text, picture

@@ -2,51 +2,98 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator, Sequence
-from contextlib import contextmanager
+import math
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import closing, contextmanager
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import joblib
 
 from cosim.processes import BrokenProcessPool, as_finished
 
 from .axis import SweepError
-from .combination import Row, SweepStopped, Task, Work, compute_chunk
+from .combination import Row, Run, SweepStopped, Task, Work, compute_chunk
 
 if TYPE_CHECKING:
     from distributed import Client
 
 #: A scheduler that does not answer in this time (s) is not there; a far one needs a few.
 CONNECT_SECONDS = 10.0
+#: Simulated time in a chunk of the mechanics, s: half a second of work, which is long against the
+#: milliseconds of handing it over, and short to lose. A coupled run is a chunk of its own.
+CHUNK_TIME = 1000.0
+MOST_IN_CHUNK = 256
+#: Chunks per worker at least, so that none waits long for the last one.
+SHARES = 4
+#: Mechanics that are done, in chunks, before other processes have even been started.
+NOT_WORTH_PROCESSES = 3
+#: Starts with fresh workers after some were lost, before a sweep gives up.
+ATTEMPTS = 3
 
-Chunks = Sequence[Sequence[Task]]
 Rows = Generator[list[Row], None, None]
-Run = Callable[[Work, Chunks], Rows]
+Chunks = Sequence[Sequence[Task]]
 
 
 class WorkersLost(RuntimeError):
     """Worker processes ended in mid-work; what they had not returned is to be done again."""
 
 
-@contextmanager
-def workers(jobs: int | None, dask: str | None) -> Iterator[tuple[int, Run]]:
-    """How many compute at once; and the rows of each chunk as it is finished, of work in chunks.
+def computed(
+    work: Work, tasks: Mapping[str, Mapping[str, Any]], jobs: int | None, dask: str | None
+) -> Rows:
+    """The rows of all tasks (content key -> changes), chunk by chunk as they are finished.
 
     ``jobs`` processes with one thread each, all cores where left out; 1 is this process. Or the
-    threads behind a scheduler's address, one chunk at a time on each: a chunk whose worker dies is
-    handed to another one by the scheduler; without workers it waits for new ones. SweepStopped when
-    the scheduler is gone, WorkersLost where chunks are to be handed out again.
+    threads behind a scheduler's address. Where workers are lost what is missing is begun again, by
+    fresh ones; SweepStopped after the last attempt, and where the scheduler is gone.
     """
+    left, lost = dict(tasks), ""
+    few = len(tasks) * work.run.duration < NOT_WORTH_PROCESSES * CHUNK_TIME
+    with _workers(1 if few and not work.run.coupled else jobs, dask) as (count, compute):
+        for attempt in range(ATTEMPTS):
+            missing, size = list(left.items()), _chunk_size(work.run, len(left) / count, attempt)
+            chunks = [missing[i : i + size] for i in range(0, len(missing), size)]
+            try:
+                # closed at once where it is left in the middle, not when it is collected
+                with closing(compute(work, chunks)) as results:
+                    for rows in results:
+                        for row in rows:
+                            del left[row.key]
+                        yield rows
+                return
+            except WorkersLost as error:
+                lost = str(error)
+    raise SweepStopped(
+        f"workers died {ATTEMPTS} times ({lost}), {len(left)} combinations are missing: try fewer"
+        " jobs"
+    )
+
+
+def _chunk_size(run: Run, share: float, attempt: int) -> int:
+    """share: tasks for each worker. Shorter chunks after a loss: what is lost with one is less."""
+    most = min(round(CHUNK_TIME / run.duration), math.ceil(share / SHARES), MOST_IN_CHUNK)
+    return 1 if run.coupled else max(most // 4**attempt, 1)
+
+
+@contextmanager
+def _workers(
+    jobs: int | None, dask: str | None
+) -> Iterator[tuple[int, Callable[[Work, Chunks], Rows]]]:
+    """How many compute at once; and what gives the rows of each chunk as it is finished."""
     if dask is None:
         count = joblib.cpu_count() if jobs is None else jobs
         yield count, partial(_in_processes, count)
         return
     with _client(dask) as client:
-        with _connected():
+        from distributed import CancelledError
+
+        try:
             # at least one, for a cluster whose workers are yet to come
-            count = max(sum(client.nthreads().values()), 1)
-        yield count, partial(_on_cluster, client)
+            yield max(sum(client.nthreads().values()), 1), partial(_on_cluster, client)
+        except (OSError, CancelledError) as error:
+            said = f"the connection to the Dask scheduler broke: {_in_a_line(error)}"
+            raise SweepStopped(said) from error
 
 
 def _in_processes(count: int, work: Work, chunks: Chunks) -> Rows:
@@ -79,39 +126,27 @@ def _client(address: str) -> Client:
         ) from error
 
 
-@contextmanager
-def _connected() -> Iterator[None]:
-    """SweepStopped for what breaks when the scheduler is gone."""
-    from distributed import CancelledError
-
-    try:
-        yield
-    except (OSError, CancelledError) as error:
-        said = f"the connection to the Dask scheduler broke: {_in_a_line(error)}"
-        raise SweepStopped(said) from error
-
-
 def _on_cluster(client: Client, work: Work, chunks: Chunks) -> Rows:
+    """A chunk whose worker dies is handed on by the scheduler; without workers it waits for one."""
     from distributed import KilledWorker, as_completed
 
     # the work travels with every chunk: data scattered to workers would die with them.
     # not pure: work that is started again must not be given the futures of before
     lost = ""
-    with _connected():
-        futures = client.map(compute_chunk, [work] * len(chunks), chunks, pure=False)
-        try:
-            for future in as_completed(futures, loop=client.loop):
-                if future.status == "finished":
-                    yield future.result()
-                    future.release()
-                elif future.status != "error":  # cancelled or lost
-                    lost = "the scheduler dropped work"
-                elif isinstance(error := future.exception(), (KilledWorker, OSError)):
-                    lost = _in_a_line(error)
-                else:
-                    raise SweepStopped(f"a worker failed: {_in_a_line(error)}") from error
-        finally:
-            client.cancel(futures)
+    futures = client.map(compute_chunk, [work] * len(chunks), chunks, pure=False)
+    try:
+        for future in as_completed(futures, loop=client.loop):
+            if future.status == "finished":
+                yield future.result()
+                future.release()
+            elif future.status != "error":  # cancelled or lost
+                lost = "the scheduler dropped work"
+            elif isinstance(error := future.exception(), (KilledWorker, OSError)):
+                lost = _in_a_line(error)
+            else:
+                raise SweepStopped(f"a worker failed: {_in_a_line(error)}") from error
+    finally:
+        client.cancel(futures)
     if lost:
         raise WorkersLost(lost)
 

@@ -58,7 +58,7 @@ def test_a_polynomial_is_found_again():
 @pytest.mark.parametrize("rise", [0.0, 0.3])
 def test_as_it_is_gives_the_drift_as_it_is(rise):
     """Also of a sample that starts warm."""
-    values = as_it_is(CASE, "h") | {"sample_rise": rise}
+    values = as_it_is(CASE) | {"sample_rise": rise}
     own = replace(CASE, h=CASE.film, ice_rise=rise)
     drift = combined(answers(CASE, values), values)
     assert drift[ENTRY] == pytest.approx(run_drift(own), rel=1e-3)
@@ -67,7 +67,7 @@ def test_as_it_is_gives_the_drift_as_it_is(rise):
 
 def test_the_parts_make_the_drift_of_a_rig_with_all_of_them():
     """Friction, railing and warm rollers superposed, against the rig that has them."""
-    values = as_it_is(CASE, "h") | {
+    values = as_it_is(CASE) | {
         "friction": 1.1,
         "railing_friction": 0.15,
         "railing_share": 0.6,
@@ -109,7 +109,7 @@ def test_a_contact_of_a_third_is_resolved(monkeypatch):
 def test_the_ice_melts_where_its_rise_says_so():
     """Answers are as if nothing melted; the model itself melts on either side of the air's
     temperature at which they say so."""
-    values = as_it_is(CASE, "h")
+    values = as_it_is(CASE)
     rise = float(combined(answers(CASE, values), values)[ICE])
     for part, melts in ((0.97, True), (1.03, False)):
         # films of the air as they are, or they would follow its temperature
@@ -162,7 +162,7 @@ def test_no_indices_where_the_ice_melts():
 
 def test_a_short_belt_has_room_for_rollers_and_railing():
     short = Case(0.1, 0.15, protocol=Protocol(ramp=0.0, run=1.0))
-    values = as_it_is(short, "h") | {"roller_conductance": 100.0}
+    values = as_it_is(short) | {"roller_conductance": 100.0}
     assert np.all(np.isfinite(answers(short, values)))
 
 
@@ -173,14 +173,14 @@ def doubt(found, median, high):
 def test_shortest_belts_lie_between_the_lengths_or_are_not_told(found):
     """Rises that fall as a power of the length are met exactly; beyond the lengths a reason."""
     lengths = (1.0, 2.0, 4.0)
-    doubts = [doubt(found, 0.1 * length**-1.5, 0.5 / length) for length in lengths]
-    told = shortest_in_doubt(lengths, doubts, 0.07)["run"]
+    doubts = {length: doubt(found, 0.1 * length**-1.5, 0.5 / length) for length in lengths}
+    told = shortest_in_doubt(doubts, 0.07)["run"]
     assert told["median"].length == pytest.approx((0.1 / 0.07) ** (1.0 / 1.5))
     assert told["high"].length is None and told["high"].says == ">4"
     assert "on 4 m, the longest belt looked at, the 95% level is 0.12 K" in told["high"].reason
-    told = shortest_in_doubt(lengths, doubts, 1.0)["interface"]
+    told = shortest_in_doubt(doubts, 1.0)["interface"]
     assert told["median"].says == told["high"].says == "<1"
-    untold = shortest_in_doubt(lengths, [None] * 3, 0.07)["run"]["high"]
+    untold = shortest_in_doubt(dict.fromkeys(lengths), 0.07)["run"]["high"]
     assert untold.length is None and "--samples 0" in untold.reason
 
 

@@ -15,6 +15,7 @@ from stickslip.catalogue import CATALOGUE
 from cosim.studies.sweep import SweepError, SweepStopped, features, product_grid, sweep
 from cosim.studies.sweep import combination as combination_module
 from cosim.studies.sweep import run as run_module
+from cosim.studies.sweep import workers as workers_module
 
 BASE = Parameters(rig=Rig(degrees_of_freedom=("x",)), surface=Surface(run_up_time=0.5))
 SHORT = {"duration": 2.0, "output_interval": 0.02, "jobs": 1}
@@ -27,9 +28,9 @@ def computed(monkeypatch):
     counts = Counter()
     compute = combination_module.compute
 
-    def counting(work, task):
-        counts[task.key] += 1
-        return compute(work, task)
+    def counting(work, key, changes):
+        counts[key] += 1
+        return compute(work, key, changes)
 
     monkeypatch.setattr(combination_module, "compute", counting)
     return counts
@@ -70,7 +71,7 @@ def test_words_and_lists_are_varied_too(tmp_path):
 
 
 def test_processes_give_the_same_numbers(monkeypatch):
-    monkeypatch.setattr(run_module, "NOT_WORTH_PROCESSES", 0)
+    monkeypatch.setattr(workers_module, "NOT_WORTH_PROCESSES", 0)
     alone = sweep(BASE, VARY, **SHORT)
     shared = sweep(BASE, VARY, **SHORT | {"jobs": 2})
     assert alone.drop_attrs().identical(shared.drop_attrs())
@@ -114,7 +115,7 @@ def test_a_worker_with_another_model_is_refused(monkeypatch):
 
 
 def test_a_sweep_stopped_in_the_middle_goes_on(tmp_path, computed, monkeypatch):
-    monkeypatch.setattr(run_module, "CHUNK_TIME", 0.0)
+    monkeypatch.setattr(workers_module, "CHUNK_TIME", 0.0)
 
     def stop(done, total):
         if done == 3:
@@ -142,8 +143,8 @@ def test_a_damaged_chunk_is_run_again(tmp_path, computed):
 
 
 def test_a_killed_process_of_the_pool_is_replaced(tmp_path, monkeypatch):
-    monkeypatch.setattr(run_module, "NOT_WORTH_PROCESSES", 0)
-    monkeypatch.setattr(run_module, "CHUNK_TIME", 0.05)
+    monkeypatch.setattr(workers_module, "NOT_WORTH_PROCESSES", 0)
+    monkeypatch.setattr(workers_module, "CHUNK_TIME", 0.05)
     killed = []
 
     def kill(done, total):
@@ -168,10 +169,10 @@ def test_failures_are_recorded_and_end_nothing(tmp_path, computed):
 
 
 def test_errors_of_the_program_are_recorded_and_tried_again(tmp_path, monkeypatch):
-    def broken(parameters, *run, progress):
+    def broken(parameters, *run, **options):
         if parameters.rig.mass == 0.7:
             raise MemoryError("no room")
-        return simulate(parameters, *run, progress=progress)
+        return simulate(parameters, *run, **options)
 
     monkeypatch.setattr(combination_module, "simulate", broken)
     done = sweep(BASE, VARY, **SHORT, folder=tmp_path)
@@ -216,10 +217,7 @@ def test_a_run_that_cannot_be_is_refused(case):
 def test_equal_combinations_run_once(computed):
     """A slab's radius does not matter on a belt, but the parameters differ: two runs."""
     grid = product_grid(BASE, {"rig.mass": [0.5, 0.6]})
-    twice = run_module.run_grid(
-        type(grid)(grid.base, grid.axes, lambda settings: {}),
-        combination_module.Run(1.0, 0.1),
-        jobs=1,
-    )
+    run = combination_module.Run(1.0, 0.1)
+    twice = run_module.run_grid(type(grid)(grid.base, grid.axes, run, lambda settings: {}), jobs=1)
     assert sum(computed.values()) == 1
     assert twice.x_mean.values[0] == twice.x_mean.values[1]

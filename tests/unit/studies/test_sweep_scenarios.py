@@ -11,12 +11,18 @@ from stickslip.trajectory import counted_break_aways
 from cosim import Scenario, run_scenario
 from cosim.cli.studies import sweep as sweep_command
 from cosim.fmu.build import ensure_fmu
-from cosim.studies.sweep import Run, SweepError, features, sweep
+from cosim.studies.sweep import SweepError, features, sweep
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import as_trajectory
-from cosim.studies.sweep.figure import check_shown, shown_features, still_sentence
 from cosim.studies.sweep.grid import product_grid
-from cosim.studies.sweep.page import records, sentence, tiles
+from cosim.studies.sweep.words import (
+    check_shown,
+    records,
+    sentence,
+    shown_features,
+    still_sentence,
+    tiles,
+)
 
 LAYERS = [
     {"thickness": 1e-3, "density": 2400.0, "heat_capacity": 800.0, "conductivity": 1.5},
@@ -78,14 +84,15 @@ def test_scenarios_are_an_axis_of_their_own():
     done = sweep([SHORT, other], {"surface.speed": [0.1, 0.2]}, jobs=1)
     assert dict(done.sizes) == {"scenario": 2, "surface.speed": 2}
     assert list(done["scenario"].values) == ["short", "soft"] and done.attrs["coupled"] == 0
-    alone = sweep(other, {"surface.speed": [0.2]}, duration=1.0, output_interval=0.01, jobs=1)
+    alone = sweep(other, {"surface.speed": [0.2]}, jobs=1)
     assert done.x_mean.values[1, 1] == alone.x_mean.values[0]
+    assert alone.attrs["duration"] == 1.0 and 'name = "soft"' in alone.attrs["scenario"]
 
 
 def test_scenarios_that_differ_in_heat_are_run_coupled():
     other = SHORT.changed({"name": "long", "belt.length": 1.0})
-    assert product_grid([SHORT, other], {}).coupled
-    assert not product_grid([SHORT, other], {}, coupled=False).coupled
+    assert product_grid([SHORT, other], {}).run.coupled
+    assert not product_grid([SHORT, other], {}, coupled=False).run.coupled
     with pytest.raises(SweepError, match="belt.length: does nothing in the mechanics alone"):
         product_grid(SHORT, {"belt.length": [1.0, 2.0]}, coupled=False)
     with pytest.raises(SweepError, match="two scenarios are named short"):
@@ -105,9 +112,8 @@ def test_scenarios_that_differ_in_heat_are_run_coupled():
 )
 def test_any_key_may_be_varied(vary, coupled):
     grid = product_grid(SHORT, vary)
-    assert grid.coupled is coupled
-    keys = grid.keys(grid.run_of({}) if isinstance(grid.base, Scenario) else Run(1.0, 0.01))
-    assert len(set(keys)) == len(grid)
+    assert grid.run.coupled is coupled
+    assert len(set(grid.keys())) == len(grid)
 
 
 @pytest.mark.parametrize(

@@ -20,9 +20,10 @@ def answered(answer: Answer) -> list[str]:
     case, run, interface, limit = answer.case, answer.run, answer.interface, answer.limit
     needed = _needed(run, case)
     belt = needed if needed.startswith(("no ", "any ")) else f"a belt of {needed}"
+    ever = f"none up to {LONGEST:g} m" if run.for_ever is None else f"one of {metres(run.for_ever)}"
     return [
         f"At {case.speed:g} m/s {belt} comes round less than {limit:g} K above the air after"
-        f" {case.protocol.in_words()}, {_for_ever(run)}{_interval(run, ' after the runs')}.",
+        f" {case.protocol.in_words()}, for ever {ever}{_interval(run, ' after the runs')}.",
         f"The belt of {case.length:g} m meets the ice {_on_own(run)}.",
         f"The interface warms by less than {limit:g} K at constant speed on"
         f" {_needed(interface, case)}{_interval(interface)}; on {case.length:g} m it gets"
@@ -32,28 +33,22 @@ def answered(answer: Answer) -> list[str]:
     ]
 
 
-def _for_ever(question: Question) -> str:
-    """What a belt needs that never rests, behind what one needs for the runs."""
-    if question.for_ever is None:
-        return f"for ever none up to {LONGEST:g} m"
-    return f"for ever one of {metres(question.for_ever)}"
-
-
 def _film(case: Case) -> str:
     """Which heat transfer to the air was taken, and why; a coupled run may take another."""
     gives = f"The belt of {case.length:g} m gives {case.film:.2g} W/m2K to the air on each face"
     if case.h is not None:
         return f"{gives}, as given."
-    air = f"a belt at {case.speed:g} m/s through still air"
-    takes = f"{gives}, as {air} does that is as warm as it is after the runs"
-    ever = f"{case.lasting.film:.2g} W/m2K as warm as for ever"
+    takes = (
+        f"{gives}, as a belt at {case.speed:g} m/s through still air does that is as warm as it is"
+        f" after the runs, {case.lasting.film:.2g} W/m2K as warm as for ever. `stickslip run` takes"
+    )
     runs = case.rig.belt.film
     if abs(runs / case.film - 1.0) < _SAME:
-        return f"{takes}, {ever}. `stickslip run` takes the same."
+        return f"{takes} the same."
     return (
-        f"{takes}, {ever}. `stickslip run` takes {runs:.2g} W/m2K, by belt.air_heat_transfer (15"
-        " where a scenario does not say) or belt.still_air_speed: `--set belt.still_air_speed="
-        f"{case.speed:g}` makes it take the same, `--h {runs:.3g}` this study."
+        f"{takes} {runs:.2g} W/m2K, by belt.air_heat_transfer (15 where a scenario does not say) or"
+        f" belt.still_air_speed: `--set belt.still_air_speed={case.speed:g}` makes it take the"
+        f" same, `--h {runs:.3g}` this study."
     )
 
 
@@ -61,9 +56,8 @@ def _needed(question: Question, case: Case) -> str:
     """The length that is needed, at its nominal value."""
     if question.shortest is None:
         return f"no length up to {LONGEST:g} m"
-    length = metres(question.shortest)
     room = "any belt with room for contact and rollers, from "
-    return f"{room}{length}" if question.shortest <= case.shortest else length
+    return room * (question.shortest <= case.shortest) + metres(question.shortest)
 
 
 def _interval(question: Question, when: str = "") -> str:

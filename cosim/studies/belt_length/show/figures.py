@@ -36,8 +36,7 @@ _FLOOR = 1e-3
 
 def _title(cases: list[Case]) -> str:
     """What all curves share; heat transfer by still air differs from speed to speed."""
-    first = cases[0]
-    films = {case.film for case in cases}
+    first, films = cases[0], [case.film for case in cases]
     film = " to ".join(f"{h:.2g}" for h in sorted({min(films), max(films)}))
     where = f" (still air, {first.length:g} m)" if first.h is None else ""
     stack = first.thermal().belt.stack
@@ -72,11 +71,10 @@ def draw_drift(study: Study) -> Figure:
     entry, interface = axes[0]
     for i, case in enumerate(firsts):
         colour = SERIES[i % len(SERIES)]
-        _curves((entry, interface), case, np.geomspace(low, high, _CURVE), colour, study)
-        _bands((entry, interface), study, case, colour)
-        _bars(entry, study, case, colour, _ASIDE ** (i - 0.5 * (len(firsts) - 1)))
+        _curves(axes[0], case, np.geomspace(low, high, _CURVE), colour, study)
+        _doubt(axes[0], study, case, colour, _ASIDE ** (i - 0.5 * (len(firsts) - 1)))
     limit = study.options.limit
-    for ax in (entry, interface):
+    for ax in axes[0]:
         ax.axhline(limit, color=INK, linewidth=1.0)
         beside = ax.get_yaxis_transform()
         ax.text(1.01, limit, f"limit\n{limit:g} K", va="center", transform=beside)
@@ -119,40 +117,30 @@ def _curves(axes: Sequence[Axes], case: Case, lengths: Array, colour: str, study
 def _mark_end(ax: Axes, length: float, colour: str) -> None:
     """Where nothing comes round any more: a triangle at the foot, with the length."""
     ax.plot(length, _FLOOR, "v", color=colour, markersize=8.0, clip_on=False, zorder=5)
-    ax.annotate(
-        f"nothing comes\nround from {length:.3g} m",
-        (length, _FLOOR),
-        xytext=(8.0, 5.0),
-        textcoords="offset points",
-        ha="left",
-        fontsize=7.5,
-        color=colour,
-    )
+    words, place = f"nothing comes\nround from {length:.3g} m", (length, _FLOOR)
+    beside: Any = {"xytext": (8.0, 5.0), "textcoords": "offset points", "ha": "left"}
+    ax.annotate(words, place, fontsize=7.5, color=colour, **beside)
 
 
-def _bands(axes: Sequence[Axes], study: Study, case: Case, colour: str) -> None:
-    """5 to 95 % of the rigs over the lengths, of an own rig with this speed."""
-    style: Any = {"color": colour, "alpha": 0.18, "linewidth": 0.0}
+def _doubt(axes: Sequence[Axes], study: Study, case: Case, colour: str, aside: float) -> None:
+    """5 to 95 % of the rigs of a speed: bands over the lengths of an own rig, and bars at those
+    asked for, or a little aside of them where several speeds have one."""
+    style: Any = {"color": colour, "linewidth": 0.0, "alpha": 0.18}
     for answer in study.answers:
         if answer.case.with_length(1.0) == case.with_length(1.0) and answer.lengths.size:
             for ax, (low, _, high) in zip(axes, answer.levels, strict=True):
                 ax.fill_between(answer.lengths, np.maximum(low, 1e-2 * _FLOOR), high, **style)
-
-
-def _bars(ax: Axes, study: Study, case: Case, colour: str, aside: float) -> None:
-    """At the length, or a little aside of it where several speeds have one."""
-    style: Any = {"color": colour, "linewidth": 5.0, "alpha": 0.35}
+    style |= {"linewidth": 5.0, "alpha": 0.35, "solid_capstyle": "butt"}
     for row in study.rows:
         if row.uncertainty is not None and row.case == case.with_length(row.case.length):
             ends = [max(row.uncertainty.low, _FLOOR), row.uncertainty.high]
-            ax.plot([aside * row.case.length] * 2, ends, solid_capstyle="butt", **style)
+            axes[0].plot([aside * row.case.length] * 2, ends, **style)
 
 
 def _key(speeds: list[float], study: Study) -> list[Artist]:
     """Colours say the speed, strokes the model."""
-    strokes: list[Any] = [("-", INK, "after the runs"), ("--", INK, "for ever")]
-    one_pass = (":", INK, "study, one pass")
-    strokes.append(("-.", GREY, "belt asked about") if study.answers else one_pass)
+    last = ("-.", GREY, "belt asked about") if study.answers else (":", INK, "study, one pass")
+    strokes: Any = [("-", INK, "after the runs"), ("--", INK, "for ever"), last]
     handles: list[Artist] = [
         Line2D([], [], color=SERIES[i % len(SERIES)], label=f"{speed:g} m/s")
         for i, speed in enumerate(speeds)
@@ -187,23 +175,23 @@ def draw_doubt(row: Row, doubt: Uncertainty) -> Figure:
     places = np.arange(len(single))
     ends = np.array([(one.drift_low, one.drift_high) for one in single])
     left.hlines(places, *ends.T, color=GREY, linewidth=5.0, alpha=0.5)
-    left.plot(ends[:, 0], places, "o", color=BLUE, markersize=6.0, label="low end")
-    left.plot(ends[:, 1], places, "o", color=RED, markersize=6.0, label="high end")
+    for end, colour, said in zip(ends.T, (BLUE, RED), ("low end", "high end"), strict=True):
+        left.plot(end, places, "o", color=colour, markersize=6.0, label=said)
     left.axvline(row.drift.run, color=INK, linewidth=1.0, label="as the case is")
     left.set_yticks(places, [f"{one.says}\n{_span_of(one)}" for one in single], fontsize=7.5)
-    left.set(
-        xlabel="belt's rise at entry [K]",
-        title=f"{row.case.length:g} m at {row.case.speed:g} m/s, what each unknown does\n"
-        "alone, from the low to the high end of its range",
+    where = f"{row.case.length:g} m at {row.case.speed:g} m/s"
+    left.set_title(
+        f"{where}, what each unknown does\nalone, from the low to the high end of its range"
     )
+    left.set_xlabel("belt's rise at entry [K]")
     figure.legend(*left.get_legend_handles_labels(), ncols=3, loc="outside upper center")
     totals = [indices[one.key].total for one in single]
     errors = [indices[one.key].total_half_width for one in single]
     right.barh(places, totals, xerr=errors, color=GREY, ecolor=INK, height=0.6)
-    right.set(
-        xlabel="part of the drift's variance [1]",
-        title="How much of the doubt it has a hand in\n(total Sobol index, with 95 % interval)",
+    right.set_title(
+        "How much of the doubt it has a hand in\n(total Sobol index, with 95 % interval)"
     )
+    right.set_xlabel("part of the drift's variance [1]")
     right.set_xlim(left=0.0)
     return figure
 
@@ -233,18 +221,13 @@ def draw_map(drift: DriftMap, case: Case, limit: float) -> Figure:
     if np.any(shown > limit) and np.any(shown < limit):
         line = {"levels": [limit], "colors": "white", "linewidths": 2.0}
         ax.contour(drift.lengths, drift.speeds, shown.T, **line)
-    moving = case.protocol.runs * case.protocol.moving
-    ax.plot(drift.lengths, drift.lengths / moving, color="white", linestyle="--", linewidth=1.0)
+    one_loop = drift.lengths / (case.protocol.runs * case.protocol.moving)
+    ax.plot(drift.lengths, one_loop, color="white", linestyle="--", linewidth=1.0)
     ax.set_ylim(drift.speeds[0], drift.speeds[-1])
     film = "of still air" if case.h is None else f"{case.h:g} W/(m² K)"
-    ax.set(
-        xscale="log",
-        yscale="log",
-        xlabel="length of the belt [m]",
-        ylabel="speed [m/s]",
-        title=f"friction {case.force:.2f} N, h {film}, {case.protocol.in_words()}\n"
-        f"white: {limit:g} K; dashed: one loop in all",
-    )
+    said = f"friction {case.force:.2f} N, h {film}, {case.protocol.in_words()}"
+    ax.set_title(f"{said}\nwhite: {limit:g} K; dashed: one loop in all")
+    ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", ylabel="speed [m/s]")
     _plain_ticks(ax.xaxis, (0.3, 0.5, 1, 2, 5, 10), drift.lengths[0], drift.lengths[-1] * 1.001)
     _plain_ticks(ax.yaxis, (0.05, 0.1, 0.2, 0.5, 1), drift.speeds[0] * 0.999, drift.speeds[-1])
     ax.grid(False)

@@ -8,7 +8,7 @@ from cosim.report.material import of_material
 
 from ..changes import NO_HELP
 from ..drift import CAMERA
-from ..lengths import LONGEST, Levels, metres, rounded_up
+from ..lengths import LONGEST, metres, rounded_up
 from ..result import Row, Study
 from ..uncertainty import Uncertainty
 from .answer import answered
@@ -44,32 +44,28 @@ def _one_metre(study: Study) -> list[str]:
     limit, said = study.options.limit, []
     speeds_of: dict[str, list[str]] = {}
     for speed, rows in _by_speed(row for row in study.rows if row.case.length == ONE_METRE):
-        drifts = [row.drift.run for row in rows]
+        drifts, known = [row.drift.run for row in rows], _doubts(rows)
         word = "suffices in some of the cases"
         if max(drifts) <= limit:
             word = "suffices"
         elif min(drifts) > limit:
             word = "does not suffice"
         speeds_of.setdefault(word, []).append(f"{speed:g}")
+        doubt = ""
+        if known:
+            low, high = min(one.low for one in known), max(one.high for one in known)
+            promise = ", so nobody can promise it" if low < limit < high else ""
+            doubt = f" ({span((low, high))} K over what is not known of the rig{promise})"
         said.append(
             f"At {speed:g} m/s {ONE_METRE:g} m of belt {word}: after"
             f" {rows[0].case.protocol.in_words()} it meets the ice {span(drifts)} K warmer than"
-            f" the air{_doubt(rows, limit)}."
+            f" the air{doubt}."
         )
     if not said:
         return [f"A belt of {ONE_METRE:g} m was not among the lengths asked for."]
     words = "; ".join(f"{word} at {', '.join(speeds)} m/s" for word, speeds in speeds_of.items())
     summary = f"For a belt that meets the ice less than {limit:g} K above the air,"
     return [f"{summary} {ONE_METRE:g} m: {words}.", *said]
-
-
-def _doubt(rows: list[Row], limit: float) -> str:
-    """The interval of the drifts of some rows, when it was computed."""
-    if not (known := _doubts(rows)):
-        return ""
-    low, high = min(one.low for one in known), max(one.high for one in known)
-    promise = ", so nobody can promise it" if low < limit < high else ""
-    return f" ({span((low, high))} K over what is not known of the rig{promise})"
 
 
 def _limit(study: Study) -> list[str]:
@@ -97,37 +93,35 @@ def _lengths(rows: list[Row], name: str, longest: str = f"more than {LONGEST:g} 
     known = [length for length in found if length is not None]
     if not known:
         return longest
-    if len(known) == len(rows) and all(getattr(row, name) <= row.case.shortest for row in rows):
+    if known == found and all(getattr(row, name) <= row.case.shortest for row in rows):
         return "any belt"
     low, high = (rounded_up(length)[0] for length in (min(known), max(known)))
     belts = metres(min(known)) if low == high else f"{low} to {high} m (rounded up to two digits)"
-    return belts if len(known) == len(found) else f"{belts}, in some cases {longest},"
+    return belts if known == found else f"{belts}, in some cases {longest},"
 
 
 def _doubted(study: Study) -> list[str]:
     """The shortest belts at levels of the doubt, by speed; nominal rises outside of theirs."""
-    doubted, said = study.shortest_in_doubt(), []
+    doubted, said, beyond = study.shortest_in_doubt(), [], []
     for speed, rows in _by_speed(row for row in study.rows if row.uncertainty):
         found = [doubted[case] for case in dict.fromkeys(row.case.with_length(1.0) for row in rows)]
-
-        def words(rise: str, level: str, found: list[Levels] = found) -> str:
-            known = [one[rise][level] for one in found]
-            return ", ".join(dict.fromkeys(one.in_words if one.says else "?" for one in known))
-
+        half, most, steady_half, steady_most = (
+            ", ".join(dict.fromkeys(one[rise][level].in_words or "?" for one in found))
+            for rise in ("run", "interface")
+            for level in ("median", "high")
+        )
         said.append(
             f"At {speed:g} m/s, over what is not known of the rig, the belt comes round that cold"
-            f" in half of the rigs on {words('run', 'median')}, in 95 % of them on"
-            f" {words('run', 'high')}; the interface is that steady in half on"
-            f" {words('interface', 'median')}, in 95 % on {words('interface', 'high')}"
-            " (between the lengths asked for, rounded up to two digits; none is reported beyond)."
+            f" in half of the rigs on {half}, in 95 % of them on {most}; the interface is that"
+            f" steady in half on {steady_half}, in 95 % on {steady_most} (between the lengths"
+            " asked for, rounded up to two digits; none is reported beyond)."
         )
-    beyond = []
     for row in study.rows:
         if (u := row.uncertainty) is not None:
             d, where = row.drift, f"on {row.case.length:g} m at {row.case.speed:g} m/s"
             off = outside("the rise at entry", d.run, u.low, u.high, "K")
-            interface = (d.interface_drift, u.interface_low, u.interface_high)
-            off += outside("the interface's rise", *interface, "K")
+            ends = u.interface_low, u.interface_high
+            off += outside("the interface's rise", d.interface_drift, *ends, "K")
             beyond += [f"{one} {where}" for one in off]
     return said + why_outside(beyond, study.rows[0].case)
 
@@ -136,8 +130,11 @@ def _interface(study: Study) -> list[str]:
     """Is the interface steady? The ice warms itself, whatever the belt."""
     limit, said = study.options.limit, []
     for speed, rows in _by_speed(study.rows):
-        drifts = [row.drift.interface_drift for row in rows]
-        steady = ""
+        drifts, known = [row.drift.interface_drift for row in rows], _doubts(rows)
+        doubt = steady = ""
+        if known:
+            ends = min(u.interface_low for u in known), max(u.interface_high for u in known)
+            doubt = f", {span(ends)} K at constant speed over what is not known of the rig"
         if max(drifts) > limit:
             endless = span(row.drift.interface_drift_endless for row in rows)
             steady = (
@@ -147,16 +144,9 @@ def _interface(study: Study) -> list[str]:
         said.append(
             f"At {speed:g} m/s the interface warms by {span(drifts)} K at constant speed"
             f" ({span(row.drift.interface_run for row in rows)} K from the start) on the belts"
-            f" asked for{_interface_doubt(rows)}{steady}."
+            f" asked for{doubt}{steady}."
         )
     return said
-
-
-def _interface_doubt(rows: list[Row]) -> str:
-    if not (known := _doubts(rows)):
-        return ""
-    ends = min(u.interface_low for u in known), max(u.interface_high for u in known)
-    return f", {span(ends)} K at constant speed over what is not known of the rig"
 
 
 def _wait(study: Study) -> list[str]:

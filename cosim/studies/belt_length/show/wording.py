@@ -17,9 +17,8 @@ def two_digits(value: float) -> str:
 
 def span(values: Iterable[float]) -> str:
     """The smallest and the largest of some figures, one where they are the same."""
-    values = list(values)
-    low, high = two_digits(min(values)), two_digits(max(values))
-    return low if low == high else f"{low} to {high}"
+    values = sorted(values)
+    return " to ".join(dict.fromkeys(map(two_digits, (values[0], values[-1]))))
 
 
 def percent(share: float) -> str:
@@ -41,7 +40,7 @@ def why_outside(found: list[str], case: Case) -> list[str]:
     belt, more = case.rig.belt, []
     if not belt.rollers:
         more.append("rollers")
-    if belt.rollers and not belt.roller_rise > 0.0:
+    elif not belt.roller_rise > 0.0:
         more.append("rollers up to 0.5 K warmer than the air")
     if not belt.railing_friction > 0.0:
         more.append("a railing that rubs")

@@ -1,0 +1,154 @@
+"""What is said of a sweep: which features tell something, what the block does where."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Mapping, Sequence
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from cosim.names import nearest
+from cosim.report.page import number, unit_text
+
+from .axis import SweepError
+from .features import ALL
+
+#: What varies less than this, in parts of its size, is told in a line and not drawn.
+STILL = 1e-3
+#: Motions in turn along an axis that a sentence can tell.
+MOST_TURNS = 3
+MOVES, SLIDES, HOLDS = "sticks and slips", "slides", "never slips"
+
+#: A run: dimensions, linked keys, features, status, reason.
+Record = Mapping[str, Any]
+
+
+def shown_features(dataset: xr.Dataset, asked: Sequence[str] = ()) -> tuple[list[str], list[str]]:
+    """Features to be drawn, and those that are the same in all runs; asked: by name."""
+    if asked:
+        return list(dict.fromkeys(asked)), []
+    there = [name for name, one in ALL.items() if one.usual and name in dataset]
+    drawn = [name for name in there if _varies(name, _known(dataset[name]))]
+    return drawn or there[:1], [name for name in there if name not in drawn]
+
+
+def check_shown(asked: Sequence[str], features: Collection[str]) -> None:
+    """SweepError for a name that is none of the features of a sweep."""
+    known = [name for name in ALL if name in features]
+    for name in asked:
+        if name not in known:
+            near = nearest(name, known)
+            hint = f"nearest: {near}" if near else f"allowed: {', '.join(known)}"
+            raise SweepError(f"--show {name}: is no feature of this sweep, {hint}")
+
+
+def _known(values: xr.DataArray) -> Any:
+    return values.values[np.isfinite(values.values)]
+
+
+def _varies(name: str, known: Any) -> bool:
+    if known.size < 2:
+        return False
+    return bool(np.ptp(known) > STILL * max(float(np.abs(known).max()), ALL[name].nothing))
+
+
+def still_sentence(dataset: xr.Dataset, names: Sequence[str]) -> str:
+    """What is the same in all runs, in a sentence; "" where nothing is."""
+    said, none = [], []
+    for name in names:
+        feature, known = ALL[name], _known(dataset[name])
+        words, _, unit = feature.label.removesuffix("]").partition(" [")
+        if not known.size:
+            none.append(words)
+        elif name == "frequency" and not known.any():
+            said.append("no stick-slip")
+        else:
+            value = float(np.mean(known)) * feature.factor
+            nothing = abs(value) <= feature.nothing * feature.factor
+            of_unit = f" {unit}" if unit != "1" else ""
+            where = " (where there is one)" if known.size < dataset[name].size else ""
+            said.append(f"{words} {'0' if nothing else f'{value:.3g}'}{of_unit}{where}")
+    sentences = [f"The same in all runs: {', '.join(said)}."] if said else []
+    if none:
+        sentences.append(f"In no run, for want of cycles at constant speed: {', '.join(none)}.")
+    return " ".join(sentences)
+
+
+def titled(coordinate: xr.DataArray) -> str:
+    """A dimension with its unit."""
+    unit = unit_of(coordinate).strip()
+    return f"{coordinate.name} [{unit}]" if unit else str(coordinate.name)
+
+
+def unit_of(coordinate: xr.DataArray) -> str:
+    """As it stands behind a number; nothing for a plain number or a name."""
+    unit = unit_text(coordinate.attrs["units"])
+    return "" if unit == "1" else f" {unit}"
+
+
+def records(dataset: xr.Dataset) -> list[dict[str, Any]]:
+    """Every run."""
+    table = dataset.to_dataframe().reset_index()
+    meanings = str(dataset["status"].attrs["flag_meanings"]).split()
+    table["status"] = [meanings[status] for status in table["status"]]
+    return [{str(key): value for key, value in row.items()} for row in table.to_dict("records")]
+
+
+def regime(row: Record) -> str:
+    """What a block does at constant speed; it may break away once, which makes no frequency."""
+    if row["frequency"] == 0.0:
+        return SLIDES if row["slip_share"] == 1.0 else HOLDS
+    return MOVES
+
+
+def _complete(rows: Sequence[Record]) -> list[Record]:
+    return [row for row in rows if row["status"] == "complete"]
+
+
+def sentence(rows: Sequence[Record], dims: Mapping[str, str]) -> str:
+    """What the block does where; dims: what is varied -> its unit."""
+    complete = _complete(rows)
+    if not complete:
+        return f"None of {len(rows)} runs is complete."
+    does = Counter(map(regime, complete))
+    failed = f"; {len(rows) - len(complete)} failed" if len(complete) < len(rows) else ""
+    if len(does) == 1:
+        return f"The block {regime(complete[0])} in all {len(complete)} runs{failed}."
+    turns = [(what, list(some)) for what, some in groupby(complete, regime)]
+    if len(dims) == 1 and len(turns) <= MOST_TURNS:
+        ((dim, unit),) = dims.items()
+        told = [f"{what} at {dim} = {_span(some, dim, 4)}{unit}" for what, some in turns]
+    else:
+        told = [f"{what} in {count}" for what, count in does.most_common()]
+        told[0] += f" of {len(complete)} runs"
+    return f"The block {', '.join(told[:-1])} and {told[-1]}{failed}."
+
+
+def _span(rows: Sequence[Record], key: str, digits: int) -> str:
+    """From the first to the last of some numbers or names."""
+    ends = dict.fromkeys(number(row[key], digits) for row in (rows[0], rows[-1]))
+    return " to ".join(ends)
+
+
+def tiles(rows: Sequence[Record], dims: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Up to four figures: how many stick and slip, how often, and the largest of what is usual."""
+    complete = _complete(rows)
+    moving = [row for row in complete if regime(row) == MOVES]
+    told = [(f"of {len(complete)} complete runs stick and slip", str(len(moving)))]
+    moving = [row for row in moving if row["frequency"] > 0.0]  # not one of a single break-away
+    if moving:
+        often = sorted(moving, key=lambda row: row["frequency"])
+        told.append(("break-aways in a second", f"{_span(often, 'frequency', 3)} Hz"))
+    for name, words, unit in (
+        ("x_std", "largest standard deviation of x", "mm"),
+        ("interface_rise", "warmest contact, over the air", "mK"),
+    ):
+        found = [row for row in complete if row.get(name, np.nan) > 0.0]
+        if found:
+            row = max(found, key=lambda each: each[name])
+            at = ", ".join(f"{dim} = {number(row[dim])}{of}" for dim, of in dims.items())
+            told.append((f"{words}, at {at}", f"{number(1e3 * row[name], 3)} {unit}"))
+    return told
