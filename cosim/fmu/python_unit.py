@@ -86,9 +86,9 @@ def slave_file(name: str) -> Path:
 #: Files that an FMU also depends on, though they do not travel.
 RECIPE_FILES = (
     Path(__file__),
-    *(
-        Path(__file__).with_name(name)
-        for name in ("pythonfmu_library.py", "pythonfmu.toml", "variables.py", "variables.toml")
+    *map(
+        Path(__file__).with_name,
+        ("pythonfmu_library.py", "pythonfmu.toml", "variables.py", "variables.toml"),
     ),
     Path(units.__file__),
     Path(description.__file__),
@@ -118,9 +118,9 @@ class Recipe:
     """What a unit is made of.
 
     facts: GUID included; module: name of the door, without the hash; package: of all else that
-    travels; files: path inside the resources -> content; content: its hash; tells: text of the
-    package's module `variables`, which tells the slave what it is; documentation: path in the unit
-    -> content.
+    travels; files: path inside the resources -> content, with the package's module `variables`,
+    which tells the slave what it is; content: their hash; documentation: path in the unit ->
+    content.
     """
 
     facts: UnitFacts
@@ -128,27 +128,23 @@ class Recipe:
     package: str
     files: dict[str, bytes]
     variables: Sequence[Variable]
-    tells: bytes
     content: str
     documentation: dict[str, bytes]
 
 
 def build(
-    directory: Path,
-    files: dict[str, bytes] | None = None,
-    catalogue: Catalogue = CATALOGUE,
+    directory: Path, files: dict[str, bytes] | None = None, catalogue: Catalogue = CATALOGUE
 ) -> Path:
     """Make the FMU in a directory and return its path; other content than ours for tests."""
     files = sources(catalogue) if files is None else files
     table, declared = parameter_table(catalogue), variables(catalogue)
     content = content_hash(files, table)
     recipe = Recipe(
-        facts=_facts(content),
+        facts=facts_of(NAME, content, f"{DESCRIPTION}. For hosts with a Python of 3.10 or newer"),
         module=MODULE,
         package="stickslip",
-        files=files,
+        files=files | {"stickslip/variables.py": variables_module(table, content)},
         variables=declared,
-        tells=variables_module(table, content),
         content=content,
         documentation=of_mechanics(NAME, declared, catalogue),
     )
@@ -169,8 +165,7 @@ def _build_with_pythonfmu(scratch: Path, recipe: Recipe) -> Path:
     from pythonfmu import FmuBuilder
 
     hashed = {name: f"{name}_{recipe.content}" for name in (recipe.module, recipe.package)}
-    tells = {f"{recipe.package}/variables.py": recipe.tells}
-    for name, source in (recipe.files | tells).items():
+    for name, source in recipe.files.items():
         target = scratch / _renamed(name, hashed)
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_bytes(_rename_imports(source, recipe.package, hashed[recipe.package]))
@@ -212,15 +207,10 @@ def _finish(raw: Path, recipe: Recipe) -> bytes:
     return packed(files | recipe.documentation | extras(others=["pythonfmu"]))
 
 
-def _facts(content: str) -> UnitFacts:
-    return UnitFacts(
-        name=NAME,
-        guid=guid_of(NAME, content),
-        description=f"{DESCRIPTION}. For hosts with a Python of 3.10 or newer",
-        version=version("stickslip"),
-        tool=f"stickslip, pythonfmu {version('pythonfmu')}",
-        python=True,
-    )
+def facts_of(name: str, content: str, said: str, **more: Any) -> UnitFacts:
+    """Of a unit by way of pythonfmu, by the hash of its content."""
+    tool = f"stickslip, pythonfmu {version('pythonfmu')}"
+    return UnitFacts(name, guid_of(name, content), said, tool=tool, python=True, **more)
 
 
 def variables_module(table: list[Entry], content: str) -> bytes:

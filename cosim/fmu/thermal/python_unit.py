@@ -7,7 +7,6 @@ Python. `cosim.fmu.python_unit` says how a unit is known by its content.
 from __future__ import annotations
 
 from dataclasses import asdict
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -15,8 +14,6 @@ from stickslip.quantity import details
 from stickslip.units import UNITS
 
 from cosim.fmu import python_unit
-from cosim.fmu.archive import guid_of
-from cosim.fmu.description import UnitFacts
 from cosim.fmu.thermal.reference_run import of_heat, reference_parameters
 from cosim.fmu.thermal.variables import DESCRIPTION, NAME, REFERENCE, STARTS, inputs, outputs
 from cosim.fmu.variables import Variable, bounds_of, names
@@ -108,15 +105,8 @@ def build(directory: Path) -> Path:
     recipe = {f"recipe/{file.name}": file.read_bytes() for file in python_unit.RECIPE_FILES}
     recipe["recipe/thermal.py"] = Path(__file__).read_bytes()
     content = python_unit.hash_of(files | recipe, [asdict(each) for each in declared])
-    facts = UnitFacts(
-        name=NAME,
-        guid=guid_of(NAME, content),
-        description=f"{DESCRIPTION}. Finite elements; for hosts with a Python that has stickslip",
-        version=version("stickslip"),
-        tool=f"stickslip, pythonfmu {version('pythonfmu')}",
-        python=True,
-        starts=STARTS,
-    )
+    said = f"{DESCRIPTION}. Finite elements; for hosts with a Python that has stickslip"
+    facts = python_unit.facts_of(NAME, content, said, starts=STARTS)
     tells = {
         "BUILD": content,
         "GUID": facts.guid,
@@ -133,9 +123,8 @@ def build(directory: Path) -> Path:
             facts=facts,
             module=MODULE,
             package=PACKAGE,
-            files=files,
+            files=files | {f"{PACKAGE}/variables.py": python_unit.module_of(tells)},
             variables=declared,
-            tells=python_unit.module_of(tells),
             content=content,
             documentation=of_heat(reference_parameters(), declared),
         ),
