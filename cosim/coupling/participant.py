@@ -186,21 +186,3 @@ def capabilities(participant: Participant) -> Capabilities:
         restores=hasattr(participant, "get_state") and hasattr(participant, "set_state"),
         saves=hasattr(participant, "save_state") and hasattr(participant, "load_state"),
     )
-
-
-class Around:
-    """Stands around a participant, whose name, ports and all else it has."""
-
-    def __init__(self, participant: Participant):
-        self.inner: Any = participant
-        self.name: str = participant.name
-        self.ports: Mapping[str, Port] = participant.ports
-
-    @property
-    def capabilities(self) -> Capabilities:
-        """Those of the participant."""
-        return capabilities(self.inner)
-
-    def __getattr__(self, name: str) -> Any:
-        """All else is the participant's."""
-        return getattr(self.inner, name)

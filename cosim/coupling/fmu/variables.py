@@ -189,19 +189,14 @@ def _check_value(label: str, variable: ModelVariable, value: Setting) -> None:
     if variable.type == "String":
         if not isinstance(value, str):
             raise FmuError(f"{label} = {value!r}: must be a text")
-        return
-    if variable.type == "Boolean":
+    elif variable.type == "Boolean":
         if not isinstance(value, bool):
             raise FmuError(f"{label} = {value!r}: must be true or false")
-        return
-    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+    elif isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
         raise FmuError(f"{label} = {value!r}: must be a finite number")
-    if variable.type not in REALS and float(value) != int(value):
+    elif variable.type not in REALS and float(value) != int(value):
         raise FmuError(f"{label} = {value!r}: must be a whole number")
-    _check_range(label, variable, float(value))
-
-
-def _check_range(label: str, variable: ModelVariable, value: float) -> None:
-    least, most = _range(variable)
-    if not least <= value <= most:
-        raise FmuError(f"{label} = {value:g}: must lie in [{least:g}, {most:g}]")
+    else:
+        least, most = _range(variable)
+        if not least <= value <= most:
+            raise FmuError(f"{label} = {value:g}: must lie in [{least:g}, {most:g}]")

@@ -6,10 +6,9 @@ import itertools
 import math
 import pickle
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
-from cosim.coupling.isolated.pipe_protocol import START, packed
+from cosim.coupling.isolated.child import START, packed
 from cosim.coupling.isolated.process import IsolatedError, Process
 from cosim.coupling.messages import Messages
 from cosim.coupling.participant import CouplingError, port_table
@@ -20,11 +19,8 @@ MOST_TOLD = 64
 _numbers = itertools.count(1)
 
 
-@dataclass(frozen=True)
-class State:
-    """A state that lies in the process that it was made in, under a number."""
-
-    number: int
+#: A state lies in the process that it was made in, under a number.
+State = int
 
 
 class IsolatedParticipant:
@@ -111,11 +107,11 @@ class IsolatedParticipant:
         The first of a run has an answer, so that who cannot take one says so here.
         """
         self._alive()
-        state = State(next(_numbers))
+        state = next(_numbers)
         if self._gives_states:
-            self._told.append(("get_state", (state.number,)))
+            self._told.append(("get_state", (state,)))
         else:
-            self._ask("get_state", state.number)
+            self._ask("get_state", state)
             self._gives_states = True
         self._states.add(state)
         return state
@@ -123,13 +119,13 @@ class IsolatedParticipant:
     def set_state(self, state: State) -> None:
         """Go back to a state."""
         self._check_own(state)
-        self._tell("set_state", state.number)
+        self._tell("set_state", state)
 
     def free_state(self, state: State) -> None:
         """Release a state."""
         self._check_own(state)
         self._states.remove(state)
-        self._told.append(("free_state", (state.number,)))
+        self._told.append(("free_state", (state,)))
         if len(self._told) > MOST_TOLD:
             self._outputs = self._ask("read")
 

@@ -18,7 +18,7 @@ from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from typing import Any
 
-from cosim.coupling.isolated.pipe_protocol import CLOSE, DONE, MESSAGE, START, packed, waiter
+from cosim.coupling.isolated.child import CLOSE, DONE, MESSAGE, START, packed, waiter
 from cosim.coupling.messages import KEPT, LONGEST, Message
 from cosim.interrupts import held_interrupts, unheard_by_children
 

@@ -93,10 +93,8 @@ class MessageLog:
         warnings, failures = self.counts[WARNING], sum(self.counts[each] for each in FAILURES)
         if not (warnings or failures or self._refused):
             return ""
-        counts = ((warnings, "warnings"), (failures, "errors"))
-        parts = ", ".join(
-            f"{number} {words[:-1] if number == 1 else words}" for number, words in counts if number
-        )
+        counts = ((warnings, "warning"), (failures, "error"))
+        parts = ", ".join(f"{n} {word}{'s' * (n != 1)}" for n, word in counts if n)
         total = self.counts.total()
         said = f"{total} message{'s' * (total != 1)}" + (f" ({parts})" if parts else "")
         said += f" in {self.path}"
