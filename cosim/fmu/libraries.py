@@ -112,10 +112,12 @@ def _file(platform: Platform) -> str:
     return f"{platform.name}{platform.suffix}"
 
 
-def binaries(made: Mapping[Platform, bytes], name: str, fmi: int = FMI2) -> dict[str, bytes]:
+def of_platforms(
+    guid: str, sources: Sources, platforms: Sequence[Platform], name: str, fmi: int = FMI2
+) -> dict[str, bytes]:
     """Path in the unit -> library; in one for FMI 2 both processors of a Mac share a file."""
     by_path: dict[str, list[bytes]] = {}
-    for platform, library in made.items():
+    for platform, library in libraries(name, guid, sources, tuple(platforms)).items():
         path = f"{_folder(platform, fmi)}/{name}{platform.suffix}"
         by_path.setdefault(path, []).append(library)
     return {path: joined(parts) for path, parts in by_path.items()}
@@ -144,10 +146,3 @@ def platforms_of(fmu: Path | IO[bytes]) -> list[str]:
         for each in PLATFORMS
         if any((_folder(each, fmi), each.suffix) in there for fmi in (FMI2, FMI3))
     ]
-
-
-def of_platforms(
-    guid: str, sources: Sources, platforms: Sequence[Platform], name: str, fmi: int = FMI2
-) -> dict[str, bytes]:
-    """`libraries` as `binaries`."""
-    return binaries(libraries(name, guid, sources, tuple(platforms)), name, fmi)
