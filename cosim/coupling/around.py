@@ -151,9 +151,8 @@ class Subcycled(Around):
     @cached_property
     def _powers(self) -> tuple[str, ...]:
         """Outputs that are a power."""
-        outputs = ((name, port) for name, port in self.ports.items()
-                   if port.causality is Causality.OUTPUT)  # fmt: skip
-        return tuple(name for name, port in outputs if watts(port) is not None)
+        outputs = (p for p in self.ports.values() if p.causality is Causality.OUTPUT)
+        return tuple(port.name for port in outputs if watts(port) is not None)
 
     @property
     def capabilities(self) -> Capabilities:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 import sys
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
 from typing import Any, TypeVar
@@ -237,12 +238,6 @@ class Exchange:
         self.system.messages.time = time
         self.system.messages.add(WARNING, category, text)
 
-    def mark(self) -> Mark:
-        """Remember where everything stands; asks every participant for its state."""
-        states = {n: self.asked(n, each.get_state) for n, each in self._participants.items()}
-        past = tuple(self.history.points)
-        return Mark(states, dict(self.outputs), dict(self.inputs), self.time, past)
-
     def back(self, mark: Mark) -> None:
         """Go back to a mark, which stays good."""
         for name, participant in self._participants.items():
@@ -251,10 +246,17 @@ class Exchange:
         self.time = mark.time
         self.history.points = deque(mark.history, maxlen=MOST_POINTS)
 
-    def forget(self, mark: Mark) -> None:
-        """A mark is no longer needed."""
-        for name, participant in self._participants.items():
-            self.asked(name, participant.free_state, mark.states[name])
+    @contextmanager
+    def marked(self) -> Iterator[Mark]:
+        """Remember where everything stands, to go back there; asks every participant for its state,
+        and lets go of it behind the block."""
+        states = {n: self.asked(n, each.get_state) for n, each in self._participants.items()}
+        past = tuple(self.history.points)
+        try:
+            yield Mark(states, dict(self.outputs), dict(self.inputs), self.time, past)
+        finally:
+            for name, participant in self._participants.items():
+                self.asked(name, participant.free_state, states[name])
 
     def accept(self, time: float) -> None:
         """The step is done and will not be taken back; it has come to a time (s)."""

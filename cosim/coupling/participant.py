@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
-from typing import Any, Protocol
+from typing import Any, Protocol, Self
 
 from cosim.coupling.waveform import Waveform
 
@@ -186,3 +186,17 @@ def capabilities(participant: Participant) -> Capabilities:
         restores=hasattr(participant, "get_state") and hasattr(participant, "set_state"),
         saves=hasattr(participant, "save_state") and hasattr(participant, "load_state"),
     )
+
+
+class Closing:
+    """Closes itself behind a `with` block."""
+
+    def close(self) -> None:
+        """Let go of what is held open."""
+        raise NotImplementedError
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *exception: object) -> None:
+        self.close()

@@ -6,7 +6,7 @@ from types import MappingProxyType
 
 from cosim.coupling.conversion import IDENTITY, Affine, conversion
 from cosim.coupling.messages import Message, Messages
-from cosim.coupling.participant import Causality, CouplingError, Participant, Port
+from cosim.coupling.participant import Causality, Closing, CouplingError, Participant, Port
 from cosim.names import listed, unknown_name
 
 ENERGY_UNIT = "J"
@@ -138,7 +138,7 @@ def _check_receipt(
     output_in_joule(participants, connection.taken, "what the sink has taken up")
 
 
-class CoupledSystem:
+class CoupledSystem(Closing):
     """Participants, what connects them, and where they state their own energy residual.
 
     participants: each with a name of its own, without a dot.
@@ -219,12 +219,6 @@ class CoupledSystem:
         """Close every participant."""
         for participant in self.participants.values():
             participant.close()
-
-    def __enter__(self) -> "CoupledSystem":
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self.close()
 
 
 def _by_name(participants: Sequence[Participant]) -> dict[str, Participant]:

@@ -119,18 +119,16 @@ def library_of(path: Path, folder: Path, description: ModelDescription) -> Path:
     return library
 
 
-def load_error(error: BaseException) -> BaseException | None:
-    """What the system said of a library that it does not load; None for any other error."""
+def unloadable(path: Path, folder: Path, library: Path, error: BaseException) -> FmuError | None:
+    """What the system said of a library that it does not load, in terms of the user's file and not
+    of the unpacked copy; None for any other error."""
     cause = error.__cause__ or error.__context__
     if isinstance(error, AttributeError) or isinstance(cause, AttributeError):
-        return error  # a library, but without a function of the standard
-    return cause if isinstance(cause, OSError) else None
-
-
-def unloadable(path: Path, folder: Path, library: Path, error: BaseException) -> FmuError:
-    """A library that does not load, in terms of the user's file and not of the unpacked copy."""
+        cause = error  # a library, but without a function of the standard
+    elif not isinstance(cause, OSError):
+        return None
     member = library.relative_to(folder).as_posix()
-    reason = one_line(error).replace(f"{library}: ", "").replace(f"{folder}{os.sep}", "")
+    reason = one_line(cause).replace(f"{library}: ", "").replace(f"{folder}{os.sep}", "")
     return FmuError(
         f"{path}: its library {member} cannot be loaded: {reason}; "
         "allowed is a shared library for this machine with the functions of FMI"

@@ -43,7 +43,7 @@ class Fmi2(Instance):
     ) -> None:
         fmu = FMU2Slave(**given)
         fmu.instantiate(callbacks=log.callbacks, loggingOn=True)
-        self._take_up(fmu, "fmi2")
+        super().__init__(fmu, "fmi2")
         self.enter_initialisation = fmu.enterInitializationMode
         self.exit_initialisation = fmu.exitInitializationMode
         self.get_state, self.set_state = fmu.getFMUstate, fmu.setFMUstate
@@ -57,9 +57,11 @@ class Fmi2(Instance):
         return bool(description.coSimulation.canInterpolateInputs)
 
     def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
+        """From start to stop, s; before anything is set: some units then forget what was."""
         self._fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)
 
     def write_rates(self, rates: Mapping[int, Sequence[float]]) -> None:
+        """Reference of an input -> its first, second, ... derivative, for the next step."""
         values = [value for each in rates.values() for value in each]
         if not values:
             return
@@ -74,6 +76,7 @@ class Fmi2(Instance):
         )
 
     def step(self, time: float, size: float, may_go_back: bool) -> float | None:
+        """Time reached where that is not time + size, s. may_go_back: a state may be set later."""
         try:
             keeps = fmi2False if may_go_back else fmi2True
             self._fmu.fmi2DoStep(self._component, time, size, keeps)

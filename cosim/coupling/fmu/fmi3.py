@@ -62,7 +62,7 @@ class Fmi3(Instance):
             self._events = False
             log.take_errors()
             fmu.instantiate(eventModeUsed=False, **how)
-        self._take_up(fmu, "fmi3")
+        super().__init__(fmu, "fmi3")
         self.memory = {"next_event": None, "discrete": {}}
         self.get_state, self.set_state = fmu.getFMUState, fmu.setFMUState
         self.as_bytes, self.from_bytes = fmu.serializeFMUState, fmu.deserializeFMUState
@@ -78,6 +78,7 @@ class Fmi3(Instance):
         return bool(interface.mightReturnEarlyFromDoStep or interface.hasEventMode)
 
     def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
+        """From start to stop, s."""
         experiment = {"tolerance": tolerance, "startTime": start, "stopTime": stop}
         self.enter_initialisation = partial(self._fmu.enterInitializationMode, **experiment)
         self.exit_initialisation = self._begin_stepping
@@ -111,7 +112,11 @@ class Fmi3(Instance):
         if group.discrete and self._events:
             self.memory["discrete"].update(group.got())
 
+    def write_rates(self, rates: object) -> None:
+        """There are none in FMI 3.0."""
+
     def step(self, time: float, size: float, may_go_back: bool) -> float | None:
+        """Time reached where that is not time + size, s. may_go_back: a state may be set later."""
         end = time + size
         for _ in range(MOST_ROUNDS):
             reached = self._once(time, size, may_go_back)

@@ -1,21 +1,22 @@
-"""An instance of a unit: what a participant asks of it, whichever version of FMI it is made for."""
+"""What instances of FMI 2.0 and 3.0 have in common: how values go in and out, and states.
+
+A participant asks of `Fmi2` and `Fmi3` the same, whichever it has.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 
 from fmpy.model_description import ModelDescription
 
-from cosim.coupling.fmu.log import FmuLog
 from cosim.coupling.fmu.values import Group, Kind
 
 
 class Instance:
-    """An instance through fmpy; what the versions of FMI have in common.
+    """An instance through fmpy. A call that does not succeed raises FMICallException of fmpy, or
+    FmuCallError.
 
-    description, log, early: of the unit, of what it says, and whether it may end steps early;
-    given: to fmpy. A call that does not succeed raises fmpy's FMICallException or FmuCallError.
     memory: what the host knows of the instance and that goes back with its state; JSON can hold it.
     kinds: type of a variable -> how it is served. arguments: how many those functions take behind
     the instance, of references, their number, values, their number.
@@ -24,22 +25,7 @@ class Instance:
     kinds: ClassVar[Mapping[str, Kind]]
     arguments: ClassVar[int]
 
-    enter_initialisation: Callable[[], object]
-    exit_initialisation: Callable[[], object]
-    get_state: Callable[[], Any]
-    set_state: Callable[[Any], object]
-    free_state: Callable[[Any], object]
-    as_bytes: Callable[[Any], bytes]
-    from_bytes: Callable[[bytes], Any]
-    terminate: Callable[[], object]
-    free: Callable[[], object]
-
-    def __init__(
-        self, description: ModelDescription, log: FmuLog, early: bool, given: Mapping[str, str]
-    ) -> None:
-        raise NotImplementedError
-
-    def _take_up(self, fmu: Any, version: str) -> None:
+    def __init__(self, fmu: Any, version: str) -> None:
         """Find the functions that fmpy has for an instance: fmi2... or fmi3..."""
         self._fmu, self._component = fmu, fmu.component
         self.memory: dict[str, Any] = {}
@@ -58,10 +44,6 @@ class Instance:
         """Whether a unit can end a step before its end."""
         return False
 
-    def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
-        """From start to stop, s; before anything is set: some units then forget what was."""
-        raise NotImplementedError
-
     def write(self, groups: Sequence[Group]) -> None:
         """Set what the groups hold."""
         for group in groups:
@@ -74,11 +56,3 @@ class Instance:
     def read(self, group: Group) -> None:
         """Fill a group."""
         self._get[group.kind.function](self._component, *group.memory[: self.arguments])
-
-    def write_rates(self, rates: Mapping[int, Sequence[float]]) -> None:
-        """Reference of an input -> its first, second, ... derivative, for the next step."""
-        raise NotImplementedError
-
-    def step(self, time: float, size: float, may_go_back: bool) -> float | None:
-        """Time reached where that is not time + size, s. may_go_back: a state may be set later."""
-        raise NotImplementedError

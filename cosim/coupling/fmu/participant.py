@@ -15,30 +15,23 @@ from typing import Any, TypeVar
 from fmpy.fmi1 import FMICallException
 
 from cosim.coupling.fmu.archive import unpack
-from cosim.coupling.fmu.description import (
-    describe,
-    is_fmi3,
-    library_of,
-    load_error,
-    unloadable,
-)
+from cosim.coupling.fmu.description import describe, is_fmi3, library_of, unloadable
 from cosim.coupling.fmu.errors import FmuCallError, FmuError, one_line
 from cosim.coupling.fmu.fmi2 import Fmi2
 from cosim.coupling.fmu.fmi3 import Fmi3
-from cosim.coupling.fmu.instance import Instance
 from cosim.coupling.fmu.log import STATUSES, FmuLog
 from cosim.coupling.fmu.module_conflicts import claim_modules, claim_place, leave_place
 from cosim.coupling.fmu.values import Group, Values
 from cosim.coupling.fmu.variables import (
     REALS,
+    START,
     Setting,
     check_settings,
-    check_starts,
     ports_of,
     scalars,
 )
 from cosim.coupling.messages import Messages
-from cosim.coupling.participant import Capabilities, Causality, port_table
+from cosim.coupling.participant import Capabilities, Causality, Closing, port_table
 from cosim.coupling.waveform import Waveform
 
 Result = TypeVar("Result")
@@ -54,7 +47,7 @@ class State:
     memory: dict[str, Any]
 
 
-class FmuParticipant:
+class FmuParticipant(Closing):
     """Ports, units and causalities come from the FMU's modelDescription.xml.
 
     path: the FMU. name: its name in the coupled system, the model's name when left out.
@@ -89,13 +82,13 @@ class FmuParticipant:
         self.name = name or self.description.modelName
         self._table = scalars(self.description)
         self.ports = port_table(ports_of(self.description, self._table))
-        check_settings(self.name, self._table, parameters or {}, "parameter")
-        check_settings(self.name, self._table, inputs or {}, "input")
-        check_starts(self.name, self._table, starts or {})
-        self._parameters, self._inputs = {**(parameters or {}), **(starts or {})}, inputs or {}
+        parameters, inputs, starts = parameters or {}, inputs or {}, starts or {}
+        for kind, given in (("parameter", parameters), ("input", inputs), (START, starts)):
+            check_settings(self.name, self._table, given, kind)
+        self._parameters, self._inputs = {**parameters, **starts}, inputs
         self._tolerance, self._early, self._debug = tolerance, early_return, debug
         self._input_order = input_order
-        self._kind: type[Instance] = Fmi3 if is_fmi3(self.description) else Fmi2
+        self._kind: type[Fmi2 | Fmi3] = Fmi3 if is_fmi3(self.description) else Fmi2
         self.capabilities = self._capabilities()
         self.messages: Messages = Messages(self.name)
         #: Inputs that derivatives can be given of -> reference.
@@ -106,7 +99,7 @@ class FmuParticipant:
         }
         self._outputs = [p.name for p in self.ports.values() if p.causality is Causality.OUTPUT]
         self._directory: tempfile.TemporaryDirectory[str] | None = None
-        self._calls: Instance | None = None
+        self._calls: Fmi2 | Fmi3 | None = None
         self._begin_anew()
 
     def _begin_anew(self) -> None:
@@ -146,7 +139,7 @@ class FmuParticipant:
         self._call(self._instance().exit_initialisation)
         self._running = True
 
-    def _instantiate(self) -> Instance:
+    def _instantiate(self) -> Fmi2 | Fmi3:
         folder, library = self._unpacked()
         claim_modules(self.path, folder)
         claim_place(self.path, self.description)
@@ -167,8 +160,8 @@ class FmuParticipant:
             said = self._log.take_errors()
             self._log.close()
             self._free_instance()
-            if refused := load_error(error):
-                raise unloadable(self.path, folder, library, refused) from error
+            if refused := unloadable(self.path, folder, library, error):
+                raise refused from error
             raise FmuCallError(f"{one_line(error)} {said}".strip()) from error
         return self._calls
 
@@ -242,7 +235,7 @@ class FmuParticipant:
         calls = self._instance()
         self._call(calls.set_state, state.handle)
         self._values.known = dict(state.known)
-        calls.memory = _copied(state.memory)
+        calls.memory = copy.deepcopy(state.memory)
 
     def free_state(self, state: State) -> None:
         """Release a state."""
@@ -256,7 +249,7 @@ class FmuParticipant:
         self._require(self.capabilities.saves, "canSerializeFMUstate")
         state = self.get_state()
         try:
-            content = self._call(self._instance().as_bytes, state.handle)
+            content: bytes = self._call(self._instance().as_bytes, state.handle)
         finally:
             self.free_state(state)
         head = {"unit": self._identity(), "known": state.known, "memory": state.memory}
@@ -284,7 +277,7 @@ class FmuParticipant:
         return f"{self.description.modelName} {self.description.guid}"
 
     def _kept(self, handle: Any) -> State:
-        state = State(handle, dict(self._values.known), _copied(self._instance().memory))
+        state = State(handle, dict(self._values.known), copy.deepcopy(self._instance().memory))
         self._states.add(state)
         return state
 
@@ -299,7 +292,7 @@ class FmuParticipant:
 
     # --- the instance ---
 
-    def _instance(self) -> Instance:
+    def _instance(self) -> Fmi2 | Fmi3:
         if self._calls is None:
             raise FmuCallError("is not initialised")
         return self._calls
@@ -356,14 +349,3 @@ class FmuParticipant:
         if self._directory is not None:
             self._directory.cleanup()
             self._directory = None
-
-    def __enter__(self) -> FmuParticipant:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self.close()
-
-
-def _copied(memory: dict[str, Any]) -> dict[str, Any]:
-    """Of FMI 2.0 there is nothing, and a deep copy of that is not free."""
-    return copy.deepcopy(memory) if memory else {}

@@ -11,7 +11,7 @@ from typing import Any
 from cosim.coupling.isolated.child import START, packed
 from cosim.coupling.isolated.process import IsolatedError, Process
 from cosim.coupling.messages import Messages
-from cosim.coupling.participant import CouplingError, port_table
+from cosim.coupling.participant import Closing, CouplingError, port_table
 from cosim.coupling.waveform import Waveform
 
 #: Calls without an answer that wait for the next with one; no more than these.
@@ -23,7 +23,7 @@ _numbers = itertools.count(1)
 State = int
 
 
-class IsolatedParticipant:
+class IsolatedParticipant(Closing):
     """Any participant, made and run in a process of its own.
 
     factory: what makes it there, of `arguments` and `named`: a class or function that can be
@@ -143,15 +143,8 @@ class IsolatedParticipant:
         """Close the participant and end its process; never raises."""
         if self._process is not None:
             self._process.close()
-            self._take_lines()
             self._process = None
         self._forget()
-
-    def __enter__(self) -> IsolatedParticipant:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self.close()
 
     def _forget(self) -> None:
         """What belongs to a run that is over."""
@@ -163,7 +156,7 @@ class IsolatedParticipant:
     def _begin(self) -> Any:
         """A new process with the participant in it."""
         self.close()
-        self._process = Process(self._limit, self.messages.keep)
+        self._process = Process(self._limit, self.messages)
         try:
             return self._ask(START, *self._made_by)
         except BaseException:
@@ -178,11 +171,7 @@ class IsolatedParticipant:
     def _ask(self, call: str, *arguments: Any) -> Any:
         process = self._alive()
         told, self._told = self._told, []
-        try:
-            return process.ask(told, call, arguments)
-        finally:
-            if process.lines.newest:
-                self._take_lines()
+        return process.ask(told, call, arguments)
 
     def _alive(self) -> Process:
         if self._process is None or self._process.is_over:
@@ -192,17 +181,6 @@ class IsolatedParticipant:
     def _check_own(self, state: State) -> None:
         if state not in self._states:
             raise IsolatedError("is given a state that is not its own, or not any more")
-
-    def _take_lines(self) -> None:
-        """What the process has written becomes messages."""
-        if self._process is None:
-            return
-        lines = self._process.lines
-        for _ in range(len(lines.newest)):  # more may come meanwhile
-            if line := lines.newest.popleft():
-                self.messages.add("output", "", line)
-        self.messages.dropped += lines.dropped
-        lines.dropped = 0
 
 
 def _checked(

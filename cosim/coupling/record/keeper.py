@@ -10,7 +10,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from cosim.coupling.exchange import MOST_POINTS, Effort, Exchange
+from cosim.coupling.exchange import MOST_POINTS, Effort, Exchange, Statistics
 from cosim.coupling.participant import Saved, capabilities
 from cosim.coupling.record.checkpoint import (
     Checkpoint,
@@ -211,5 +211,4 @@ def _restore_exchange(exchange: Exchange, state: Mapping[str, Any]) -> None:
     points = [(time, outputs) for time, outputs in state["history"]]
     exchange.history.points = deque(points, maxlen=MOST_POINTS)
     efforts = {name: Effort(**each) for name, each in state["statistics"]["participants"].items()}
-    for key, value in (state["statistics"] | {"participants": efforts}).items():
-        setattr(exchange.statistics, key, value)
+    exchange.statistics = Statistics(**(state["statistics"] | {"participants": efforts}))

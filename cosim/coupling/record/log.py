@@ -11,6 +11,7 @@ from io import FileIO
 from pathlib import Path
 
 from cosim.coupling.messages import FAILURES, WARNING, Message
+from cosim.coupling.participant import Closing
 
 LOG = "messages.log"
 COLUMNS = ("wall time (UTC)", "simulated time (s)", "who", "status", "category", "text")
@@ -20,7 +21,7 @@ _GONE_ON = "# the run was cut off, and goes on from its newest checkpoint\n"
 MOST_BYTES = 100_000_000
 
 
-class MessageLog:
+class MessageLog(Closing):
     """A file with a line for every message, columns apart by tabs; none where nobody says anything.
 
     path: of the file. resumed: go on behind what an earlier process has left; else that is removed.
@@ -106,12 +107,6 @@ class MessageLog:
         """Let go of the file; may be called twice."""
         if self._file is not None:
             self._file.close()
-
-    def __enter__(self) -> MessageLog:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self.close()
 
 
 def _line(message: Message) -> str:

@@ -69,10 +69,9 @@ class Iterated:
         degree = degree_of(self.waveform)
         ends = [exchange.extrapolated(source, degree, size).end for source in guessed]
         guess = np.array(ends).clip(*within)
-        mark = exchange.mark()
         plain = None
-        try:
-            self.acceleration.begin()
+        self.acceleration.begin()
+        with exchange.marked() as mark:
             for iteration in range(1, self.most_iterations + 1):
                 if iteration > 1:
                     exchange.back(mark)
@@ -85,16 +84,13 @@ class Iterated:
                     exchange.back(mark)
                     guess = plain
                     found = self._sweep(exchange, guessed, guess, degree, size)
-                allowed = self.tolerance.allowed(least, found)
-                changes = np.abs(found - guess) / allowed
+                changes = np.abs(found - guess) / self.tolerance.allowed(least, found)
                 if not guessed or changes.max() <= 1.0:
                     return _done(size, iteration, changes, guessed, True)
                 if iteration < self.most_iterations:
                     plain = found
                     guess = scale * self.acceleration.next(guess / scale, found / scale)
                     guess = guess.clip(*within)
-        finally:
-            exchange.forget(mark)
         return _done(size, self.most_iterations, changes, guessed, False)
 
     def state(self) -> list[Any]:

@@ -72,8 +72,8 @@ class AdaptiveStep(StepControl):
     def step(self, stepper: Stepper, stop: float) -> float:
         """Repeat the step until its error is allowed; the time reached, s."""
         exchange = stepper.exchange
-        began, mark, refused = exchange.now, exchange.mark(), 0
-        try:
+        began, refused = exchange.now, 0
+        with exchange.marked() as mark:
             while True:
                 size = _shared(self._size, stop - began)
                 reached, error = self.estimate.make(stepper, stop if size is None else began + size)
@@ -84,8 +84,6 @@ class AdaptiveStep(StepControl):
                 exchange.statistics.rejected += 1
                 refused += 1
                 self._shrink(error, made)
-        finally:
-            exchange.forget(mark)
         self._count_above(exchange, error, made, began, stop)
         if refused > OFTEN:
             exchange.remark(f"was taken back {refused} times, to be of {made:.3g} s", began)

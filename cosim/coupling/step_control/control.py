@@ -6,6 +6,7 @@ And the plainest, steps of one size.
 from __future__ import annotations
 
 import math
+from contextlib import nullcontext
 from typing import Any, ClassVar, Protocol
 
 from cosim.coupling.exchange import Exchange
@@ -60,28 +61,23 @@ class Stepper:
         """
         exchange = self.exchange
         began = exchange.now
-        mark = exchange.mark() if self._marks else None
-        size, done, by_event, halved = end - began, None, False, 0
-        try:
-            while done is None:
+        size, by_event, halved = end - began, False, 0
+        with exchange.marked() if self._marks else nullcontext() as mark:
+            while True:
                 try:
                     done = self.scheme.step(exchange, size)
                 except EndedEarly as event:
-                    assert mark is not None  # `run` has seen to it
-                    exchange.back(mark)
                     exchange.statistics.events += 1
                     size, by_event = event.size, True
-                    continue
-                told = exchange.statistics
-                told.iterations += done.iterations
-                told.most_iterations = max(told.most_iterations, done.iterations)
-                if not done.converged and self._is_halved(done, size):
-                    assert mark is not None
-                    exchange.back(mark)
-                    size, done, halved = size / 2.0, None, halved + 1
-        finally:
-            if mark is not None:
-                exchange.forget(mark)
+                else:
+                    told = exchange.statistics
+                    told.iterations += done.iterations
+                    told.most_iterations = max(told.most_iterations, done.iterations)
+                    if done.converged or not self._is_halved(done, size):
+                        break
+                    size, halved = size / 2.0, halved + 1
+                assert mark is not None  # `run` has seen to it
+                exchange.back(mark)
         if halved > OFTEN:
             exchange.remark(f"did not converge until it was halved {halved} times", began)
         # the end itself where it was reached: began + size may miss it by a rounding

@@ -83,13 +83,11 @@ class Doubling(OfOutputs):
     def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
         """Whole, back, and in halves."""
         exchange = stepper.exchange
-        began, which, mark = exchange.now, exchange.system.sources, exchange.mark()
-        try:
+        began, which = exchange.now, exchange.system.sources
+        with exchange.marked() as mark:
             end = stepper.make(end)
             whole = exchange.values(which)
             exchange.back(mark)
-        finally:
-            exchange.forget(mark)
         for goal in (began + (end - began) / 2.0, end):
             reached = stepper.make(goal)
             if reached < goal:
