@@ -10,6 +10,7 @@ import os
 import shutil
 import sys
 import tempfile
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -52,8 +53,9 @@ class NativeUnits(BuildHookInterface):
         for unit in (native, native_unit):
             libraries.prebuild(units, unit.NAME, unit.guid(), unit.sources, platforms)
         if IS_RELEASE:
-            libraries.prebuild(units, web.NAME, web.guid(), web.sources, [BROWSER])
-            libraries.prebuild(units, web.HEAT, web.heat_guid(), web.heat_sources, [BROWSER])
+            for name in (web.NAME, web.HEAT):
+                made = partial(web.sources, name)
+                libraries.prebuild(units, name, web.guid(name), made, [BROWSER])
         for code in (compiled.code(kernel_source()), scheme_code()):
             code.prebuild(kernels, platforms)
         build_data["force_include"] |= {

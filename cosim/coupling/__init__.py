@@ -4,92 +4,51 @@ It knows of a participant nothing but its ports; which models there are is none 
 What couples the models of this product is in `cosim.coupling.case`.
 """
 
-from cosim.coupling.conversion import Affine
-from cosim.coupling.driven import Curve, Driven
-from cosim.coupling.fmu.errors import FmuError
-from cosim.coupling.fmu.participant import FmuParticipant
-from cosim.coupling.isolated import IsolatedError, IsolatedParticipant
-from cosim.coupling.messages import Message, Messages
-from cosim.coupling.participant import (
-    Capabilities,
-    Causality,
-    CouplingError,
-    Participant,
-    ParticipantError,
-    Port,
-    Restorable,
-    Saved,
-    TakesWaveforms,
-    UnitDefinition,
-    capabilities,
-    inputs,
-    outputs,
-    port_table,
-)
-from cosim.coupling.result import CoupledResult, EnergyFlow, Ledger
-from cosim.coupling.run import run
-from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton, Relaxation
-from cosim.coupling.schemes.explicit import GaussSeidel, Jacobi
-from cosim.coupling.schemes.iterated import Iterated
-from cosim.coupling.schemes.scheme import Scheme
-from cosim.coupling.step_control.adaptive import AdaptiveStep
-from cosim.coupling.step_control.control import ConvergenceError, StepControl
-from cosim.coupling.step_control.estimates import Defect, Doubling, EnergyResidual
-from cosim.coupling.step_control.fixed import FixedStep
-from cosim.coupling.step_control.power_bond import PowerBond
-from cosim.coupling.step_control.precheck import restores_exactly
-from cosim.coupling.subcycled import Subcycled
-from cosim.coupling.system import Connection, CoupledSystem
-from cosim.coupling.tolerance import Tolerance
-from cosim.coupling.waveform import Waveform
-
-__all__ = [
-    "AdaptiveStep",
-    "Affine",
-    "Aitken",
-    "Capabilities",
-    "Causality",
-    "Connection",
-    "ConvergenceError",
-    "CoupledResult",
-    "CoupledSystem",
-    "CouplingError",
-    "Curve",
-    "Defect",
-    "Doubling",
-    "Driven",
-    "EnergyFlow",
-    "EnergyResidual",
-    "FixedStep",
-    "FmuError",
-    "FmuParticipant",
-    "GaussSeidel",
-    "Iterated",
-    "Jacobi",
-    "IsolatedError",
-    "IsolatedParticipant",
-    "Ledger",
-    "Message",
-    "Messages",
-    "Participant",
-    "ParticipantError",
-    "Port",
-    "PowerBond",
-    "QuasiNewton",
-    "Relaxation",
-    "Restorable",
-    "Saved",
-    "Scheme",
-    "StepControl",
-    "Subcycled",
-    "TakesWaveforms",
-    "Tolerance",
-    "UnitDefinition",
-    "Waveform",
-    "capabilities",
-    "inputs",
-    "outputs",
-    "port_table",
-    "restores_exactly",
-    "run",
-]
+from cosim.coupling.around import Curve as Curve
+from cosim.coupling.around import Driven as Driven
+from cosim.coupling.around import Subcycled as Subcycled
+from cosim.coupling.conversion import Affine as Affine
+from cosim.coupling.fmu.errors import FmuError as FmuError
+from cosim.coupling.fmu.participant import FmuParticipant as FmuParticipant
+from cosim.coupling.isolated import IsolatedError as IsolatedError
+from cosim.coupling.isolated import IsolatedParticipant as IsolatedParticipant
+from cosim.coupling.messages import Message as Message
+from cosim.coupling.messages import Messages as Messages
+from cosim.coupling.participant import Capabilities as Capabilities
+from cosim.coupling.participant import Causality as Causality
+from cosim.coupling.participant import CouplingError as CouplingError
+from cosim.coupling.participant import Participant as Participant
+from cosim.coupling.participant import ParticipantError as ParticipantError
+from cosim.coupling.participant import Port as Port
+from cosim.coupling.participant import Restorable as Restorable
+from cosim.coupling.participant import Saved as Saved
+from cosim.coupling.participant import TakesWaveforms as TakesWaveforms
+from cosim.coupling.participant import UnitDefinition as UnitDefinition
+from cosim.coupling.participant import capabilities as capabilities
+from cosim.coupling.participant import inputs as inputs
+from cosim.coupling.participant import outputs as outputs
+from cosim.coupling.participant import port_table as port_table
+from cosim.coupling.result import CoupledResult as CoupledResult
+from cosim.coupling.result import EnergyFlow as EnergyFlow
+from cosim.coupling.result import Ledger as Ledger
+from cosim.coupling.run import run as run
+from cosim.coupling.schemes.acceleration import Aitken as Aitken
+from cosim.coupling.schemes.acceleration import QuasiNewton as QuasiNewton
+from cosim.coupling.schemes.acceleration import Relaxation as Relaxation
+from cosim.coupling.schemes.iterated import Iterated as Iterated
+from cosim.coupling.schemes.scheme import GaussSeidel as GaussSeidel
+from cosim.coupling.schemes.scheme import Jacobi as Jacobi
+from cosim.coupling.schemes.scheme import Scheme as Scheme
+from cosim.coupling.step_control.adaptive import AdaptiveStep as AdaptiveStep
+from cosim.coupling.step_control.control import ConvergenceError as ConvergenceError
+from cosim.coupling.step_control.control import FixedStep as FixedStep
+from cosim.coupling.step_control.control import StepControl as StepControl
+from cosim.coupling.step_control.estimates import Defect as Defect
+from cosim.coupling.step_control.estimates import Doubling as Doubling
+from cosim.coupling.step_control.estimates import EnergyResidual as EnergyResidual
+from cosim.coupling.step_control.power_bond import PowerBond as PowerBond
+from cosim.coupling.step_control.precheck import restores_exactly as restores_exactly
+from cosim.coupling.system import Connection as Connection
+from cosim.coupling.system import CoupledSystem as CoupledSystem
+from cosim.coupling.tolerance import Tolerance as Tolerance
+from cosim.coupling.waveform import Waveform as Waveform

@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 import sys
 from collections import deque
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from time import perf_counter
 from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cosim.coupling.conversion import converted
+from cosim.coupling.conversion import Affine, converted
 from cosim.coupling.messages import WARNING
-from cosim.coupling.participant import CouplingError, ParticipantError, capabilities
-from cosim.coupling.statistics import Statistics
+from cosim.coupling.participant import CouplingError, ParticipantError, Port, capabilities
 from cosim.coupling.system import ENERGY_UNIT, Address, Connection, CoupledSystem
 from cosim.coupling.waveform import Waveform, through
 
@@ -29,6 +29,34 @@ MOST_POINTS = 3
 Answer = TypeVar("Answer")
 #: Time in s; participant -> port -> value.
 Point = tuple[float, Mapping[str, Mapping[str, float]]]
+
+
+@dataclass
+class Effort:
+    """Of one participant: steps made, repeated ones included, and the time in them, s."""
+
+    steps: int = 0
+    seconds: float = 0.0
+
+
+@dataclass
+class Statistics:
+    """Of a coupled run.
+
+    participants: name -> its effort. steps: macro steps accepted; rejected: taken back by the step
+    control; iterations: of the scheme, over all steps made; most_iterations: of one step; events:
+    steps that a participant ended early; unconverged: starts of accepted steps whose iteration had
+    not converged, s; above_tolerance: of those accepted at the smallest size with a larger error.
+    """
+
+    participants: dict[str, Effort] = field(default_factory=dict)
+    steps: int = 0
+    rejected: int = 0
+    iterations: int = 0
+    most_iterations: int = 0
+    events: int = 0
+    unconverged: list[float] = field(default_factory=list)
+    above_tolerance: list[float] = field(default_factory=list)
 
 
 class History:
@@ -65,6 +93,15 @@ class History:
         return [(t - now, values[source.participant][source.port]) for t, values in chosen]
 
 
+def held(ports: Mapping[str, Port], waves: Mapping[str, Waveform]) -> dict[str, float]:
+    """What who cannot follow a waveform gets: its mean, and of joules handed over since the start,
+    of which a step takes what was added, the value at the end."""
+    return {
+        port: wave.end if ports[port].unit == ENERGY_UNIT else wave.mean
+        for port, wave in waves.items()
+    }
+
+
 @dataclass(frozen=True)
 class Mark:
     """Where a coupled system stood: states of the participants, values, time."""
@@ -86,35 +123,27 @@ class Exchange:
 
     def __init__(self, system: CoupledSystem):
         self.system = system
+        self._participants: Mapping[str, Any] = system.participants
         self.outputs: dict[str, dict[str, float]] = {name: {} for name in system.participants}
         self.inputs: dict[str, dict[str, float]] = {name: {} for name in system.participants}
         self.time: float | None = None
         self.history: History = History()
-        self.statistics: Statistics = Statistics(system.participants)
-        self.feeds: dict[str, tuple[Connection, ...]] = {
-            name: tuple(c for c in system.connections if c.sink.participant == name)
-            for name in system.participants
-        }
-        self._converted = {
-            name: tuple((feed, system.conversions[feed]) for feed in feeds)
-            for name, feeds in self.feeds.items()
-        }
-        self._follows = {
-            name: capabilities(participant).waveforms
-            for name, participant in system.participants.items()
-        }
+        self.statistics: Statistics = Statistics({name: Effort() for name in system.participants})
+        self._feeds: dict[str, list[tuple[Connection, Affine]]] = {n: [] for n in self.outputs}
+        for feed, convert in system.conversions.items():
+            self._feeds[feed.sink.participant].append((feed, convert))
         self._sources = {
-            name: tuple({c.source.port for c in system.connections if c.source.participant == name})
+            name: {each.port for each in system.sources if each.participant == name}
             for name in system.participants
         }
-        self._totals = {
-            name: {
-                feed.sink.port
-                for feed in feeds
-                if system.participants[name].ports[feed.sink.port].unit == ENERGY_UNIT
-            }
-            for name, feeds in self.feeds.items()
-        }
+        self._follows = {name: capabilities(p).waveforms for name, p in self._participants.items()}
+
+    @property
+    def now(self) -> float:
+        """Start of the step under way, s, where the initialisation is done."""
+        if self.time is None:
+            raise CouplingError("asked for a step before the initialisation is done")
+        return self.time
 
     def asked(self, name: str, call: Callable[..., Answer], *given: Any) -> Answer:
         """What a call to a participant returns; ParticipantError, which names it, for all else."""
@@ -128,7 +157,7 @@ class Exchange:
 
     def collect(self, name: str) -> None:
         """Read all outputs of a participant; every connected one must be a finite number."""
-        found = self.outputs[name] = self.asked(name, self.system.participants[name].read)
+        found = self.outputs[name] = self.asked(name, self._participants[name].read)
         for port in self._sources[name]:
             if not math.isfinite(found[port]):
                 raise ParticipantError(name, self.time, f"output {port} is {found[port]}")
@@ -136,13 +165,18 @@ class Exchange:
     def deliver(self, name: str) -> None:
         """Write the newest values of the connected sources to the inputs of a participant."""
         outputs = self.outputs
-        self.write(
+        self._write(
             name,
             {
                 feed.sink.port: convert(outputs[feed.source.participant][feed.source.port])
-                for feed, convert in self._converted[name]
+                for feed, convert in self._feeds[name]
             },
         )
+
+    def _write(self, name: str, values: dict[str, float]) -> None:
+        if values:
+            self.asked(name, self._participants[name].write, values)
+        self.inputs[name] = values
 
     def refresh(self, name: str) -> None:
         """Let the outputs of a participant follow from the newest values of its sources.
@@ -154,15 +188,9 @@ class Exchange:
         self.inputs[name] = stepped_with
         self.collect(name)
 
-    def write(self, name: str, values: dict[str, float]) -> None:
-        """Write values, in the units of the participant, to its inputs."""
-        if values:
-            self.asked(name, self.system.participants[name].write, values)
-        self.inputs[name] = values
-
     def values(self, which: Iterable[Address]) -> NDArray[np.float64]:
         """The newest of some outputs, (n,)."""
-        return np.array([self.outputs[each.participant][each.port] for each in which])
+        return np.array([self.outputs[each.participant][each.port] for each in which], float)
 
     def extrapolated(self, source: Address, degree: int, size: float) -> Waveform:
         """What a connected output may be over the step that begins, from the points before it.
@@ -174,23 +202,17 @@ class Exchange:
         return self.history.extrapolated(source, 0 if port.unit == ENERGY_UNIT else degree, size)
 
     def deliver_over_step(self, name: str, course: Course) -> None:
-        """Let the inputs of a participant follow their sources over the step under way.
-
-        Who cannot follow a waveform gets its mean, and of joules handed over since the start, of
-        which a step takes what was added, the value at the end.
-        """
+        """Let the inputs of a participant follow their sources over the step under way."""
         waves = {
             feed.sink.port: converted(convert, course(feed.source))
-            for feed, convert in self._converted[name]
+            for feed, convert in self._feeds[name]
         }
+        participant = self._participants[name]
         if not self._follows[name]:
-            totals = self._totals[name]
-            held = {port: w.end if port in totals else w.mean for port, w in waves.items()}
-            self.write(name, held)
+            self._write(name, held(participant.ports, waves))
             return
         if waves:
-            follower: Any = self.system.participants[name]  # as its `capabilities` say
-            self.asked(name, follower.write_waveforms, waves)
+            self.asked(name, participant.write_waveforms, waves)
         self.inputs[name] = {port: wave.end for port, wave in waves.items()}
 
     def step(self, name: str, size: float) -> float:
@@ -198,46 +220,43 @@ class Exchange:
 
         It is smaller than asked for where an event of the participant ended the step.
         """
-        if self.time is None:
-            raise CouplingError(f"{name}: asked for a step before its initialisation is done")
+        start = self.now
         began = perf_counter()
-        reached = self.asked(name, self.system.participants[name].step, self.time, size)
-        self.statistics.stepped(name, perf_counter() - began)
-        end = self.time + size
+        reached = self.asked(name, self._participants[name].step, start, size)
+        effort = self.statistics.participants[name]
+        effort.steps += 1
+        effort.seconds += perf_counter() - began
+        end = start + size
         if reached is None or reached >= end - SAME_TIME * abs(end):
             return size
-        if reached <= self.time:
-            raise ParticipantError(name, self.time, f"has not advanced: it is at {reached:.9g} s")
-        return reached - self.time
+        if reached <= start:
+            raise ParticipantError(name, start, f"has not advanced: it is at {reached:.9g} s")
+        return float(reached - start)
 
     def remark(self, text: str, time: float | None, category: str = "steps") -> None:
         """Something that the user of the results should know of the step from a time (s)."""
         self.system.messages.time = time
         self.system.messages.add(WARNING, category, text)
 
-    def mark(self) -> Mark:
-        """Remember where everything stands; asks every participant for its state."""
-        states = {name: self.asked(name, each.get_state) for name, each in self._restorable()}
-        return Mark(
-            states, dict(self.outputs), dict(self.inputs), self.time, tuple(self.history.points)
-        )
-
     def back(self, mark: Mark) -> None:
         """Go back to a mark, which stays good."""
-        for name, participant in self._restorable():
+        for name, participant in self._participants.items():
             self.asked(name, participant.set_state, mark.states[name])
         self.outputs, self.inputs = dict(mark.outputs), dict(mark.inputs)
         self.time = mark.time
         self.history.points = deque(mark.history, maxlen=MOST_POINTS)
 
-    def forget(self, mark: Mark) -> None:
-        """A mark is no longer needed."""
-        for name, participant in self._restorable():
-            self.asked(name, participant.free_state, mark.states[name])
-
-    def _restorable(self) -> Iterable[tuple[str, Any]]:
-        """The participants, of which `check_restore` has seen that they can go back."""
-        return self.system.participants.items()
+    @contextmanager
+    def marked(self) -> Iterator[Mark]:
+        """Remember where everything stands, to go back there; asks every participant for its state,
+        and lets go of it behind the block."""
+        states = {n: self.asked(n, each.get_state) for n, each in self._participants.items()}
+        past = tuple(self.history.points)
+        try:
+            yield Mark(states, dict(self.outputs), dict(self.inputs), self.time, past)
+        finally:
+            for name, participant in self._participants.items():
+                self.asked(name, participant.free_state, states[name])
 
     def accept(self, time: float) -> None:
         """The step is done and will not be taken back; it has come to a time (s)."""

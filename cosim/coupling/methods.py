@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from cosim.coupling.schemes.acceleration import Acceleration, Aitken, QuasiNewton, Relaxation
-from cosim.coupling.schemes.explicit import GaussSeidel, Jacobi
+from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton, Relaxation
 from cosim.coupling.schemes.iterated import Iterated
-from cosim.coupling.schemes.scheme import Scheme
+from cosim.coupling.schemes.scheme import GaussSeidel, Jacobi, Scheme
 from cosim.coupling.step_control.adaptive import AdaptiveStep
-from cosim.coupling.step_control.control import StepControl
+from cosim.coupling.step_control.control import FixedStep, StepControl
 from cosim.coupling.step_control.estimates import Defect, Doubling, EnergyResidual, Estimate
-from cosim.coupling.step_control.fixed import FixedStep
 from cosim.coupling.step_control.power_bond import PowerBond
 from cosim.coupling.tolerance import Tolerance
 
@@ -62,12 +60,11 @@ def smallest_step(settings: Method, macro_step: float) -> float:
     return settings.smallest_step or SMALLEST * macro_step
 
 
-def _acceleration(settings: Method) -> Acceleration:
+def _acceleration(settings: Method) -> Relaxation:
     if settings.acceleration == "none":
         return Relaxation()
     kinds = {"constant": Relaxation, "aitken": Aitken, "iqn_ils": QuasiNewton}
-    found: Acceleration = kinds[settings.acceleration](settings.relaxation)
-    return found
+    return kinds[settings.acceleration](settings.relaxation)
 
 
 def _estimate(settings: Method, bonds: Sequence[tuple[str, str]]) -> Estimate:

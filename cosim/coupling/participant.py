@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from types import MappingProxyType
-from typing import Any, Protocol
+from typing import Any, Protocol, Self
 
 from cosim.coupling.waveform import Waveform
 
@@ -188,19 +188,15 @@ def capabilities(participant: Participant) -> Capabilities:
     )
 
 
-class Around:
-    """Stands around a participant, whose name, ports and all else it has."""
+class Closing:
+    """Closes itself behind a `with` block."""
 
-    def __init__(self, participant: Participant):
-        self.inner: Any = participant
-        self.name: str = participant.name
-        self.ports: Mapping[str, Port] = participant.ports
+    def close(self) -> None:
+        """Let go of what is held open."""
+        raise NotImplementedError
 
-    @property
-    def capabilities(self) -> Capabilities:
-        """Those of the participant."""
-        return capabilities(self.inner)
+    def __enter__(self) -> Self:
+        return self
 
-    def __getattr__(self, name: str) -> Any:
-        """All else is the participant's."""
-        return getattr(self.inner, name)
+    def __exit__(self, *exception: object) -> None:
+        self.close()

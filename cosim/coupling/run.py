@@ -2,35 +2,27 @@
 
 from __future__ import annotations
 
-import math
-import time as clock
 from collections.abc import Callable, Iterable
-from typing import NamedTuple
 
 from cosim.coupling.exchange import Exchange
-from cosim.coupling.initial import initial_exchange
+from cosim.coupling.initial import initialise
 from cosim.coupling.participant import CouplingError, ParticipantError
 from cosim.coupling.record.keeper import Keep, Keeper
-from cosim.coupling.result import CoupledResult, Recording, Status, ledger_of
+from cosim.coupling.result import CoupledResult, Status, ledger_of
 from cosim.coupling.schemes.scheme import Scheme
-from cosim.coupling.step_control.control import STOP, ConvergenceError, StepControl, Stepper
-from cosim.coupling.step_control.fixed import FixedStep
+from cosim.coupling.step_control.control import (
+    STOP,
+    ConvergenceError,
+    FixedStep,
+    StepControl,
+    Stepper,
+)
 from cosim.coupling.step_control.precheck import check_restore, remarks_of, try_restore
 from cosim.coupling.system import CoupledSystem
 from cosim.files import OutputError
 from cosim.interrupts import deferred_interrupt
 
-Progress = Callable[[float], None]
-#: Of the initial exchange, see `initial_exchange`.
-EXCHANGE_TOLERANCE, EXCHANGE_SWEEPS = 4 * math.ulp(1.0), 100
-
-
-class _March(NamedTuple):
-    """How the steps ended: status, the failure if there was one, time reached in s."""
-
-    status: Status
-    error: Exception | None
-    reached: float
+Progress = Callable[[float], object]
 
 
 def run(
@@ -80,34 +72,32 @@ def run(
     exchange = Exchange(system)
     for remark in remarks:
         exchange.remark(remark, None)
-    sweeps = _initialise(exchange, scheme.order, start, stop)
+    sweeps = initialise(exchange, scheme.order, start, stop)
     if scheme.needs_restore or control.needs_restore or marks:
         try_restore(exchange, start, min(control.first_size, stop - start))
     exchange.accept(start)
     goals = sorted({*(event for event in events if start < event < stop), stop})
     details = {"start": start, "goals": goals, "record_every": record_every}
-    keeper = None if keep is None else Keeper(keep, exchange, scheme, control, details)
-    rows = _Rows(exchange, start, keep, keeper, record_every, observe)
+    keeper = Keeper(keep, exchange, scheme, control, details)
     stepper = Stepper(
         exchange, scheme, on_divergence=on_divergence, smallest=smallest_step, marks=marks
     )
-    march = _march(stepper, control, goals, rows, progress)
-    return _result(march, exchange, rows, sweeps, remarks)
-
-
-def _result(
-    march: _March, exchange: Exchange, rows: _Rows, sweeps: int, remarks: tuple[str, ...]
-) -> CoupledResult:
-    recording, values = rows.recording, rows.recording.values()
+    status, error, reached = _march(
+        stepper, control, goals, keeper, observe or _unheard, progress or _unheard
+    )
+    reason = "" if error is None else str(error)
+    if status == "interrupted":
+        reason = f"interrupted at t = {reached:.9g} s"
+    values = keeper.recording.values()
     return CoupledResult(
-        time=recording.time,
+        time=keeper.recording.time,
         values=values,
-        units=recording.units,
-        ledger=ledger_of(exchange.system, values),
-        status=march.status,
-        reason=_reason(march),
-        error=march.error,
-        wall_time=rows.seconds(),
+        units=keeper.recording.units,
+        ledger=ledger_of(system, values),
+        status=status,
+        reason=reason,
+        error=error,
+        wall_time=keeper.seconds(),
         sweeps=sweeps,
         steps=exchange.statistics.steps,
         statistics=exchange.statistics,
@@ -123,105 +113,41 @@ def _control(control: StepControl | None, macro_step: float | None) -> StepContr
     raise CouplingError("name either macro_step or control, which says how long the steps are")
 
 
-def _initialise(exchange: Exchange, order: tuple[str, ...], start: float, stop: float) -> int:
-    participants = exchange.system.participants
-    for name in order:
-        exchange.asked(name, participants[name].enter_initialisation, start, stop)
-    sweeps = initial_exchange(exchange, order, EXCHANGE_TOLERANCE, EXCHANGE_SWEEPS)
-    for name in order:
-        exchange.asked(name, participants[name].exit_initialisation)
-        exchange.collect(name)
-    return sweeps
-
-
-class _Rows:
-    """What becomes of the communication points: rows, thinned out, and now and then a checkpoint.
-
-    Where `keeper` holds a checkpoint, the participants go on from it, and so do rows and clock,
-    which stood still meanwhile; else the start (s) is the first row. every: communication points
-    for a row; observe: called with each time.
-    """
-
-    def __init__(
-        self,
-        exchange: Exchange,
-        start: float,
-        keep: Keep | None,
-        keeper: Keeper | None,
-        every: int,
-        observe: Progress | None,
-    ):
-        passed = None if keeper is None else keeper.passed()
-        self.recording = Recording(
-            exchange.system,
-            None if keep is None else keep.folder,
-            None if passed is None else passed.place,
-        )
-        if passed is None:
-            self.recording.add(start, exchange)
-        self._keeper, self._every, self._observe = keeper, every, observe
-        self._counted = passed.rows if passed else 0
-        self._began = clock.perf_counter() - (passed.seconds if passed else 0.0)
-
-    def begin(self, time: float) -> None:
-        """The run stands where it starts from, or goes on from (s); that has a row."""
-        if self._observe is not None:
-            self._observe(time)
-
-    def add(self, time: float, exchange: Exchange, is_row: bool) -> None:
-        """A step was accepted and has come to a time (s)."""
-        self._counted += is_row
-        keep = is_row and self._counted % self._every == 0
-        self.recording.add(time, exchange, keep=keep)
-        if self._observe is not None:
-            self._observe(time)
-        if self._keeper is not None:
-            self._keeper.look(self.recording.table, self._counted, self.seconds())
-
-    def save(self) -> None:
-        """The run ends here for now."""
-        if self._keeper is not None:
-            self._keeper.save(self.recording.table, self._counted, self.seconds())
-
-    def seconds(self) -> float:
-        """How long the run has taken."""
-        return clock.perf_counter() - self._began
+def _unheard(time: float) -> None:
+    """Nobody wants to know."""
 
 
 def _march(
     stepper: Stepper,
     control: StepControl,
     goals: list[float],
-    rows: _Rows,
-    progress: Progress | None,
-) -> _March:
-    """Make the macro steps, to one goal (s) after the other."""
+    keeper: Keeper,
+    observe: Progress,
+    progress: Progress,
+) -> tuple[Status, Exception | None, float]:
+    """Make the macro steps, to one goal (s) after the other: how they ended, what failed, and the
+    time reached, s."""
     exchange = stepper.exchange
     reached = float(exchange.time or 0.0)
     with deferred_interrupt() as interrupt:
         try:
-            rows.begin(reached)
+            observe(reached)
             # a run that goes on at a goal has the end of that still to come
             for goal in (each for each in goals if each >= reached):
                 while reached < goal:
                     if interrupt.requested:
-                        rows.save()
-                        return _March("interrupted", None, reached)
+                        keeper.save()
+                        return "interrupted", None, reached
                     reached = control.step(stepper, goal)
                     exchange.statistics.steps += 1
-                    rows.add(reached, exchange, control.is_row())
-                    if progress is not None:
-                        progress(reached)
+                    keeper.add(reached, control.is_row())
+                    observe(reached)
+                    keeper.look()
+                    progress(reached)
                 exchange.history.forget_past()
         except (ParticipantError, ConvergenceError, OutputError) as error:
             # A second Ctrl-C in the middle of a step reaches us as that participant's failure.
-            return _March("interrupted" if interrupt.requested else "failed", error, reached)
+            return "interrupted" if interrupt.requested else "failed", error, reached
         except KeyboardInterrupt:
-            return _March("interrupted", None, reached)
-    return _March("complete", None, reached)
-
-
-def _reason(march: _March) -> str:
-    if march.status == "interrupted":
-        return f"interrupted at t = {march.reached:.9g} s"
-    return "" if march.error is None else str(march.error)
+            return "interrupted", None, reached
+    return "complete", None, reached

@@ -6,7 +6,7 @@ from types import MappingProxyType
 
 from cosim.coupling.conversion import IDENTITY, Affine, conversion
 from cosim.coupling.messages import Message, Messages
-from cosim.coupling.participant import Causality, CouplingError, Participant, Port
+from cosim.coupling.participant import Causality, Closing, CouplingError, Participant, Port
 from cosim.names import listed, unknown_name
 
 ENERGY_UNIT = "J"
@@ -61,12 +61,14 @@ class Connection:
         transformation: Affine = IDENTITY,
         converts: bool = True,
     ):
-        object.__setattr__(self, "source", Address.parse(source))
-        object.__setattr__(self, "sink", Address.parse(sink))
-        receipt = None if taken is None else Address(self.sink.participant, taken)
-        object.__setattr__(self, "taken", receipt)
-        object.__setattr__(self, "transformation", transformation)
-        object.__setattr__(self, "converts", converts)
+        end = Address.parse(sink)
+        vars(self).update(
+            source=Address.parse(source),
+            sink=end,
+            taken=None if taken is None else Address(end.participant, taken),
+            transformation=transformation,
+            converts=converts,
+        )
 
     def __str__(self) -> str:
         return f"{self.source} -> {self.sink}"
@@ -91,28 +93,8 @@ def output_in_joule(participants: Mapping[str, Participant], address: Address, r
         )
 
 
-def check_connections(
-    participants: Mapping[str, Participant],
-    connections: Iterable[Connection],
-    receipts: bool = True,
-) -> None:
-    """Both ends exist, an output feeds an input, and no input is fed twice.
-
-    receipts: also that every connection in J names what says how many were taken up.
-    """
-    fed: dict[Address, Connection] = {}
-    for connection in connections:
-        _check_ends(participants, connection)
-        _check_receipt(participants, connection, receipts)
-        if connection.sink in fed:
-            raise CouplingError(
-                f"{connection.sink} is fed twice: by {fed[connection.sink].source} "
-                f"and by {connection.source}, allowed is one connection to an input"
-            )
-        fed[connection.sink] = connection
-
-
-def _check_ends(participants: Mapping[str, Participant], connection: Connection) -> None:
+def _ends(participants: Mapping[str, Participant], connection: Connection) -> tuple[Port, Port]:
+    """Ports at both ends; CouplingError where they are not those of a connection."""
     source = find_port(participants, connection.source)
     sink = find_port(participants, connection.sink)
     if source.causality is not Causality.OUTPUT:
@@ -127,46 +109,36 @@ def _check_ends(participants: Mapping[str, Participant], connection: Connection)
         raise CouplingError(
             f"{connection}: a participant is not connected to itself, allowed is another's input"
         )
+    return source, sink
 
 
-def conversions_of(
-    participants: Mapping[str, Participant], connections: Iterable[Connection]
-) -> tuple[dict[Connection, Affine], list[str]]:
-    """What each connection does to its value, and where units could not be compared."""
-    found, remarks = {}, []
-    for connection in connections:
-        unit, remark = IDENTITY, "units are not compared, as the system says"
-        if connection.converts:
-            try:
-                unit, remark = conversion(
-                    find_port(participants, connection.source),
-                    find_port(participants, connection.sink),
-                )
-            except CouplingError as error:
-                raise CouplingError(f"{connection}: {error}") from None
-        found[connection] = unit.then(connection.transformation)
-        if remark:
-            remarks.append(f"{connection}: {remark}")
-    return found, remarks
+def _conversion(connection: Connection, source: Port, sink: Port) -> tuple[Affine, str]:
+    """What a connection does to its value, and a remark where units could not be compared."""
+    unit, remark = IDENTITY, "units are not compared, as the system says"
+    if connection.converts:
+        try:
+            unit, remark = conversion(source, sink)
+        except CouplingError as error:
+            raise CouplingError(f"{connection}: {error}") from None
+    return unit.then(connection.transformation), remark
 
 
 def _check_receipt(
-    participants: Mapping[str, Participant], connection: Connection, receipts: bool
+    participants: Mapping[str, Participant], connection: Connection, unit: str, receipts: bool
 ) -> None:
-    carries_energy = find_port(participants, connection.source).unit == ENERGY_UNIT
-    if carries_energy and connection.taken is None and receipts:
-        raise CouplingError(
-            f"{connection} carries energy; name in taken= the output of "
-            f"{connection.sink.participant} that says how many joules it has taken up"
-        )
     if connection.taken is None:
+        if unit == ENERGY_UNIT and receipts:
+            raise CouplingError(
+                f"{connection} carries energy; name in taken= the output of "
+                f"{connection.sink.participant} that says how many joules it has taken up"
+            )
         return
-    if not carries_energy:
+    if unit != ENERGY_UNIT:
         raise CouplingError(f"{connection}: taken= belongs to a connection in {ENERGY_UNIT}")
     output_in_joule(participants, connection.taken, "what the sink has taken up")
 
 
-class CoupledSystem:
+class CoupledSystem(Closing):
     """Participants, what connects them, and where they state their own energy residual.
 
     participants: each with a name of its own, without a dot.
@@ -175,7 +147,7 @@ class CoupledSystem:
     receipts: refuse a connection in J of which nobody says how many were taken up; without, it is
     left out of the ledger.
     `messages`: what the master has to remark on a run. `conversions`: what each connection does to
-    its value. `remarks`: what could not be checked, a line each.
+    its value. `sources`: all connected outputs. `remarks`: what could not be checked, a line each.
     Raises CouplingError when anything does not fit.
     """
 
@@ -190,13 +162,32 @@ class CoupledSystem:
         self.participants: Mapping[str, Participant] = MappingProxyType(_by_name(participants))
         self.connections: tuple[Connection, ...] = tuple(connections)
         self.residuals: tuple[Address, ...] = tuple(map(Address.parse, residuals))
-        check_connections(self.participants, self.connections, receipts)
-        conversions, remarks = conversions_of(self.participants, self.connections)
-        self.conversions: Mapping[Connection, Affine] = MappingProxyType(conversions)
+        self.sources: tuple[Address, ...] = tuple(dict.fromkeys(c.source for c in self.connections))
+        ends = self._checked_ends(receipts)
+        converts, remarks = {}, []
+        for each, both in ends.items():
+            converts[each], remark = _conversion(each, *both)
+            remarks += [f"{each}: {remark}"] if remark else []
+        self.conversions: Mapping[Connection, Affine] = MappingProxyType(converts)
         self.remarks: tuple[str, ...] = tuple(remarks)
         self.messages: Messages = Messages(MASTER)
         for address in self.residuals:
             output_in_joule(self.participants, address, "an energy residual")
+
+    def _checked_ends(self, receipts: bool) -> dict[Connection, tuple[Port, Port]]:
+        """Ports at the ends of all connections, which fit; no input is fed twice."""
+        ends: dict[Connection, tuple[Port, Port]] = {}
+        fed: dict[Address, Address] = {}
+        for each in self.connections:
+            ends[each] = _ends(self.participants, each)
+            _check_receipt(self.participants, each, ends[each][0].unit, receipts)
+            if each.sink in fed:
+                raise CouplingError(
+                    f"{each.sink} is fed twice: by {fed[each.sink]} and by {each.source}, "
+                    "allowed is one connection to an input"
+                )
+            fed[each.sink] = each.source
+        return ends
 
     def check_order(self, order: Sequence[str]) -> None:
         """Refuse an order that does not name every participant exactly once."""
@@ -228,12 +219,6 @@ class CoupledSystem:
         """Close every participant."""
         for participant in self.participants.values():
             participant.close()
-
-    def __enter__(self) -> "CoupledSystem":
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self.close()
 
 
 def _by_name(participants: Sequence[Participant]) -> dict[str, Participant]:

@@ -71,8 +71,8 @@ def page_data(scenario: Scenario | None = None, catalogue: Catalogue = CATALOGUE
     warmth = outputs()
     return {
         "version": version("stickslip"),
-        "kernel": _packed(web.module(catalogue)),
-        "heat": _packed(web.heat_module()),
+        "kernel": _packed(web.module(web.NAME, catalogue)),
+        "heat": _packed(web.module(web.HEAT)),
         "presets": [
             each | {"heat": _heat(of)} for each, of in zip(presets, scenarios, strict=True)
         ],

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
-from functools import cache, partial
+from collections.abc import Sequence
+from functools import cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -97,7 +97,7 @@ def build_fmu(
     require_way(name, platforms, catalogue)
     _check_writable(directory)
     try:
-        return _maker(name, catalogue)(directory, platforms)
+        return _made(name, directory, platforms, catalogue)
     except CompilerError as error:
         raise FmuBuildError(f"{name} was not built: {error}") from error
 
@@ -106,45 +106,35 @@ def require_way(
     name: str, platforms: Sequence[Platform] = (), catalogue: Catalogue = CATALOGUE
 ) -> None:
     """Raises FmuBuildError where there is no compiler for a unit that needs one."""
-    of_block = () if name in MADE_APART or _is_of_heat(name) else (native.guid(catalogue),)
-    of_heat = (native_unit.guid(),) if _is_of_heat(name) or name == SYSTEM else ()
+    guids = [native.guid(catalogue)] if name in (NATIVE, FMI3, SYSTEM) else []
+    if name in (THERMAL, THERMAL_FMI3, SYSTEM):
+        guids.append(native_unit.guid())
     try:
-        for guid in (*of_block, *of_heat):
+        for guid in guids:
             libraries.require_way(guid, platforms or [this_machine()])
     except CompilerError as error:
-        why = (
-            f"custom effects are compiled, and there is {NO_COMPILER}"
-            if catalogue.outside
-            else error
-        )
+        why = str(error)
+        if catalogue.outside:
+            why = f"custom effects are compiled, and there is {NO_COMPILER}"
         if name in (NATIVE, FMI3):
-            why = (
-                f"{why}; {PYTHON} needs none: `stickslip build {PYTHON} -o .`, `run --fmu {PYTHON}`"
-            )
+            why += f"; {PYTHON} needs none: `stickslip build {PYTHON} -o .`, `run --fmu {PYTHON}`"
         raise FmuBuildError(f"{name} was not built: {why}") from error
 
 
-def _is_of_heat(name: str) -> bool:
-    return name in native_unit.FILES.values()
-
-
-def _maker(name: str, catalogue: Catalogue) -> Callable[[Path, Sequence[Platform]], Path]:
+def _made(name: str, directory: Path, platforms: Sequence[Platform], catalogue: Catalogue) -> Path:
     if name in MADE_APART:
-        return partial(_made_apart, name, catalogue)
+        return _made_apart(name, directory, catalogue)
     if name == SYSTEM:
         from cosim.fmu.thermal import structure  # the scenario, and with it the heat model
 
-        return partial(structure.build, catalogue=catalogue)
-    if _is_of_heat(name):
-        of_heat = libraries.FMI3 if name == THERMAL_FMI3 else libraries.FMI2
-        return partial(native_unit.build, fmi=of_heat)
-    fmi = libraries.FMI3 if name == FMI3 else libraries.FMI2
-    return partial(native.build, fmi=fmi, catalogue=catalogue)
+        return structure.build(directory, platforms, catalogue)
+    fmi = libraries.FMI3 if name in (FMI3, THERMAL_FMI3) else libraries.FMI2
+    if name in (THERMAL, THERMAL_FMI3):
+        return native_unit.build(directory, platforms, fmi)
+    return native.build(directory, platforms, fmi, catalogue)
 
 
-def _made_apart(
-    name: str, catalogue: Catalogue, directory: Path, platforms: Sequence[Platform]
-) -> Path:
+def _made_apart(name: str, directory: Path, catalogue: Catalogue) -> Path:
     """In a process of its own, since pythonfmu imports what it builds."""
     try:
         if name == PYTHON:

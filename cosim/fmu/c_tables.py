@@ -15,6 +15,17 @@ from cosim.fmu.variables import HOLD, LIMITS, WATCHED, Variable, by_array, names
 
 #: What the kernel knows nothing of.
 UNIT_ALONE = (*(each.name for each in WATCHED), *(str(each["name"]) for each in LIMITS))
+#: Declarations of what `variables_source` has beside the variables.
+LOOKED_UP = (
+    "/* Where the kernel keeps each output. */",
+    "extern const int OUTPUT_SLOTS[];",
+    "/* Where each local variable is among the states and, behind them, their rates. */",
+    "extern const int LOCAL_SLOTS[];",
+    "/* Value reference of each continuous state. */",
+    "extern const int STATE_REFERENCES[];",
+    "/* Of each random number: its seed among the parameters; uniform, or else normal. */",
+    "extern const int DRAW_SEED[], DRAW_UNIFORM[];",
+)
 MADE = "/* Made by the build from the declarations in Python. */\n"
 
 
@@ -65,25 +76,17 @@ def hidden(header: str) -> str:
 def variables_header(variables: Sequence[Variable], guid: str, catalogue: Catalogue) -> str:
     """How many variables there are, where each kind begins, and the unit's GUID."""
     can = dict.fromkeys(("HAS_EXCHANGE", "TAKES_RATES", "BEGINS_WITH_INPUTS"), True)
-    hold = [variable.name for variable in variables].index(HOLD["name"])
-    lines = [*count_lines(variables, guid, can), f"#define INPUT_HOLD {hold}"]
     places = {each.name: place for place, each in enumerate(variables)}
-    lines += [f"#define {_constant(each)} {places[each]}" for each in UNIT_ALONE]
-    lines += [f"#define WATCHED_COUNT {len(WATCHED)}"]
-    lines += [
+    lines = [
+        *count_lines(variables, guid, can),
+        f"#define INPUT_HOLD {places[HOLD['name']]}",
+        *(f"#define {_constant(each)} {places[each]}" for each in UNIT_ALONE),
+        f"#define WATCHED_COUNT {len(WATCHED)}",
         f"#define STATE_COUNT {len(states(catalogue))}",
         f"#define INDICATOR_COUNT {INDICATORS}",
         "",
+        *LOOKED_UP,
     ]
-    lines += ["/* Where the kernel keeps each output. */", "extern const int OUTPUT_SLOTS[];"]
-    lines += ["/* Where each local variable is among the states and, behind them, their rates. */"]
-    lines += ["extern const int LOCAL_SLOTS[];"]
-    lines += ["/* Value reference of each continuous state. */"]
-    lines += ["extern const int STATE_REFERENCES[];"]
-    lines += [
-        "/* Of each random number: its seed among the parameters; uniform, or else normal. */"
-    ]
-    lines += ["extern const int DRAW_SEED[], DRAW_UNIFORM[];"]
     return guarded("VARIABLES_H", lines)
 
 

@@ -7,7 +7,7 @@ output has no second variable.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.kernel import layout, tables
@@ -42,31 +42,16 @@ BRISTLES = {
 RATE_UNITS = {"m/s": "m/s2", "rad/s": "rad/s2", "J": "W", "s": "1"}
 
 
-@dataclass(frozen=True)
-class State:
-    """A continuous state: its variable, and where the kernel keeps it."""
-
-    name: str
-    unit: str
-    slot: str
-    description: str
-    nominal: float
-    is_output: bool
-
-
-def states(catalogue: Catalogue = CATALOGUE) -> list[State]:
+def states(catalogue: Catalogue = CATALOGUE) -> list[Variable]:
     """The continuous states in the order of the kernel, which is that of FMI's vector of states."""
     declared = {variable.name: variable for variable in variables_without(catalogue)}
     found = []
     for slot in _slots(catalogue):
         if slot in OUTPUTS:
-            output = declared[OUTPUTS[slot]]
-            found.append(
-                State(output.name, output.unit or "1", slot, output.description, 1.0, True)
-            )
+            found.append(replace(declared[OUTPUTS[slot]], is_state=True))
         elif slot in BRISTLES:
             name, description = BRISTLES[slot]
-            found.append(State(name, "m", slot, description, 1e-4, False))
+            found.append(Variable(name, "local", "m", 1e-4, description, is_state=True))
         else:
             found.append(_memory(slot, catalogue))
     return found
@@ -75,28 +60,19 @@ def states(catalogue: Catalogue = CATALOGUE) -> list[State]:
 def variables(catalogue: Catalogue = CATALOGUE) -> list[Variable]:
     """All of the native unit: those of every unit, then states that are no outputs, then rates."""
     every = states(catalogue)
-    outputs = {state.name for state in every if state.is_output}
-    common = [
-        replace(variable, is_state=True) if variable.name in outputs else variable
-        for variable in variables_without(catalogue)
-    ]
+    outputs = {state.name: state for state in every if state.causality == "output"}
     return [
-        *common,
-        *(_state_variable(state) for state in every if not state.is_output),
-        *(_rate_variable(state) for state in every),
+        *(outputs.get(variable.name, variable) for variable in variables_without(catalogue)),
+        *(state for state in every if state.causality == "local"),
+        *(_rate(state) for state in every),
     ]
 
 
 def local_slots(declared: Sequence[Variable], catalogue: Catalogue) -> list[int]:
     """Where each local variable is in the kernel's states followed by their rates."""
-    places = {state.name: place for place, state in enumerate(states(catalogue))}
-    return [
-        places[variable.derivative_of] + len(places)
-        if variable.derivative_of
-        else places[variable.name]
-        for variable in declared
-        if variable.causality == "local"
-    ]
+    names = [state.name for state in states(catalogue)]
+    places = {name: place for place, name in enumerate([*names, *(f"der({n})" for n in names)])}
+    return [places[each.name] for each in declared if each.causality == "local"]
 
 
 def state_references(declared: Sequence[Variable], catalogue: Catalogue) -> list[int]:
@@ -111,24 +87,20 @@ def _slots(catalogue: Catalogue) -> list[str]:
     return [*names[1 : catalogue.kernel.STATES + 1], "SLIP_TIME"]
 
 
-def _memory(slot: str, catalogue: Catalogue) -> State:
+def _memory(slot: str, catalogue: Catalogue) -> Variable:
     """What an effect remembers."""
     for effect in catalogue.effects:
         for state in effect.states:
             if slot == f"{effect.id}_{state.name}".upper():
-                said = f"What {effect.id} remembers: {state.name.replace('_', ' ')}"
-                return State(f"{effect.id}.{state.name}", state.unit, slot, said, 1.0, False)
+                name, of = f"{effect.id}.{state.name}", state.name.replace("_", " ")
+                said = f"What {effect.id} remembers: {of}"
+                return Variable(name, "local", state.unit, 1.0, said, is_state=True)
     raise ValueError(f"the kernel's state {slot} has no variable")
 
 
-def _state_variable(state: State) -> Variable:
-    return Variable(
-        state.name, "local", state.unit, state.nominal, state.description, is_state=True
-    )
-
-
-def _rate_variable(state: State) -> Variable:
-    unit = RATE_UNITS.get(state.unit, f"{state.unit}/s")
+def _rate(state: Variable) -> Variable:
+    of_state = state.unit or "1"
+    unit = RATE_UNITS.get(of_state, f"{of_state}/s")
     if unit not in UNITS:
         raise ValueError(f"the rate of {state.name} is in {unit!r}, a unit that UNITS lacks")
     name = f"der({state.name})"

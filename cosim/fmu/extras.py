@@ -64,20 +64,9 @@ def terminals(variables: Iterable[Variable]) -> bytes:
         }
         if None in has.values():
             continue
-        terminal = SubElement(
-            place,
-            "Terminal",
-            name=kind,
-            matchingRule="plug",
-            terminalKind=f"stickslip.{kind}",
-            description=told["says"],
-        )
+        what = {"name": kind, "matchingRule": "plug", "terminalKind": f"stickslip.{kind}"}
+        terminal = SubElement(place, "Terminal", what, description=told["says"])
         for member, name in has.items():
-            SubElement(
-                terminal,
-                "TerminalMemberVariable",
-                variableName=name or "",
-                memberName=member,
-                variableKind="signal",
-            )
+            what = {"variableName": name or "", "memberName": member, "variableKind": "signal"}
+            SubElement(terminal, "TerminalMemberVariable", what)
     return written(root)

@@ -56,15 +56,11 @@ def _compiled(
     sources: Mapping[str, bytes], platforms: Sequence[Platform], name: str
 ) -> dict[Platform, bytes]:
     """Taken from the user's cache, or compiled and kept there. Raises CompilerError."""
-    digest = hashlib.sha256(repr((OPTIONS, has_zig(), sorted(sources.items()))).encode())
-    files = {
-        each: f"{name}-{each.name}-{digest.hexdigest()[:16]}{each.suffix}" for each in platforms
-    }
-    made = {
-        each: there.read_bytes()
-        for each, file in files.items()
-        if (there := machine_code.kept(file))
-    }
+    made_from = repr((OPTIONS, has_zig(), sorted(sources.items()))).encode()
+    digest = hashlib.sha256(made_from).hexdigest()[:16]
+    files = {each: f"{name}-{each.name}-{digest}{each.suffix}" for each in platforms}
+    kept = {each: machine_code.kept(file) for each, file in files.items()}
+    made = {each: file.read_bytes() for each, file in kept.items() if file}
     if lacking := [each for each in platforms if each not in made]:
         new = compiled(sources, lacking, name)
         for each, library in new.items():
@@ -76,9 +72,8 @@ def _compiled(
 def require_way(guid: str, platforms: Sequence[Platform]) -> None:
     """Raises CompilerError where a unit can have a library for none of the platforms."""
     brought = _prebuilt(guid)
-    if not possible([each for each in platforms if each not in brought]):
-        if not any(each in brought for each in platforms):
-            raise CompilerError(_no_way(guid))
+    if not (any(each in brought for each in platforms) or possible(platforms)):
+        raise CompilerError(_no_way(guid))
 
 
 def _prebuilt(guid: str) -> dict[Platform, Path]:
@@ -105,11 +100,7 @@ def _no_way(guid: str) -> str:
 
 
 def prebuild(
-    folder: Path,
-    name: str,
-    guid: str,
-    sources: Sources,
-    platforms: Sequence[Platform],
+    folder: Path, name: str, guid: str, sources: Sources, platforms: Sequence[Platform]
 ) -> Path:
     """Compile for platforms that can be, for a wheel; the folder that it is to bring along."""
     target = folder / guid
@@ -121,10 +112,12 @@ def _file(platform: Platform) -> str:
     return f"{platform.name}{platform.suffix}"
 
 
-def binaries(made: Mapping[Platform, bytes], name: str, fmi: int = FMI2) -> dict[str, bytes]:
+def of_platforms(
+    guid: str, sources: Sources, platforms: Sequence[Platform], name: str, fmi: int = FMI2
+) -> dict[str, bytes]:
     """Path in the unit -> library; in one for FMI 2 both processors of a Mac share a file."""
     by_path: dict[str, list[bytes]] = {}
-    for platform, library in made.items():
+    for platform, library in libraries(name, guid, sources, tuple(platforms)).items():
         path = f"{_folder(platform, fmi)}/{name}{platform.suffix}"
         by_path.setdefault(path, []).append(library)
     return {path: joined(parts) for path, parts in by_path.items()}
@@ -148,15 +141,8 @@ def platforms_of(fmu: Path | IO[bytes]) -> list[str]:
         if unit is not None:
             return platforms_of(archive.open(unit))
     there = {(Path(name).parent.as_posix(), Path(name).suffix) for name in names}
-    return [each.name for each in PLATFORMS if _has(there, each)]
-
-
-def _has(there: set[tuple[str, str]], platform: Platform) -> bool:
-    return any((_folder(platform, fmi), platform.suffix) in there for fmi in (FMI2, FMI3))
-
-
-def of_platforms(
-    guid: str, sources: Sources, platforms: Sequence[Platform], name: str, fmi: int = FMI2
-) -> dict[str, bytes]:
-    """`libraries` as `binaries`."""
-    return binaries(libraries(name, guid, sources, tuple(platforms)), name, fmi)
+    return [
+        each.name
+        for each in PLATFORMS
+        if any((_folder(each, fmi), each.suffix) in there for fmi in (FMI2, FMI3))
+    ]

@@ -14,7 +14,6 @@ import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from functools import cache, partial
-from importlib.metadata import version
 from pathlib import Path
 from xml.etree.ElementTree import ParseError, fromstring
 
@@ -47,12 +46,16 @@ DESCRIPTION = (
 #: Files that make the sources.
 MAKERS = (
     *Path(c_generation.__file__).parent.glob("c*.py"),
-    *(
-        Path(__file__).with_name(name)
-        for name in (
-            *("native.py", "c_tables.py", "exchange.py", "libraries.py"),
-            *("variables.py", "variables.toml"),
-        )
+    *map(
+        Path(__file__).with_name,
+        (
+            "native.py",
+            "c_tables.py",
+            "exchange.py",
+            "libraries.py",
+            "variables.py",
+            "variables.toml",
+        ),
     ),
 )
 
@@ -70,7 +73,7 @@ def sources(catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
         "words.h": c_tables.words_header(),
         "words.c": c_tables.words_source(SAID, places),
     }
-    return _written() | {name: content.encode() for name, content in made.items()}
+    return written("stickslip3dof") | {name: content.encode() for name, content in made.items()}
 
 
 @cache
@@ -88,24 +91,18 @@ def guid(catalogue: Catalogue = CATALOGUE) -> str:
         "words": json.dumps([WHY_NOT, SAID, COMPUTABLE]).encode(),
         "variables": json.dumps(declared, sort_keys=True).encode(),
         **{f"maker/{file.name}": file.read_bytes() for file in MAKERS},
-        **_written(),
+        **written("stickslip3dof"),
     }
     return guid_of(NAME, digest_of(made_from).hexdigest())
-
-
-def _written() -> dict[str, bytes]:
-    return written("stickslip3dof")
 
 
 def written(model: str) -> dict[str, bytes]:
     """What is written in C, not made, of a unit with a model of its own."""
     folder = native_folder()
-    places = (folder, folder / "headers", folder / model)
     return {
         file.name: file.read_bytes()
-        for place in places
-        for file in place.iterdir()
-        if file.name.endswith((".c", ".h"))
+        for place in (folder, folder / "headers", folder / model)
+        for file in place.glob("*.[ch]")
     }
 
 
@@ -177,8 +174,6 @@ def _facts(fmi: int, catalogue: Catalogue) -> UnitFacts:
         name=NAME,
         guid=guid(catalogue),
         description=DESCRIPTION,
-        version=version("stickslip"),
-        tool="stickslip",
         indicators=INDICATORS,
         sources=compiled_in(sources(catalogue), fmi),
     )

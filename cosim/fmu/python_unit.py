@@ -16,7 +16,6 @@ import pprint
 import re
 import zipfile
 from collections.abc import Sequence
-from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -44,24 +43,37 @@ PACKAGE_DOC = '"""The mechanics of StickSlip3DOF, as it travels inside the FMU."
 #: What pythonfmu loads, in whatever Python its host has: nothing newer than the check may come
 #: before it. The library runs it again for every instance and keeps for ever the classes that it
 #: defines, so it defines none.
-DOOR = '''"""StickSlip3DOF, for hosts with a Python that is new enough."""
+_DOOR = '''"""{name}, for hosts with a Python that {host}."""
 
 import sys
 
-if sys.version_info < (3, 10):
+if sys.version_info < (3, {least}):
     raise ImportError(
-        "StickSlip3DOF needs Python 3.10 or newer, this host has %d.%d" % sys.version_info[:2]
+        "{name} needs Python 3.{least} or newer, this host has %d.%d" % sys.version_info[:2]
     )
 
 import ctypes
+{needs}
+from {package}.slave import {name}
 
-from stickslip.slave import StickSlip3DOF
-
-# pythonfmu's library runs this file for every instance, with locals of its own, and then drops a
-# reference to the globals that it never had. This is that reference.
+{why}
 if locals() is not globals():
     ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))
 '''
+_WHY = """\
+# pythonfmu's library runs this file for every instance, with locals of its own, and then drops a
+# reference to the globals that it never had. This is that reference."""
+
+
+def door(name: str, package: str, least: int, host: str, needs: str = "", why: str = _WHY) -> str:
+    """The module that pythonfmu loads of a package's slave.
+
+    least: of 3.x; host, needs: in words and as code, what else the host's Python must be.
+    """
+    return _DOOR.format(name=name, package=package, least=least, host=host, needs=needs, why=why)
+
+
+DOOR = door(NAME, "stickslip", 10, "is new enough")
 
 
 def sources(catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
@@ -86,9 +98,9 @@ def slave_file(name: str) -> Path:
 #: Files that an FMU also depends on, though they do not travel.
 RECIPE_FILES = (
     Path(__file__),
-    *(
-        Path(__file__).with_name(name)
-        for name in ("pythonfmu_library.py", "pythonfmu.toml", "variables.py", "variables.toml")
+    *map(
+        Path(__file__).with_name,
+        ("pythonfmu_library.py", "pythonfmu.toml", "variables.py", "variables.toml"),
     ),
     Path(units.__file__),
     Path(description.__file__),
@@ -113,76 +125,49 @@ def hash_of(files: dict[str, bytes], table: list[Any]) -> str:
     return digest.hexdigest()[:12]
 
 
-@dataclass(frozen=True)
-class Recipe:
-    """What a unit is made of.
-
-    facts: GUID included; module: name of the door, without the hash; package: of all else that
-    travels; files: path inside the resources -> content; content: its hash; tells: text of the
-    package's module `variables`, which tells the slave what it is; documentation: path in the unit
-    -> content.
-    """
-
-    facts: UnitFacts
-    module: str
-    package: str
-    files: dict[str, bytes]
-    variables: Sequence[Variable]
-    tells: bytes
-    content: str
-    documentation: dict[str, bytes]
-
-
 def build(
-    directory: Path,
-    files: dict[str, bytes] | None = None,
-    catalogue: Catalogue = CATALOGUE,
+    directory: Path, files: dict[str, bytes] | None = None, catalogue: Catalogue = CATALOGUE
 ) -> Path:
     """Make the FMU in a directory and return its path; other content than ours for tests."""
     files = sources(catalogue) if files is None else files
     table, declared = parameter_table(catalogue), variables(catalogue)
     content = content_hash(files, table)
-    recipe = Recipe(
-        facts=_facts(content),
-        module=MODULE,
-        package="stickslip",
-        files=files,
-        variables=declared,
-        tells=variables_module(table, content),
-        content=content,
-        documentation=of_mechanics(NAME, declared, catalogue),
-    )
-    return made(recipe, directory / FMU)
+    said = f"{DESCRIPTION}. For hosts with a Python of 3.10 or newer"
+    files = files | {"stickslip/variables.py": variables_module(table, content)}
+    raw = by_pythonfmu(files, MODULE, "stickslip", content)
+    documentation = of_mechanics(NAME, declared, catalogue)
+    made = finished(raw, facts_of(NAME, content, said), declared, documentation)
+    return write_bytes(made, directory / FMU)
 
 
-def made(recipe: Recipe, target: Path) -> Path:
-    """Make a unit and return its path.
+def by_pythonfmu(
+    files: dict[str, bytes], module: str, package: str, content: str
+) -> dict[str, bytes]:
+    """What pythonfmu makes of a slave: path in the unit -> content.
 
-    Written beside its final place and moved there, so that nobody ever sees half of it.
+    files: path inside the resources -> content, with the package's module `variables`, which tells
+    the slave what it is. module: name of the door, without the hash; package: of all else that
+    travels; content: the hash.
     """
-    with scratch_folder(recipe.module) as scratch:
-        finished = _finish(_build_with_pythonfmu(Path(scratch), recipe), recipe)
-    return write_bytes(finished, target)
-
-
-def _build_with_pythonfmu(scratch: Path, recipe: Recipe) -> Path:
     from pythonfmu import FmuBuilder
 
-    hashed = {name: f"{name}_{recipe.content}" for name in (recipe.module, recipe.package)}
-    tells = {f"{recipe.package}/variables.py": recipe.tells}
-    for name, source in (recipe.files | tells).items():
-        target = scratch / _renamed(name, hashed)
-        target.parent.mkdir(parents=True, exist_ok=True)
-        target.write_bytes(_rename_imports(source, recipe.package, hashed[recipe.package]))
-    fmu: Path = FmuBuilder.build_FMU(
-        scratch / f"{hashed[recipe.module]}.py",
-        dest=scratch / "raw.fmu",
-        project_files=[scratch / hashed[recipe.package]],
-        needsExecutionTool=True,
-        canGetAndSetFMUstate=True,
-        canSerializeFMUstate=True,
-    )
-    return fmu
+    hashed = {name: f"{name}_{content}" for name in (module, package)}
+    with scratch_folder(module) as folder:
+        scratch = Path(folder)
+        for name, source in files.items():
+            target = scratch / _renamed(name, hashed)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_bytes(_rename_imports(source, package, hashed[package]))
+        unit = FmuBuilder.build_FMU(
+            scratch / f"{hashed[module]}.py",
+            dest=scratch / "raw.fmu",
+            project_files=[scratch / hashed[package]],
+            needsExecutionTool=True,
+            canGetAndSetFMUstate=True,
+            canSerializeFMUstate=True,
+        )
+        with zipfile.ZipFile(unit) as archive:
+            return {name: archive.read(name) for name in archive.namelist()}
 
 
 def _renamed(name: str, names: dict[str, str]) -> Path:
@@ -196,31 +181,28 @@ def _rename_imports(source: bytes, package: str, name: str) -> bytes:
     return re.sub(pattern, rb"\1" + name.encode(), source)
 
 
-def _finish(raw: Path, recipe: Recipe) -> bytes:
-    """The unit with its full description and corrected libraries."""
-    with zipfile.ZipFile(raw) as archive:
-        files = {name: archive.read(name) for name in archive.namelist()}
-    if not any(name.startswith("binaries/") for name in files):
+def finished(
+    raw: dict[str, bytes],
+    facts: UnitFacts,
+    declared: Sequence[Variable],
+    documentation: dict[str, bytes],
+) -> bytes:
+    """The unit that pythonfmu made with its full description, and corrected libraries."""
+    libraries = {name for name in raw if name.startswith("binaries/")}
+    if not libraries:
         raise ValueError(
             "pythonfmu has no libraries to put into the unit; it was imported from inside "
             "another FMU, so build in a process that has loaded none"
         )
-    for name in files:
-        if name.startswith("binaries/"):
-            files[name] = corrected(files[name])
-    files["modelDescription.xml"] = fmi2_description(recipe.facts, recipe.variables)
-    return packed(files | recipe.documentation | extras(others=["pythonfmu"]))
+    files = raw | {name: corrected(raw[name]) for name in libraries}
+    files["modelDescription.xml"] = fmi2_description(facts, declared)
+    return packed(files | documentation | extras(others=["pythonfmu"]))
 
 
-def _facts(content: str) -> UnitFacts:
-    return UnitFacts(
-        name=NAME,
-        guid=guid_of(NAME, content),
-        description=f"{DESCRIPTION}. For hosts with a Python of 3.10 or newer",
-        version=version("stickslip"),
-        tool=f"stickslip, pythonfmu {version('pythonfmu')}",
-        python=True,
-    )
+def facts_of(name: str, content: str, said: str, **more: Any) -> UnitFacts:
+    """Of a unit by way of pythonfmu, by the hash of its content."""
+    tool = f"stickslip, pythonfmu {version('pythonfmu')}"
+    return UnitFacts(name, guid_of(name, content), said, tool=tool, python=True, **more)
 
 
 def variables_module(table: list[Entry], content: str) -> bytes:

@@ -33,39 +33,20 @@ host's wish, `loggingOn != 0`, becomes `true`; the unit says little that is no e
 
 import tomllib
 import warnings
-from dataclasses import dataclass
 from importlib.resources import files
+from typing import Any
 
 #: First bytes of a library of Linux, of Windows.
 ELF, DLL = b"\x7fELF", b"MZ"
+SYSTEMS = {"linux": ELF, "windows": DLL, "": b""}
 
 
-@dataclass(frozen=True)
-class Correction:
-    """Machine code (x86-64) that occurs once in the libraries it is meant for, and its successor.
-
-    loss: what the FMU does without it. start: first bytes of the libraries it is meant for.
-    """
-
-    found: bytes
-    put: bytes
-    loss: str
-    start: bytes = b""
-
-
-def corrections() -> list[Correction]:
-    """Those of `pythonfmu.toml`, in its order."""
+def corrections() -> list[dict[str, Any]]:
+    """Those of `pythonfmu.toml`, in its order: machine code (x86-64) that occurs once in the
+    libraries it is meant for, and its successor, in hex."""
     text = (files(__package__) / "pythonfmu.toml").read_text(encoding="utf-8")
-    kinds = {"linux": ELF, "windows": DLL}
-    return [
-        Correction(
-            bytes.fromhex(each["found"]),
-            bytes.fromhex(each["put"]),
-            each["loss"],
-            kinds.get(each.get("system", ""), b""),
-        )
-        for each in tomllib.loads(text)["correction"]
-    ]
+    found: list[dict[str, Any]] = tomllib.loads(text)["correction"]
+    return found
 
 
 def corrected(library: bytes) -> bytes:
@@ -73,13 +54,14 @@ def corrected(library: bytes) -> bytes:
 
     Code that is not found exactly once is left as it is, with a warning that says what is lost.
     """
-    for correction in corrections():
-        if not library.startswith(correction.start):
+    for each in corrections():
+        if not library.startswith(SYSTEMS[each.get("system", "")]):
             continue
-        if library.count(correction.found) == 1:
-            library = library.replace(correction.found, correction.put)
+        found, put = bytes.fromhex(each["found"]), bytes.fromhex(each["put"])
+        if library.count(found) == 1:
+            library = library.replace(found, put)
         else:
             warnings.warn(
-                f"this version of pythonfmu is not known: the FMU {correction.loss}", stacklevel=2
+                f"this version of pythonfmu is not known: the FMU {each['loss']}", stacklevel=2
             )
     return library

@@ -180,23 +180,22 @@ def _entry(kind: type[Parameters], name: str, start: float) -> Entry:
     if key in GUIDES:
         return entry | {"start": int(start)}
     table: Any = kind.model_fields[group].annotation
-    field = table.model_fields[key.partition("[")[0]]
+    told = declared(table.model_fields[key.partition("[")[0]], f"effect or table {group}: {key}")
+    if told["unit"] is None:
+        entry |= {"start": int(start), "nominal": None}
+    return entry | told | SPECIAL.get(name, {})
+
+
+def declared(field: FieldInfo, label: str) -> Entry:
+    """Unit (None: an integer), bounds and description of a parameter, of what its field says."""
     bounds = bounds_of(field)
-    whole = field.annotation is int
-    unit = None if whole else details(field)["unit"]
+    unit = None if field.annotation is int else details(field)["unit"]
     if unit is not None and unit not in UNITS:
-        raise ValueError(
-            f"effect or table {group}: {key} is in {unit!r}, a unit that UNITS of {__name__} lacks"
-        )
-    return (
-        entry
-        | ({"start": int(start), "nominal": None} if whole else {})
-        | {
-            "unit": unit,
-            "min": bounds.get("gt", bounds.get("ge")),
-            "max": bounds.get("le"),
-            "above_min": "gt" in bounds,
-            "description": field.description,
-        }
-        | SPECIAL.get(name, {})
-    )
+        raise ValueError(f"{label} is in {unit!r}, a unit that UNITS of {__name__} lacks")
+    return {
+        "unit": unit,
+        "min": bounds.get("gt", bounds.get("ge")),
+        "max": bounds.get("lt", bounds.get("le")),
+        "above_min": "gt" in bounds,
+        "description": field.description or "",
+    }

@@ -16,49 +16,35 @@ from stickslip.generation.platforms import BROWSER
 
 from cosim.fmu import native
 from cosim.fmu.archive import digest_of, guid_of
-from cosim.fmu.libraries import Sources, libraries
+from cosim.fmu.libraries import libraries
 from cosim.fmu.thermal import native_unit
 
 NAME, HEAT = "explorer", "explorer_heat"
-#: What is taken of the native unit.
-SHARED = (
-    *("kernel.c", "kernel.h", "draws.c", "draws.h", "words.c", "words.h"),
-    *("variables.c", "variables.h", "unit.h", "model.h"),
-)
-#: And of the thermal unit: all but the functions of FMI.
-SHARED_HEAT = (
-    *("belt.c", "belt.h", "ice.c", "ice.h", "linear.c", "linear.h", "water.c", "water.h"),
-    *("model.c", "model.h", "resources.c", "resources.h", "unit.h", "variables.c", "variables.h"),
-)
+#: What is taken of the native unit; of the thermal unit, all but the functions of FMI.
+SHARED = {
+    NAME: (
+        *("kernel.c", "kernel.h", "draws.c", "draws.h", "words.c", "words.h"),
+        *("variables.c", "variables.h", "unit.h", "model.h"),
+    ),
+    HEAT: (
+        *("belt.c", "belt.h", "ice.c", "ice.h", "linear.c", "linear.h", "water.c", "water.h"),
+        *("model.c", "model.h", "resources.c", "resources.h", "unit.h"),
+        *("variables.c", "variables.h"),
+    ),
+}
 
 
 @cache
-def sources(catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
-    """File name -> content of everything that the module is compiled from."""
-    made = native.sources(catalogue)
-    return {name: made[name] for name in SHARED} | _written(NAME)
+def sources(name: str = NAME, catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
+    """File name -> content of everything that a module is compiled from."""
+    made = native.sources(catalogue) if name == NAME else native_unit.sources()
+    return {file: made[file] for file in SHARED[name]} | _written(name)
 
 
 @cache
-def heat_sources() -> dict[str, bytes]:
-    """The same of the heat."""
-    made = native_unit.sources()
-    return {name: made[name] for name in SHARED_HEAT} | _written(HEAT)
-
-
-@cache
-def guid(catalogue: Catalogue = CATALOGUE) -> str:
-    """Of what the module is made from, by which a wheel's is known to be of today's content."""
-    return _guid(NAME, native.guid(catalogue))
-
-
-@cache
-def heat_guid() -> str:
-    """The same of the heat."""
-    return _guid(HEAT, native_unit.guid())
-
-
-def _guid(name: str, unit: str) -> str:
+def guid(name: str = NAME, catalogue: Catalogue = CATALOGUE) -> str:
+    """Of what a module is made from, by which a wheel's is known to be of today's content."""
+    unit = native.guid(catalogue) if name == NAME else native_unit.guid()
     made_from = {
         "unit": unit.encode(),
         "maker": Path(__file__).read_bytes(),
@@ -72,22 +58,15 @@ def _written(name: str) -> dict[str, bytes]:
     return {file.name: file.read_bytes() for file in folder.iterdir() if file.suffix == ".c"}
 
 
-def module(catalogue: Catalogue = CATALOGUE) -> bytes:
-    """The kernel's WebAssembly: the wheel's where it is of today's content, or compiled.
+def module(name: str = NAME, catalogue: Catalogue = CATALOGUE) -> bytes:
+    """The WebAssembly of `NAME`, the kernel's, or `HEAT`: the wheel's where it is of today's
+    content, or compiled.
 
     Raises CompilerError, in one line, where there is no way to it.
     """
-    return _module(NAME, guid(catalogue), partial(sources, catalogue))
-
-
-def heat_module() -> bytes:
-    """The same of the heat."""
-    return _module(HEAT, heat_guid(), heat_sources)
-
-
-def _module(name: str, guid: str, sources: Sources) -> bytes:
     try:
-        return libraries(name, guid, sources, (BROWSER,))[BROWSER]
+        made = partial(sources, name, catalogue)
+        return libraries(name, guid(name, catalogue), made, (BROWSER,))[BROWSER]
     except CompilerError as error:
         if has_zig():
             raise

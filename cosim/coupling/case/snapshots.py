@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from cosim.coupling.record import GrowingTable, Place
+from cosim.coupling.record import GrowingTable
 from cosim.files import OutputError
 from thermal import BeltIceModel, FieldSeries, RigView, collection, rig_view
 
@@ -83,13 +83,15 @@ class Snapshots:
 
     def save_state(self) -> bytes:
         """What of it is not in the files that it writes, and these on the disk."""
-        self._sync()
+        for table in (self._pictures, None if self._views is None else self._views.table):
+            if table is not None:
+                table.sync()
         return json.dumps(
             {
                 "number": self._number,
                 "position": self.position.tolist(),
                 "contact_length": self.contact_length,
-                "pictures": _place(self._pictures),
+                "pictures": None if self._pictures is None else self._pictures.place,
                 "views": None if self._views is None else self._views.state(),
             }
         ).encode()
@@ -104,17 +106,12 @@ class Snapshots:
         self.position = np.array(state["position"])
         if state["pictures"] is None or self._store is None:
             return
-        path = self._store / PICTURES
-        self._pictures = _resumed(path, 2 + self.position.size, state["pictures"])
+        self._pictures = GrowingTable(
+            2 + self.position.size, self._store / PICTURES, place=state["pictures"]
+        )
         self._last_time = float(self.time[-1])
         if self._views is not None and state["views"] is not None:
             self._views.restore(state["views"])
-
-    def _sync(self) -> None:
-        if self._pictures is not None:
-            self._pictures.sync()
-        if self._views is not None and self._views.table is not None:
-            self._views.table.sync()
 
     @property
     def file(self) -> Path | None:
@@ -129,9 +126,7 @@ class Snapshots:
         return [] if self._views is None else self._views.shown()
 
     def _columns(self) -> np.ndarray:
-        if self._pictures is None:
-            return np.empty((0, 2))
-        return self._pictures.rows()
+        return np.empty((0, 2)) if self._pictures is None else self._pictures.rows()
 
     @property
     def time(self) -> np.ndarray:
@@ -194,7 +189,7 @@ class _Views:
             "every": self._every,
             "kept": self._kept,
             "shapes": self._shapes,
-            "rows": _place(self.table),
+            "rows": None if self.table is None else self.table.place,
         }
 
     def restore(self, state: Mapping[str, Any]) -> None:
@@ -204,13 +199,4 @@ class _Views:
         self._shapes = [tuple(shape) for shape in state["shapes"]]
         if state["rows"] is not None and self._store is not None:
             size = sum(math.prod(shape) for shape in self._shapes)
-            self.table = _resumed(self._store / VIEWS, size, state["rows"], single=True)
-
-
-def _place(table: GrowingTable | None) -> Place | None:
-    return None if table is None else table.place
-
-
-def _resumed(path: Path, columns: int, place: Sequence[Any], single: bool = False) -> GrowingTable:
-    rows, kept, last = place
-    return GrowingTable.resumed(columns, path, Place(rows, kept, tuple(last)), single)
+            self.table = GrowingTable(size, self._store / VIEWS, True, state["rows"])

@@ -64,17 +64,9 @@ class Handed(NamedTuple):
     x: float = 0.0
 
 
-class State(NamedTuple):
-    """All that a continuation depends on: the model's own state, and what has crossed the ports."""
-
-    model: NDArray[np.float64]
-    taken: Handed
-    now: Handed
-    railed: float
-    time: float
-
-
-#: Numbers of a state in front of those of the model.
+#: All that a continuation depends on: what has crossed the ports, and the model's own state.
+State = NDArray[np.float64]
+#: Numbers of a state in front of those of the model: taken, now, railed and time.
 _SIZES = (len(Handed._fields), len(Handed._fields), 2)
 
 
@@ -105,17 +97,17 @@ class ThermalParticipant:
             replace(port, nominal=NOMINAL.get(port.name, port.nominal)) for port in PORTS
         )
         self._observer = observer
-        self._time = 0.0
-        self._now = self._taken = Handed()
-        self._railed = 0.0
         self._fresh = model.state()
+        self._begin(0.0)
+
+    def _begin(self, time: float) -> None:
+        self._time, self._railed = time, 0.0
+        self._now = self._taken = Handed()
 
     def enter_initialisation(self, start: float, stop: float) -> None:
         """Back to the state that the participant was made with."""
         self.model.restore(self._fresh)
-        self._time = start
-        self._now = self._taken = Handed()
-        self._railed = 0.0
+        self._begin(start)
 
     def exit_initialisation(self) -> None:
         """What was handed over before the start is no heat of this run."""
@@ -169,34 +161,26 @@ class ThermalParticipant:
 
     def get_state(self) -> State:
         """Temperatures, ledger and what was taken so far."""
-        return State(self.model.state(), self._taken, self._now, self._railed, self._time)
+        own = (self._railed, self._time)
+        return np.concatenate((self._taken, self._now, own, self.model.state()))
 
     def set_state(self, state: State) -> None:
-        """Go back to a state that `get_state` gave."""
-        model, self._taken, self._now, self._railed, self._time = state
+        """Go back to a state that `get_state` gave; ValueError when it is of another mesh."""
+        taken, now, own, model = np.split(state, np.cumsum(_SIZES))
+        self._taken, self._now = Handed(*taken.tolist()), Handed(*now.tolist())
+        self._railed, self._time = own.tolist()
         self.model.restore(model)
 
     def free_state(self, state: State) -> None:
         """States are plain arrays; nothing to free."""
 
     def save_state(self) -> bytes:
-        """The same as doubles, least significant byte first: what has crossed, then the model's."""
-        model, taken, now, railed, time = self.get_state()
-        return np.concatenate((taken, now, (railed, time), model)).astype("<f8").tobytes()
+        """The same as doubles, least significant byte first."""
+        return self.get_state().astype("<f8").tobytes()
 
     def load_state(self, saved: bytes) -> None:
-        """Go on from what `save_state` gave; ValueError when it is of another mesh."""
-        numbers = np.frombuffer(saved, "<f8").astype(np.float64)
-        taken, now, (railed, time), model = np.split(numbers, np.cumsum(_SIZES))
-        self.set_state(
-            State(
-                model,
-                Handed(*taken.tolist()),
-                Handed(*now.tolist()),
-                float(railed),
-                float(time),
-            )
-        )
+        """Go on from what `save_state` gave."""
+        self.set_state(np.frombuffer(saved, "<f8").astype(np.float64))
 
     def close(self) -> None:
         """Nothing is held open."""

@@ -23,6 +23,7 @@ MOST_BYTES, MOST_XML, MOST_MEMBERS = 4 * 1024**3, 256 * 1024**2, 50_000
 #: zeros alone gives a thousand, a real unit with large tables ten.
 MOST_RATIO, FEW_BYTES = 200, 64 * 1024**2
 DESCRIPTION = "modelDescription.xml"
+ELSEWHERE = "the environment variable TMPDIR names another place"
 #: What zipfile and the packing methods raise where an archive is broken.
 BROKEN = (
     *(zipfile.BadZipFile, zlib.error, lzma.LZMAError, EOFError, struct.error, OverflowError),
@@ -36,7 +37,7 @@ def read_xml(path: Path, member: str) -> bytes | None:
     The archive is checked as a whole, and the file for entities.
     """
     with _opened(path) as archive:
-        check_members(path, archive, (MOST_BYTES, MOST_MEMBERS, MOST_RATIO))
+        check_members(path, archive)
         if member not in archive.namelist():
             return None
         if archive.getinfo(member).file_size > MOST_XML:
@@ -57,8 +58,13 @@ def unpack(path: Path) -> tempfile.TemporaryDirectory[str]:
     folder = directory.name
     try:
         with _opened(path, "damaged") as archive:
-            check_members(path, archive, (MOST_BYTES, MOST_MEMBERS, MOST_RATIO))
-            _check_room(path, archive, folder)
+            size = check_members(path, archive)
+            room = shutil.disk_usage(folder).free
+            if size > room:
+                raise FmuError(
+                    f"{path}: cannot be unpacked in {folder}: takes {size >> 20} MiB, there are "
+                    f"{room >> 20} MiB; {ELSEWHERE}"
+                )
             for member in archive.infolist():
                 _extract(path, archive, member, folder)
     except BaseException:
@@ -75,8 +81,7 @@ def _extract(path: Path, archive: zipfile.ZipFile, member: zipfile.ZipInfo, fold
         archive.extract(member, folder)
     except OSError as error:
         raise FmuError(
-            f"{path}: cannot be unpacked in {folder}: {error.strerror or error}; the environment "
-            "variable TMPDIR names another place"
+            f"{path}: cannot be unpacked in {folder}: {error.strerror or error}; {ELSEWHERE}"
         ) from error
 
 
@@ -98,21 +103,22 @@ def _opened(path: Path, fault: str = "not an FMU, or truncated") -> Iterator[zip
 def check_members(
     path: Path,
     archive: zipfile.ZipFile,
-    most: tuple[int, int, int],
+    most: tuple[int, int, int] | None = None,
     refused: type[ValueError] = FmuError,
-) -> None:
+) -> int:
     """Nothing points outside, nothing is there that only a trap would have; else `refused`.
 
-    most: bytes unpacked, members, and how many times larger than the file all may be unpacked.
+    most: bytes unpacked, members, and how many times larger than the file all may be unpacked;
+    left out: what a unit may have. Bytes that there are.
     """
-    most_bytes, most_members, most_ratio = most
+    most_bytes, most_members, most_ratio = most or (MOST_BYTES, MOST_MEMBERS, MOST_RATIO)
     members = archive.infolist()
     if len(members) > most_members:
         raise refused(f"{path}: holds {len(members)} files, allowed are {most_members}")
     for member in members:
         if fault := _fault_of(member):
             raise refused(f"{path}: its member {member.orig_filename!r} {fault}")
-    size, packed = _unpacked(archive), path.stat().st_size
+    size, packed = sum(member.file_size for member in members), path.stat().st_size
     if size > most_bytes:
         raise refused(
             f"{path}: would take {size / 1024**3:.3g} GiB unpacked, allowed are "
@@ -123,36 +129,18 @@ def check_members(
             f"{path}: would be {size / packed:.0f} times as large unpacked ({size >> 20} MiB), "
             f"allowed is {most_ratio} times; a zip bomb?"
         )
-
-
-def _unpacked(archive: zipfile.ZipFile) -> int:
-    return sum(member.file_size for member in archive.infolist())
+    return size
 
 
 def _fault_of(member: zipfile.ZipInfo) -> str:
     """What is wrong with a member; "" where nothing is."""
     # orig_filename: as it is in the file; zipfile itself makes / of \ on Windows, cuts at a NUL
     name = member.orig_filename
-    outside = (
-        name.startswith(("/", "\\"))
-        or re.match(r"[A-Za-z]:", name) is not None
-        or ".." in re.split(r"[/\\]", name)
-    )
-    if outside:
+    if re.match(r"[/\\]|[A-Za-z]:", name) or ".." in re.split(r"[/\\]", name):
         return "points outside the folder that it belongs in"
     if stat.S_ISLNK(member.external_attr >> 16):
         return "is a symbolic link, which may point outside"
     return "is encrypted" if member.flag_bits & 0x1 else ""
-
-
-def _check_room(path: Path, archive: zipfile.ZipFile, folder: str) -> None:
-    size = _unpacked(archive)
-    with_room = shutil.disk_usage(folder).free
-    if size > with_room:
-        raise FmuError(
-            f"{path}: cannot be unpacked in {folder}: takes {size >> 20} MiB, there are "
-            f"{with_room >> 20} MiB; the environment variable TMPDIR names another place"
-        )
 
 
 def check_xml(place: str, content: bytes, refused: type[ValueError] = FmuError) -> None:

@@ -26,7 +26,16 @@ def describe(path: Path) -> ModelDescription:
 
     Read once while the file stays what it is: a system may have one unit a thousand times.
     """
-    return _described(path, _identity(path))
+    return _read(path, _identity(path))[0]
+
+
+def faults_of(path: Path) -> list[str]:
+    """What is wrong with a description and does no harm here.
+
+    Units of well-known tools lack the definition of a unit, call a whole number continuous, or give
+    two inner variables one name.
+    """
+    return _read(path, _identity(path))[1]
 
 
 def _identity(path: Path) -> tuple[int, ...]:
@@ -39,12 +48,19 @@ def _identity(path: Path) -> tuple[int, ...]:
 
 
 @lru_cache(maxsize=256)
-def _described(path: Path, identity: tuple[int, ...]) -> ModelDescription:
+def _read(path: Path, identity: tuple[int, ...]) -> tuple[ModelDescription, list[str]]:
     if read_xml(path, DESCRIPTION) is None:
         raise FmuError(f"{path}: not an FMU: holds no {DESCRIPTION}")
     read_xml(path, "sources/buildDescription.xml")  # which fmpy parses, too
+    faults: list[str] = []
     try:
-        description = fmpy.read_model_description(path, validate=not faults_of(path))
+        try:
+            description = fmpy.read_model_description(path)
+        except ValidationError as error:
+            faults = [one_line(ValueError(problem)) for problem in error.problems]
+            if not all(HARMLESS.fullmatch(problem) for problem in faults):
+                raise
+            description = fmpy.read_model_description(path, validate=False)
     except ValidationError as error:
         raise FmuError(f"{path}: its {DESCRIPTION} is not valid: {one_line(error)}") from error
     # fmpy raises whatever comes of a reference to nothing, an unknown version, a missing attribute
@@ -53,29 +69,7 @@ def _described(path: Path, identity: tuple[int, ...]) -> ModelDescription:
             f"{path}: its {DESCRIPTION} does not make sense: {one_line(error)}"
         ) from error
     _check(path, description)
-    return description
-
-
-def faults_of(path: Path) -> list[str]:
-    """What is wrong with a description and does no harm here; [] as well where more is wrong.
-
-    Units of well-known tools lack the definition of a unit, call a whole number continuous, or give
-    two inner variables one name.
-    """
-    return _faults(path, _identity(path))
-
-
-@lru_cache(maxsize=256)
-def _faults(path: Path, identity: tuple[int, ...]) -> list[str]:
-    try:
-        fmpy.read_model_description(path)
-    except ValidationError as error:
-        problems = [one_line(ValueError(problem)) for problem in error.problems]
-        if all(HARMLESS.fullmatch(problem) for problem in problems):
-            return problems
-    except Exception:
-        return []  # for whoever reads it
-    return []
+    return description, faults
 
 
 def is_fmi3(description: ModelDescription) -> bool:
@@ -91,27 +85,23 @@ def _check(path: Path, description: ModelDescription) -> None:
             f"{path}: is FMI {version}; what is coupled here is FMI 2.0 and 3.0, for co-simulation"
         )
     if description.coSimulation is None:
-        raise FmuError(f"{path}: {_other_interface(description)}")
+        why = (
+            "scheduled execution only, whose parts a scheduler calls; allowed is a unit for "
+            "co-simulation"
+        )
+        if description.modelExchange is not None:
+            why = (
+                "model exchange only, whose states the host integrates; allowed is a unit for "
+                "co-simulation: export it as one, with the solver of its tool; by itself it runs "
+                "with `fmpy simulate FILE --interface-type ModelExchange`"
+            )
+        raise FmuError(f"{path}: is for {why}")
     identifier = description.coSimulation.modelIdentifier
     if not re.fullmatch(r"[\w.+ -]+", identifier) or identifier.startswith("."):
         raise FmuError(
             f"{path}: its model identifier {identifier!r} is no name of a library: letters, "
             "digits and underscores"
         )
-
-
-def _other_interface(description: ModelDescription) -> str:
-    """Why a unit that is not for co-simulation cannot be coupled, and what to do."""
-    if description.modelExchange is not None:
-        return (
-            "is for model exchange only, whose states the host integrates; allowed is a unit for "
-            "co-simulation: export it as one, with the solver of its tool; by itself it runs with "
-            "`fmpy simulate FILE --interface-type ModelExchange`"
-        )
-    return (
-        "is for scheduled execution only, whose parts a scheduler calls; allowed is a unit for "
-        "co-simulation"
-    )
 
 
 def library_of(path: Path, folder: Path, description: ModelDescription) -> Path:
@@ -129,18 +119,16 @@ def library_of(path: Path, folder: Path, description: ModelDescription) -> Path:
     return library
 
 
-def load_error(error: BaseException) -> BaseException | None:
-    """What the system said of a library that it does not load; None for any other error."""
+def unloadable(path: Path, folder: Path, library: Path, error: BaseException) -> FmuError | None:
+    """What the system said of a library that it does not load, in terms of the user's file and not
+    of the unpacked copy; None for any other error."""
     cause = error.__cause__ or error.__context__
     if isinstance(error, AttributeError) or isinstance(cause, AttributeError):
-        return error  # a library, but without a function of the standard
-    return cause if isinstance(cause, OSError) else None
-
-
-def unloadable(path: Path, folder: Path, library: Path, error: BaseException) -> FmuError:
-    """A library that does not load, in terms of the user's file and not of the unpacked copy."""
+        cause = error  # a library, but without a function of the standard
+    elif not isinstance(cause, OSError):
+        return None
     member = library.relative_to(folder).as_posix()
-    reason = one_line(error).replace(f"{library}: ", "").replace(f"{folder}{os.sep}", "")
+    reason = one_line(cause).replace(f"{library}: ", "").replace(f"{folder}{os.sep}", "")
     return FmuError(
         f"{path}: its library {member} cannot be loaded: {reason}; "
         "allowed is a shared library for this machine with the functions of FMI"

@@ -18,9 +18,10 @@ from fmpy.fmi2 import (
 )
 from fmpy.model_description import ModelDescription
 
-from cosim.coupling.fmu.calls import How
 from cosim.coupling.fmu.errors import FmuCallError
-from cosim.coupling.fmu.values import Group, Kind, encoded, truth, whole
+from cosim.coupling.fmu.instance import Instance
+from cosim.coupling.fmu.log import FmuLog
+from cosim.coupling.fmu.values import Kind, encoded, truth, whole
 
 _INTEGER = Kind(c_int, "Integer", whole(c_int))
 KINDS = {
@@ -32,43 +33,35 @@ KINDS = {
 }
 
 
-def takes_waveforms(description: ModelDescription) -> bool:
-    """Whether it interpolates its inputs by their derivatives."""
-    return bool(description.coSimulation.canInterpolateInputs)
+class Fmi2(Instance):
+    """See `Instance`. A step ends where it should, or has failed."""
 
+    kinds, arguments = KINDS, 3
 
-class Fmi2:
-    """See `cosim.coupling.fmu.calls.Calls`. A step ends where it should, or has failed."""
-
-    def __init__(self, how: How) -> None:
-        self.memory: dict[str, Any] = {}
-        self._fmu = FMU2Slave(**how.arguments())
-        self._fmu.instantiate(callbacks=how.log.callbacks, loggingOn=True)
-        self._component = self._fmu.component
-        self.enter_initialisation = self._fmu.enterInitializationMode
-        self.exit_initialisation = self._fmu.exitInitializationMode
-        self.get_state, self.set_state = self._fmu.getFMUstate, self._fmu.setFMUstate
-        self.as_bytes, self.from_bytes = self._fmu.serializeFMUstate, self._fmu.deSerializeFMUstate
-        self.free_state, self.terminate = self._fmu.freeFMUstate, self._fmu.terminate
-        self.free = self._fmu.freeInstance
-        functions = {kind.function for kind in KINDS.values()}
-        self._set = {name: getattr(self._fmu, f"fmi2Set{name}") for name in functions}
+    def __init__(
+        self, description: ModelDescription, log: FmuLog, early: bool, given: Mapping[str, str]
+    ) -> None:
+        fmu = FMU2Slave(**given)
+        fmu.instantiate(callbacks=log.callbacks, loggingOn=True)
+        super().__init__(fmu, "fmi2")
+        self.enter_initialisation = fmu.enterInitializationMode
+        self.exit_initialisation = fmu.exitInitializationMode
+        self.get_state, self.set_state = fmu.getFMUstate, fmu.setFMUstate
+        self.as_bytes, self.from_bytes = fmu.serializeFMUstate, fmu.deSerializeFMUstate
+        self.free_state = fmu.freeFMUstate
         self._rates: dict[tuple[int, ...], tuple[Any, Any, Any]] = {}
-        self._get = {name: getattr(self._fmu, f"fmi2Get{name}") for name in functions}
+
+    @staticmethod
+    def takes_waveforms(description: ModelDescription) -> bool:
+        """Whether a unit interpolates its inputs by their derivatives."""
+        return bool(description.coSimulation.canInterpolateInputs)
 
     def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
+        """From start to stop, s; before anything is set: some units then forget what was."""
         self._fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)
 
-    def write(self, groups: Sequence[Group]) -> None:
-        for group in groups:
-            self._set[group.kind.function](
-                self._component, group.references, group.count, group.values
-            )
-
-    def read(self, group: Group) -> None:
-        self._get[group.kind.function](self._component, group.references, group.count, group.values)
-
     def write_rates(self, rates: Mapping[int, Sequence[float]]) -> None:
+        """Reference of an input -> its first, second, ... derivative, for the next step."""
         values = [value for each in rates.values() for value in each]
         if not values:
             return
@@ -83,10 +76,10 @@ class Fmi2:
         )
 
     def step(self, time: float, size: float, may_go_back: bool) -> float | None:
+        """Time reached where that is not time + size, s. may_go_back: a state may be set later."""
         try:
-            self._fmu.fmi2DoStep(
-                self._component, time, size, fmi2False if may_go_back else fmi2True
-            )
+            keeps = fmi2False if may_go_back else fmi2True
+            self._fmu.fmi2DoStep(self._component, time, size, keeps)
         except FMICallException as error:
             if error.status != fmi2Discard:
                 raise

@@ -5,13 +5,14 @@ from __future__ import annotations
 import ctypes
 from collections.abc import Mapping, Sequence
 from ctypes import byref, c_bool, c_char_p, c_double, c_float, c_int64
-from typing import Any
+from functools import partial
 
 from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelDescription
 
-from cosim.coupling.fmu.calls import How
 from cosim.coupling.fmu.errors import FmuCallError
+from cosim.coupling.fmu.instance import Instance
+from cosim.coupling.fmu.log import FmuLog
 from cosim.coupling.fmu.values import Group, Kind, encoded, truth, whole
 from cosim.coupling.fmu.variables import INTEGERS
 
@@ -30,62 +31,59 @@ MOST_ROUNDS = 100
 SLIVER = 1e-12
 
 
-def may_end_early(description: ModelDescription) -> bool:
-    """Whether it can end a step before its end."""
-    interface = description.coSimulation
-    return bool(interface.mightReturnEarlyFromDoStep or interface.hasEventMode)
-
-
-class Fmi3:
-    """See `cosim.coupling.fmu.calls.Calls`.
+class Fmi3(Instance):
+    """See `Instance`.
 
     memory: `next_event`, s, that the unit has announced, None for none; `discrete`, the newest
     values of discrete inputs.
     """
 
-    def __init__(self, how: How) -> None:
-        self.memory: dict[str, Any] = {"next_event": None, "discrete": {}}
+    kinds, arguments = KINDS, 4
+
+    def __init__(
+        self, description: ModelDescription, log: FmuLog, early: bool, given: Mapping[str, str]
+    ) -> None:
         self._stepping = False
-        self._events = how.early and bool(how.description.coSimulation.hasEventMode)
-        self._early = how.early and may_end_early(how.description)
-        self._fmu = FMU3Slave(**how.arguments())
+        self._events = early and bool(description.coSimulation.hasEventMode)
+        fmu = FMU3Slave(**given)
+        how = {
+            "loggingOn": True,
+            "earlyReturnAllowed": early and self.may_end_early(description),
+            "logMessage": log.log_message,
+        }
+        self._early = how["earlyReturnAllowed"]
         try:
-            self._instantiate(how)
+            fmu.instantiate(eventModeUsed=self._events, **how)
         except Exception:  # fmpy's
             if not self._events:
                 raise
             # there are units that declare an event mode and have none (Roberts, of the
             # Reference-FMUs)
             self._events = False
-            how.log.take_errors()
-            self._instantiate(how)
-        self._component = self._fmu.component
-        self.get_state, self.set_state = self._fmu.getFMUState, self._fmu.setFMUState
-        self.as_bytes, self.from_bytes = self._fmu.serializeFMUState, self._fmu.deserializeFMUState
-        self.free_state, self.terminate = self._fmu.freeFMUState, self._fmu.terminate
-        self.free = self._fmu.freeInstance
-        functions = {kind.function for kind in KINDS.values()}
-        self._set = {name: getattr(self._fmu, f"fmi3Set{name}") for name in functions}
-        self._get = {name: getattr(self._fmu, f"fmi3Get{name}") for name in functions}
+            log.take_errors()
+            fmu.instantiate(eventModeUsed=False, **how)
+        super().__init__(fmu, "fmi3")
+        self.memory = {"next_event": None, "discrete": {}}
+        self.get_state, self.set_state = fmu.getFMUState, fmu.setFMUState
+        self.as_bytes, self.from_bytes = fmu.serializeFMUState, fmu.deserializeFMUState
+        self.free_state = fmu.freeFMUState
         self._flags = c_bool(), c_bool(), c_bool()
         self._last = c_double()
         self._told = (*map(byref, self._flags), byref(self._last))
 
-    def _instantiate(self, how: How) -> None:
-        self._fmu.instantiate(
-            loggingOn=True,
-            eventModeUsed=self._events,
-            earlyReturnAllowed=self._early,
-            logMessage=how.log.log_message,
-        )
+    @staticmethod
+    def may_end_early(description: ModelDescription) -> bool:
+        """Whether a unit can end a step before its end."""
+        interface = description.coSimulation
+        return bool(interface.mightReturnEarlyFromDoStep or interface.hasEventMode)
 
     def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
-        self._experiment = {"tolerance": tolerance, "startTime": start, "stopTime": stop}
+        """From start to stop, s."""
+        experiment = {"tolerance": tolerance, "startTime": start, "stopTime": stop}
+        self.enter_initialisation = partial(self._fmu.enterInitializationMode, **experiment)
+        self.exit_initialisation = self._begin_stepping
 
-    def enter_initialisation(self) -> None:
-        self._fmu.enterInitializationMode(**self._experiment)
-
-    def exit_initialisation(self) -> None:
+    def _begin_stepping(self) -> None:
         self._fmu.exitInitializationMode()
         self._stepping = True
         if self._events:  # which the unit then is at
@@ -94,38 +92,31 @@ class Fmi3:
 
     def write(self, groups: Sequence[Group]) -> None:
         if not (self._stepping and self._events):
-            for group in groups:
-                self._put(group)
+            super().write(groups)
             return
         changed = []
         for group in groups:
             if not group.discrete:
-                self._put(group)
+                self.put(group)
             elif any(self.memory["discrete"].get(k) != v for k, v in group.got().items()):
                 changed.append(group)
         if changed:  # discrete inputs may change at an event only: that is one
             self._fmu.enterEventMode()
             for group in changed:
-                self._put(group)
+                self.put(group)
             self._update()
             self._fmu.enterStepMode()
 
-    def _put(self, group: Group) -> None:
-        self._set[group.kind.function](
-            self._component, group.references, group.count, group.values, group.size
-        )
+    def put(self, group: Group) -> None:
+        super().put(group)
         if group.discrete and self._events:
             self.memory["discrete"].update(group.got())
 
-    def read(self, group: Group) -> None:
-        self._get[group.kind.function](
-            self._component, group.references, group.count, group.values, group.size
-        )
-
-    def write_rates(self, rates: Mapping[int, Sequence[float]]) -> None:
-        raise FmuCallError("FMI 3.0 has no derivatives of inputs")
+    def write_rates(self, rates: object) -> None:
+        """There are none in FMI 3.0."""
 
     def step(self, time: float, size: float, may_go_back: bool) -> float | None:
+        """Time reached where that is not time + size, s. may_go_back: a state may be set later."""
         end = time + size
         for _ in range(MOST_ROUNDS):
             reached = self._once(time, size, may_go_back)

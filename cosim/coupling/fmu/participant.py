@@ -14,30 +14,24 @@ from typing import Any, TypeVar
 
 from fmpy.fmi1 import FMICallException
 
-from cosim.coupling.fmu import fmi2, fmi3
 from cosim.coupling.fmu.archive import unpack
-from cosim.coupling.fmu.calls import Calls, How
-from cosim.coupling.fmu.description import (
-    describe,
-    is_fmi3,
-    library_of,
-    load_error,
-    unloadable,
-)
+from cosim.coupling.fmu.description import describe, is_fmi3, library_of, unloadable
 from cosim.coupling.fmu.errors import FmuCallError, FmuError, one_line
+from cosim.coupling.fmu.fmi2 import Fmi2
+from cosim.coupling.fmu.fmi3 import Fmi3
 from cosim.coupling.fmu.log import STATUSES, FmuLog
 from cosim.coupling.fmu.module_conflicts import claim_modules, claim_place, leave_place
 from cosim.coupling.fmu.values import Group, Values
 from cosim.coupling.fmu.variables import (
     REALS,
+    START,
     Setting,
     check_settings,
-    check_starts,
     ports_of,
     scalars,
 )
 from cosim.coupling.messages import Messages
-from cosim.coupling.participant import Capabilities, Causality, port_table
+from cosim.coupling.participant import Capabilities, Causality, Closing, port_table
 from cosim.coupling.waveform import Waveform
 
 Result = TypeVar("Result")
@@ -53,7 +47,7 @@ class State:
     memory: dict[str, Any]
 
 
-class FmuParticipant:
+class FmuParticipant(Closing):
     """Ports, units and causalities come from the FMU's modelDescription.xml.
 
     path: the FMU. name: its name in the coupled system, the model's name when left out.
@@ -88,16 +82,13 @@ class FmuParticipant:
         self.name = name or self.description.modelName
         self._table = scalars(self.description)
         self.ports = port_table(ports_of(self.description, self._table))
-        self._parameters = dict(parameters or {})
-        self._inputs = dict(inputs or {})
-        check_settings(self.name, self._table, self._parameters, "parameter")
-        check_settings(self.name, self._table, self._inputs, "input")
-        check_starts(self.name, self._table, starts or {})
-        self._parameters |= starts or {}
-        self._tolerance = tolerance
-        self._early = early_return
+        parameters, inputs, starts = parameters or {}, inputs or {}, starts or {}
+        for kind, given in (("parameter", parameters), ("input", inputs), (START, starts)):
+            check_settings(self.name, self._table, given, kind)
+        self._parameters, self._inputs = {**parameters, **starts}, inputs
+        self._tolerance, self._early, self._debug = tolerance, early_return, debug
         self._input_order = input_order
-        self._debug = debug
+        self._kind: type[Fmi2 | Fmi3] = Fmi3 if is_fmi3(self.description) else Fmi2
         self.capabilities = self._capabilities()
         self.messages: Messages = Messages(self.name)
         #: Inputs that derivatives can be given of -> reference.
@@ -108,11 +99,11 @@ class FmuParticipant:
         }
         self._outputs = [p.name for p in self.ports.values() if p.causality is Causality.OUTPUT]
         self._directory: tempfile.TemporaryDirectory[str] | None = None
-        self._calls: Calls | None = None
+        self._calls: Fmi2 | Fmi3 | None = None
         self._begin_anew()
 
     def _begin_anew(self) -> None:
-        self._values = Values(self._table, fmi3.KINDS if is_fmi3(self.description) else fmi2.KINDS)
+        self._values = Values(self._table, self._kind.kinds)
         self._readers: list[Group] = self._values.groups(self._outputs)
         self._states: set[State] = set()
         self._sloped: set[str] = set()
@@ -120,16 +111,16 @@ class FmuParticipant:
         self.messages.time = None
 
     def _capabilities(self) -> Capabilities:
-        declared, new = self.description.coSimulation, is_fmi3(self.description)
+        declared = self.description.coSimulation
         restores = bool(declared.canGetAndSetFMUstate)
-        waveforms = not new and fmi2.takes_waveforms(self.description)
+        waveforms = self._kind.takes_waveforms(self.description)
         return Capabilities(
             waveforms=waveforms,
             # who takes none gets a mean, which the schemes count on
             input_order=self._input_order if waveforms else None,
             restores=restores,
             saves=restores and bool(declared.canSerializeFMUstate),
-            ends_early=new and self._early and fmi3.may_end_early(self.description),
+            ends_early=self._early and self._kind.may_end_early(self.description),
         )
 
     # --- initialisation ---
@@ -148,40 +139,43 @@ class FmuParticipant:
         self._call(self._instance().exit_initialisation)
         self._running = True
 
-    def _instantiate(self) -> Calls:
-        folder = self._unpacked()
+    def _instantiate(self) -> Fmi2 | Fmi3:
+        folder, library = self._unpacked()
         claim_modules(self.path, folder)
         claim_place(self.path, self.description)
         self._has_place = True
         self._log = FmuLog(self.messages, self._debug)
-        how = How(self.description, folder, self.name, self._log, self._early)
+        given = {
+            "guid": self.description.guid,
+            "unzipDirectory": str(folder),
+            "modelIdentifier": self.description.coSimulation.modelIdentifier,
+            "instanceName": self.name,
+        }
         home = os.getcwd()
         try:
-            self._calls = fmi3.Fmi3(how) if is_fmi3(self.description) else fmi2.Fmi2(how)
+            self._calls = self._kind(self.description, self._log, self._early, given)
         # fmpy raises bare Exception for a library that does not load or refuses.
         except Exception as error:
             os.chdir(home)  # which fmpy has left then
             said = self._log.take_errors()
             self._log.close()
-            library = library_of(self.path, folder, self.description)
             self._free_instance()
-            if refused := load_error(error):
-                raise unloadable(self.path, folder, library, refused) from error
+            if refused := unloadable(self.path, folder, library, error):
+                raise refused from error
             raise FmuCallError(f"{one_line(error)} {said}".strip()) from error
         return self._calls
 
-    def _unpacked(self) -> Path:
-        """The folder of this participant; unpacked anew where somebody has removed it."""
+    def _unpacked(self) -> tuple[Path, Path]:
+        """The folder of this participant, and the library in it; unpacked anew where somebody has
+        removed it."""
         if self._directory is not None:
             folder = Path(self._directory.name)
             with suppress(FmuError):
-                library_of(self.path, folder, self.description)
-                return folder
+                return folder, library_of(self.path, folder, self.description)
             self._remove_folder()
         self._directory = unpack(self.path)
         folder = Path(self._directory.name)
-        library_of(self.path, folder, self.description)
-        return folder
+        return folder, library_of(self.path, folder, self.description)
 
     # --- values ---
 
@@ -210,25 +204,18 @@ class FmuParticipant:
         """
         if not self.capabilities.waveforms:
             raise FmuError(f"{self.path}: takes no derivatives of inputs")
-        starts: dict[str, float] = {}
-        rates: dict[int, tuple[float, ...]] = {}
-        for name, wave in waveforms.items():
-            if name in self._smooth:
-                starts[name], rates[self._smooth[name]] = wave.start, self._rates(wave)
-                self._sloped.add(name)
-            else:
-                starts[name] = wave.mean
+        smooth = {n: self._rates(wave) for n, wave in waveforms.items() if n in self._smooth}
+        self._sloped.update(smooth)
+        starts = {n: wave.start if n in smooth else wave.mean for n, wave in waveforms.items()}
         calls = self._instance()
         self._call(calls.write, self._values.filled(starts))
-        self._call(calls.write_rates, rates)
+        self._call(calls.write_rates, {self._smooth[n]: rates for n, rates in smooth.items()})
 
     def _rates(self, waveform: Waveform) -> tuple[float, ...]:
         rates = waveform.rates
-        missing = self._input_order - len(rates)
-        if missing >= 0:
-            return rates + (0.0,) * missing
-        slope = (waveform.end - waveform.start) / waveform.size
-        return (slope,) + (0.0,) * (self._input_order - 1)
+        if len(rates) > self._input_order:
+            rates = ((waveform.end - waveform.start) / waveform.size,)
+        return rates + (0.0,) * (self._input_order - len(rates))
 
     def step(self, time: float, size: float) -> float | None:
         """One communication step from time, of length size (s); see `Participant.step`."""
@@ -237,14 +224,9 @@ class FmuParticipant:
 
     # --- states ---
 
-    @property
-    def can_restore(self) -> bool:
-        """Whether the FMU declares that its state can be taken and set."""
-        return self.capabilities.restores
-
     def get_state(self) -> State:
         """The FMU's state in its own memory; to be given back with `free_state`."""
-        self._require(self.can_restore, "canGetAndSetFMUstate")
+        self._require(self.capabilities.restores, "canGetAndSetFMUstate")
         return self._kept(self._call(self._instance().get_state))
 
     def set_state(self, state: State) -> None:
@@ -253,7 +235,7 @@ class FmuParticipant:
         calls = self._instance()
         self._call(calls.set_state, state.handle)
         self._values.known = dict(state.known)
-        calls.memory = _copied(state.memory)
+        calls.memory = copy.deepcopy(state.memory)
 
     def free_state(self, state: State) -> None:
         """Release a state."""
@@ -267,7 +249,7 @@ class FmuParticipant:
         self._require(self.capabilities.saves, "canSerializeFMUstate")
         state = self.get_state()
         try:
-            content = self._call(self._instance().as_bytes, state.handle)
+            content: bytes = self._call(self._instance().as_bytes, state.handle)
         finally:
             self.free_state(state)
         head = {"unit": self._identity(), "known": state.known, "memory": state.memory}
@@ -295,7 +277,7 @@ class FmuParticipant:
         return f"{self.description.modelName} {self.description.guid}"
 
     def _kept(self, handle: Any) -> State:
-        state = State(handle, dict(self._values.known), _copied(self._instance().memory))
+        state = State(handle, dict(self._values.known), copy.deepcopy(self._instance().memory))
         self._states.add(state)
         return state
 
@@ -310,7 +292,7 @@ class FmuParticipant:
 
     # --- the instance ---
 
-    def _instance(self) -> Calls:
+    def _instance(self) -> Fmi2 | Fmi3:
         if self._calls is None:
             raise FmuCallError("is not initialised")
         return self._calls
@@ -347,9 +329,9 @@ class FmuParticipant:
             with suppress(FMICallException, FmuCallError):
                 for state in self._states:
                     calls.free_state(state.handle)
-            if self._running:
-                # an instance that has failed before refuses to terminate; it is freed all the same
-                with suppress(FMICallException):
+            # an instance that has failed before refuses to terminate; it is freed all the same
+            with suppress(FMICallException):
+                if self._running:
                     calls.terminate()
             calls.free()
         if calls is not None:
@@ -367,14 +349,3 @@ class FmuParticipant:
         if self._directory is not None:
             self._directory.cleanup()
             self._directory = None
-
-    def __enter__(self) -> FmuParticipant:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self.close()
-
-
-def _copied(memory: dict[str, Any]) -> dict[str, Any]:
-    """Of FMI 2.0 there is nothing, and a deep copy of that is not free."""
-    return copy.deepcopy(memory) if memory else {}

@@ -55,8 +55,8 @@ def encoded(value: str) -> bytes:
 class Group:
     """Variables of one kind that are read or written together.
 
-    references, values: memory of C, the variables and all their elements; count: of the variables.
-    discrete: whether they may change at events only.
+    memory: of C, as functions of FMI take it: references of the variables, their number, all their
+    elements, the number of those. discrete: whether they may change at events only.
     """
 
     def __init__(self, kind: Kind, members: Sequence[Scalar], discrete: bool) -> None:
@@ -69,28 +69,20 @@ class Group:
             if each.variable.valueReference not in offsets:
                 offsets[each.variable.valueReference] = size
                 size += each.size
-        self.count, self.size = len(offsets), size
-        self.references = (ctypes.c_uint * self.count)(*offsets)
-        self.values = (kind.memory * size)()
+        self._values = (kind.memory * size)()
+        count = len(offsets)
+        self.memory = ((ctypes.c_uint * count)(*offsets), count, self._values, size)
         self._places = [offsets[each.variable.valueReference] + each.place for each in members]
-        self._in_order = self._places == list(range(size))
 
     def put(self, values: Mapping[str, Any]) -> None:
         """Fill the memory; all elements of an array are there."""
-        convert = self.kind.convert
-        if self._in_order:
-            self.values[:] = [convert(values[name]) for name in self.names]
-            return
         for name, place in zip(self.names, self._places, strict=True):
-            self.values[place] = convert(values[name])
+            self._values[place] = self.kind.convert(values[name])
 
     def got(self) -> dict[str, Any]:
         """Name -> what is in the memory."""
-        if self._in_order:
-            return dict(zip(self.names, self.values, strict=True))
-        return {
-            name: self.values[place] for name, place in zip(self.names, self._places, strict=True)
-        }
+        found = self._values[:]
+        return {name: found[place] for name, place in zip(self.names, self._places, strict=True)}
 
 
 class Values:

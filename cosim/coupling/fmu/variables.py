@@ -22,6 +22,8 @@ INTEGERS = ("Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UIn
 NUMERIC = ("Real", "Integer", "Float32", "Float64", *INTEGERS, "Boolean", "Enumeration")
 REALS = ("Real", "Float32", "Float64")
 PLAIN_NUMBER = "1"
+#: Kind of a setting that says what a variable starts from.
+START = "start value"
 #: Elements of all arrays of a unit, more is no set of ports.
 MOST_ELEMENTS = 100_000
 
@@ -145,39 +147,31 @@ def definitions_of(description: ModelDescription) -> dict[str, UnitDefinition]:
 
 
 def check_settings(
-    fmu_name: str,
-    table: Mapping[str, Scalar],
-    settings: Mapping[str, Setting],
-    causality: str,
+    fmu_name: str, table: Mapping[str, Scalar], settings: Mapping[str, Setting], kind: str
 ) -> None:
-    """Every name is a variable of the causality, every value has its type and range.
+    """Every name is a variable of the kind, every value has its type and range.
 
-    causality: "parameter" or "input". Raises FmuError with the nearest name or the range.
+    kind: "parameter", "input", or `START`, of an output or a variable inside that a host may set
+    before initialisation. Raises FmuError with the nearest name or the range.
     """
-    known = [name for name, each in table.items() if each.variable.causality == causality]
-    for name, value in settings.items():
-        scalar = table.get(name)
-        if scalar is None:
-            raise FmuError(unknown_name(f"{causality} of {fmu_name}", name, known))
-        if scalar.variable.causality != causality:
-            raise FmuError(f"{fmu_name}.{name} is a {scalar.variable.causality}, not a {causality}")
-        _check_value(f"{fmu_name}.{name}", scalar.variable, value)
-
-
-def check_starts(
-    fmu_name: str, table: Mapping[str, Scalar], settings: Mapping[str, Setting]
-) -> None:
-    """Every name is an output or a variable inside that a host may set before initialisation."""
-    known = [name for name, each in table.items() if _may_start(each.variable)]
+    starts = kind == START
+    known = [
+        name
+        for name, each in table.items()
+        if (_may_start(each.variable) if starts else each.variable.causality == kind)
+    ]
     for name, value in settings.items():
         if name not in table:
-            raise FmuError(unknown_name(f"start value of {fmu_name}", name, known))
-        if name not in known:
+            raise FmuError(unknown_name(f"{kind} of {fmu_name}", name, known))
+        variable = table[name].variable
+        if starts and not _may_start(variable):
             raise FmuError(
                 f"{fmu_name}.{name}: what it starts from cannot be set, of variables that are no "
                 "parameter or input only those with initial = exact or approx"
             )
-        _check_value(f"{fmu_name}.{name}", table[name].variable, value)
+        if not starts and variable.causality != kind:
+            raise FmuError(f"{fmu_name}.{name} is a {variable.causality}, not a {kind}")
+        _check_value(f"{fmu_name}.{name}", variable, value)
 
 
 def _may_start(variable: ModelVariable) -> bool:
@@ -189,19 +183,14 @@ def _check_value(label: str, variable: ModelVariable, value: Setting) -> None:
     if variable.type == "String":
         if not isinstance(value, str):
             raise FmuError(f"{label} = {value!r}: must be a text")
-        return
-    if variable.type == "Boolean":
+    elif variable.type == "Boolean":
         if not isinstance(value, bool):
             raise FmuError(f"{label} = {value!r}: must be true or false")
-        return
-    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+    elif isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
         raise FmuError(f"{label} = {value!r}: must be a finite number")
-    if variable.type not in REALS and float(value) != int(value):
+    elif variable.type not in REALS and float(value) != int(value):
         raise FmuError(f"{label} = {value!r}: must be a whole number")
-    _check_range(label, variable, float(value))
-
-
-def _check_range(label: str, variable: ModelVariable, value: float) -> None:
-    least, most = _range(variable)
-    if not least <= value <= most:
-        raise FmuError(f"{label} = {value:g}: must lie in [{least:g}, {most:g}]")
+    else:
+        least, most = _range(variable)
+        if not least <= value <= most:
+            raise FmuError(f"{label} = {value:g}: must lie in [{least:g}, {most:g}]")

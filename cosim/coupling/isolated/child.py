@@ -1,4 +1,10 @@
-"""The process that an isolated participant lives in."""
+"""The process that an isolated participant lives in, and what the two say to each other.
+
+A request is `(told, call, arguments)`: calls without an answer that were put off until now, each
+`(call, arguments)`, then the one that is answered. Answers are `MESSAGE` as often as there is one,
+then `DONE` with what the call returned or `FAILED` with what it raised. One request, one answer: a
+round trip costs more than all else, so a step brings the outputs along.
+"""
 
 from __future__ import annotations
 
@@ -14,23 +20,41 @@ from contextlib import suppress
 from multiprocessing.connection import Connection
 from typing import Any
 
-from cosim.coupling.isolated.pipe_protocol import (
-    CLOSE,
-    DONE,
-    FAILED,
-    MESSAGE,
-    START,
-    WITH_OUTPUTS,
-    packed,
-)
 from cosim.coupling.messages import Messages
 from cosim.coupling.participant import capabilities
 from cosim.interrupts import REQUESTS
 
+if sys.platform != "win32":
+    import select
+
+DONE, FAILED, MESSAGE = "done", "failed", "message"
+#: Calls that are answered with the outputs beside what they return.
+WITH_OUTPUTS = ("exit_initialisation", "step")
+#: The first call: makes the participant; its answer describes it.
+START = "start"
+#: The last one.
+CLOSE = "close"
 BEGIN = "enter_initialisation"
 #: How often (s) it looks whether the process that it serves is still there, and how long it then
 #: lets its participant close.
 LOOK_SECONDS = 1.0
+
+
+def packed(what: Any) -> bytes:
+    """For the line."""
+    return pickle.dumps(what, protocol=pickle.HIGHEST_PROTOCOL)
+
+
+def waiter(line: Connection) -> Callable[[float], bool]:
+    """A function that waits so many seconds at most, and says whether there is something to read.
+
+    `Connection.poll` makes a selector anew each time, which is a good part of a round trip.
+    """
+    if sys.platform == "win32":
+        return line.poll
+    poll = select.poll()
+    poll.register(line.fileno(), select.POLLIN)
+    return lambda seconds: bool(poll.poll(1e3 * max(seconds, 0.0)))
 
 
 def serve(handle: int, parent: int, scratch: str) -> None:
@@ -140,7 +164,7 @@ class Served:
             messages.listeners.append(lambda message: self._say(MESSAGE, message))
         return participant.name, tuple(participant.ports.values()), capabilities(participant)
 
-    # States stay here; what crosses is their number.
+    # states stay here; what crosses is their number
 
     def _get_state(self, number: int) -> None:
         self._states[number] = self._participant.get_state()

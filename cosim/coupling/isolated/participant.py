@@ -6,13 +6,12 @@ import itertools
 import math
 import pickle
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
-from cosim.coupling.isolated.pipe_protocol import START, packed
+from cosim.coupling.isolated.child import START, packed
 from cosim.coupling.isolated.process import IsolatedError, Process
 from cosim.coupling.messages import Messages
-from cosim.coupling.participant import CouplingError, port_table
+from cosim.coupling.participant import Closing, CouplingError, port_table
 from cosim.coupling.waveform import Waveform
 
 #: Calls without an answer that wait for the next with one; no more than these.
@@ -20,14 +19,11 @@ MOST_TOLD = 64
 _numbers = itertools.count(1)
 
 
-@dataclass(frozen=True)
-class State:
-    """A state that lies in the process that it was made in, under a number."""
-
-    number: int
+#: A state lies in the process that it was made in, under a number.
+State = int
 
 
-class IsolatedParticipant:
+class IsolatedParticipant(Closing):
     """Any participant, made and run in a process of its own.
 
     factory: what makes it there, of `arguments` and `named`: a class or function that can be
@@ -111,11 +107,11 @@ class IsolatedParticipant:
         The first of a run has an answer, so that who cannot take one says so here.
         """
         self._alive()
-        state = State(next(_numbers))
+        state = next(_numbers)
         if self._gives_states:
-            self._told.append(("get_state", (state.number,)))
+            self._told.append(("get_state", (state,)))
         else:
-            self._ask("get_state", state.number)
+            self._ask("get_state", state)
             self._gives_states = True
         self._states.add(state)
         return state
@@ -123,13 +119,13 @@ class IsolatedParticipant:
     def set_state(self, state: State) -> None:
         """Go back to a state."""
         self._check_own(state)
-        self._tell("set_state", state.number)
+        self._tell("set_state", state)
 
     def free_state(self, state: State) -> None:
         """Release a state."""
         self._check_own(state)
         self._states.remove(state)
-        self._told.append(("free_state", (state.number,)))
+        self._told.append(("free_state", (state,)))
         if len(self._told) > MOST_TOLD:
             self._outputs = self._ask("read")
 
@@ -147,15 +143,8 @@ class IsolatedParticipant:
         """Close the participant and end its process; never raises."""
         if self._process is not None:
             self._process.close()
-            self._take_lines()
             self._process = None
         self._forget()
-
-    def __enter__(self) -> IsolatedParticipant:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self.close()
 
     def _forget(self) -> None:
         """What belongs to a run that is over."""
@@ -167,7 +156,7 @@ class IsolatedParticipant:
     def _begin(self) -> Any:
         """A new process with the participant in it."""
         self.close()
-        self._process = Process(self._limit, self.messages.keep)
+        self._process = Process(self._limit, self.messages)
         try:
             return self._ask(START, *self._made_by)
         except BaseException:
@@ -182,11 +171,7 @@ class IsolatedParticipant:
     def _ask(self, call: str, *arguments: Any) -> Any:
         process = self._alive()
         told, self._told = self._told, []
-        try:
-            return process.ask(told, call, arguments)
-        finally:
-            if process.lines.newest:
-                self._take_lines()
+        return process.ask(told, call, arguments)
 
     def _alive(self) -> Process:
         if self._process is None or self._process.is_over:
@@ -196,17 +181,6 @@ class IsolatedParticipant:
     def _check_own(self, state: State) -> None:
         if state not in self._states:
             raise IsolatedError("is given a state that is not its own, or not any more")
-
-    def _take_lines(self) -> None:
-        """What the process has written becomes messages."""
-        if self._process is None:
-            return
-        lines = self._process.lines
-        for _ in range(len(lines.newest)):  # more may come meanwhile
-            if line := lines.newest.popleft():
-                self.messages.add("output", "", line)
-        self.messages.dropped += lines.dropped
-        lines.dropped = 0
 
 
 def _checked(

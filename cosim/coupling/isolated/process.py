@@ -13,13 +13,13 @@ import threading
 import time
 import weakref
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
 from typing import Any
 
-from cosim.coupling.isolated.pipe_protocol import CLOSE, DONE, MESSAGE, START, packed, waiter
-from cosim.coupling.messages import KEPT, LONGEST, Message
+from cosim.coupling.isolated.child import CLOSE, DONE, MESSAGE, START, packed, waiter
+from cosim.coupling.messages import KEPT, LONGEST, Messages
 from cosim.interrupts import held_interrupts, unheard_by_children
 
 #: Time (s) that Python and the imports of a participant may take, beyond the time limit of a call.
@@ -53,25 +53,23 @@ class Lines:
 class Process:
     """One process with one participant.
 
-    time_limit: for every call, s. heard: is given every message as it comes. lines: what the
-    process has written to its standard output and error.
+    time_limit: for every call, s. messages: what the participant says, as it comes, and behind each
+    call what the process has written to its standard output and error (status "output").
     """
 
-    def __init__(self, time_limit: float, heard: Callable[[Message], object]) -> None:
+    def __init__(self, time_limit: float, messages: Messages) -> None:
         from stickslip.scratch import scratch_folder  # whoever couples units loads no model
 
-        self._limit = time_limit
-        self._heard = heard
+        self._limit, self._messages = time_limit, messages
         self._scratch = scratch_folder("isolated")
         self._line, theirs = Pipe()
         self._wait = waiter(self._line)
         with held_interrupts(), unheard_by_children():
             self._process = _started(theirs, self._scratch.name)
         theirs.close()
-        self.lines = Lines()
-        self._reader = threading.Thread(
-            target=_listen, args=(self._process, self.lines), daemon=True
-        )
+        self._lines = Lines()
+        heard = (self._process, self._lines)
+        self._reader = threading.Thread(target=_listen, args=heard, daemon=True)
         self._reader.start()
         self._end = weakref.finalize(self, _end, self._process, self._line, self._scratch)
 
@@ -98,7 +96,7 @@ class Process:
                 kind, what = pickle.loads(self._line.recv_bytes())
                 if kind != MESSAGE:
                     break
-                self._heard(what)
+                self._messages.keep(what)
         except TimeoutError:
             self.end()
             raise IsolatedError(
@@ -110,6 +108,8 @@ class Process:
         except BaseException:  # an interrupt: the answer would be taken for that to the next call
             self.end()
             raise
+        finally:
+            self._take_lines()
         if kind == DONE:
             return what
         raise what
@@ -139,6 +139,16 @@ class Process:
         """At once; nothing of it is left."""
         self._end()
         self._reader.join(END_SECONDS)
+        self._take_lines()
+
+    def _take_lines(self) -> None:
+        """What the process has written becomes messages."""
+        lines = self._lines
+        for _ in range(len(lines.newest)):  # more may come meanwhile
+            if line := lines.newest.popleft():
+                self._messages.add("output", "", line)
+        self._messages.dropped += lines.dropped
+        lines.dropped = 0
 
 
 def _started(theirs: Connection, scratch: str) -> subprocess.Popen[bytes]:

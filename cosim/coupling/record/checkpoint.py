@@ -55,24 +55,18 @@ def save_checkpoint(path: Path, checkpoint: Checkpoint) -> Path:
 
     Raises OutputError, in one line, where the disk refuses.
     """
-    content = io.BytesIO()
+    content, told = io.BytesIO(), vars(checkpoint) | {"states": list(checkpoint.states)}
+    # json writes a float by `repr`, which reads back as the same bits; an array is one of numpy
+    manifest = json.dumps(
+        {"format": FORMAT} | told, indent=1, ensure_ascii=False, default=lambda a: a.tolist()
+    )
     with zipfile.ZipFile(content, "w") as archive:
-        archive.writestr(_MANIFEST, _manifest(checkpoint))
+        archive.writestr(_MANIFEST, manifest)
         for number, state in enumerate(checkpoint.states.values()):
             archive.writestr(_member(number), state)
         archive.comment = b"0" * _DIGEST
     data = content.getvalue()[:-_DIGEST]
     return write_bytes(data + _digest(data), path)
-
-
-def _manifest(checkpoint: Checkpoint) -> str:
-    # json writes a float by `repr`, which reads back as the same bits
-    return json.dumps(
-        {"format": FORMAT, **vars(checkpoint), "states": list(checkpoint.states)},
-        indent=1,
-        ensure_ascii=False,
-        default=lambda array: array.tolist(),  # of numpy, or a number of it
-    )
 
 
 def _member(number: int) -> str:
@@ -104,8 +98,8 @@ def load_checkpoint(path: Path) -> Checkpoint:
         states = {
             name: archive.read(_member(number)) for number, name in enumerate(manifest["states"])
         }
-    told = {key: manifest[key] for key in ("time", "setup", "master", "record")}
-    return Checkpoint(states=states, **told)
+    del manifest["format"]
+    return Checkpoint(**(manifest | {"states": states}))
 
 
 def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import shutil
 from collections.abc import Mapping
+from contextlib import suppress
 from io import TextIOWrapper
 from pathlib import Path
 from typing import Any
@@ -56,11 +57,7 @@ class RunFolder:
 
     @classmethod
     def begun(
-        cls,
-        results: Path,
-        asked: Mapping[str, Any],
-        files: Mapping[str, str],
-        force: bool = False,
+        cls, results: Path, asked: Mapping[str, Any], files: Mapping[str, str], force: bool = False
     ) -> RunFolder:
         """Begin anew; what an earlier run left is gone.
 
@@ -79,10 +76,11 @@ class RunFolder:
             folder._clear()
         except OSError as error:
             raise OutputError(f"{folder.path}: cannot be written: {error.strerror}") from error
-        write_text(json.dumps(dict(asked), indent=1) + "\n", folder.path / _ASKED)
-        explanation = _EXPLANATION.format(resume=asked.get("resume", ""))
-        write_text(explanation, folder.path / _READ_ME)
-        for name, text in files.items():
+        own = {
+            _ASKED: json.dumps(dict(asked), indent=1) + "\n",
+            _READ_ME: _EXPLANATION.format(resume=asked.get("resume", "")),
+        }
+        for name, text in (own | dict(files)).items():
             write_text(text, folder.path / name)
         return folder
 
@@ -110,7 +108,8 @@ class RunFolder:
                 "begin anew"
             )
         writable(results)
-        folder._clear_partial()
+        for entry in folder._partial():
+            entry.unlink(missing_ok=True)
         return folder
 
     @property
@@ -160,12 +159,10 @@ class RunFolder:
         """OutputRefused where an earlier run could be resumed."""
         if not self.checkpoint.is_file():
             return
-        try:
-            resume = str(self.asked.get("resume", "")) or f"--resume {self.results}"
-        except CheckpointError:
-            resume = f"--resume {self.results}"
-        finally:
-            self.release()
+        resume = f"--resume {self.results}"
+        with suppress(CheckpointError):
+            resume = str(self.asked.get("resume", "")) or resume
+        self.release()
         raise OutputRefused(
             f"{self.results}: holds an unfinished run, allowed is to go on with it: {resume}; "
             "another folder with -o; or --force to begin anew"
@@ -173,7 +170,7 @@ class RunFolder:
 
     def _clear(self) -> None:
         """Remove what an earlier run left, and nothing that is not of a run."""
-        names = {entry.name for entry in self.path.iterdir() if not _is_partial(entry)}
+        names = {entry.name for entry in {*self.path.iterdir()} - self._partial()}
         if names - {_LOCK} and _ASKED not in names:
             raise OutputRefused(
                 f"{self.path}: holds files that are not of a run, allowed is a folder without them"
@@ -184,12 +181,6 @@ class RunFolder:
             elif entry.name != _LOCK:
                 entry.unlink()
 
-    def _clear_partial(self) -> None:
+    def _partial(self) -> set[Path]:
         """What a kill in the middle of writing left."""
-        for entry in self.path.iterdir():
-            if _is_partial(entry):
-                entry.unlink(missing_ok=True)
-
-
-def _is_partial(entry: Path) -> bool:
-    return entry.name.startswith(".") and entry.name.endswith(".partial")
+        return {*self.path.glob(".*.partial")}

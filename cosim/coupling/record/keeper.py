@@ -5,11 +5,12 @@ from __future__ import annotations
 import time as clock
 import warnings
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
-from typing import Any, NamedTuple
+from pathlib import Path
+from typing import Any
 
-from cosim.coupling.exchange import MOST_POINTS, Exchange
+from cosim.coupling.exchange import MOST_POINTS, Effort, Exchange, Statistics
 from cosim.coupling.participant import Saved, capabilities
 from cosim.coupling.record.checkpoint import (
     Checkpoint,
@@ -19,9 +20,8 @@ from cosim.coupling.record.checkpoint import (
     save_checkpoint,
 )
 from cosim.coupling.record.folder import RunFolder
-from cosim.coupling.record.table import GrowingTable, Place
+from cosim.coupling.record.recording import Recording
 from cosim.coupling.schemes.scheme import Scheme
-from cosim.coupling.statistics import Effort
 from cosim.coupling.step_control.control import StepControl
 from cosim.coupling.system import CoupledSystem
 from cosim.files import OutputError
@@ -35,102 +35,108 @@ FIRST_SECONDS = 1.0
 class Keep:
     """What a run leaves on disk while it goes.
 
-    folder: for rows and checkpoints; where it holds a checkpoint, the run goes on from that.
+    folder: for rows and checkpoints; where it holds a checkpoint, the run goes on from that. None:
+    nothing is left.
     seconds: of wall time from one checkpoint to the next, the first after a second; steps: the same
     in accepted macro steps; 0 of either: not by that. setup: key -> text or number, what makes the
     case, so that no other one goes on from its checkpoint. also: what goes on beside the
     participants, by names that none of them has.
     """
 
-    folder: RunFolder
+    folder: RunFolder | None
     seconds: float = 30.0
     steps: int = 0
     setup: Mapping[str, Any] = field(default_factory=dict)
     also: Mapping[str, Saved] = field(default_factory=dict)
 
 
-class Passed(NamedTuple):
-    """What a run had behind it: its time in s, rows counted, wall time in s, rows on disk."""
-
-    time: float
-    rows: int
-    seconds: float
-    place: Place
-
-
 class Keeper:
-    """Saves a run every so often.
+    """What becomes of the communication points: rows, thinned out, and now and then a checkpoint.
 
-    control: as it has begun; details: of the run, to tell it from another, beside `keep.setup`.
+    Where `keep` has a checkpoint, all goes on from it, rows and clock too, which stood still
+    meanwhile; else the exchange's time, the start, is the first row.
+    control: as it has begun; details: of the run, to tell it from another, beside `keep.setup`;
+    `record_every` of them: communication points for a row.
+    Raises CheckpointError when the checkpoint is damaged or of another case.
     """
 
     def __init__(
         self,
-        keep: Keep,
+        keep: Keep | None,
         exchange: Exchange,
         scheme: Scheme,
         control: StepControl,
         details: Mapping[str, Any],
     ):
-        self._keep, self._exchange, self._scheme, self._control = keep, exchange, scheme, control
-        self._path = keep.folder.checkpoint
+        self._exchange, self._scheme, self._control = exchange, scheme, control
+        self._every, self._counted = details["record_every"], 0
+        self._keep = Keep(None, seconds=0.0) if keep is None else keep
         how = {"scheme": _spelled(scheme), "control": _spelled(control)}
-        self._setup = dict(keep.setup) | _made_of(exchange.system) | how | dict(details)
+        self._setup = dict(self._keep.setup) | _made_of(exchange.system) | how | dict(details)
         self._steps, self._saved_at = 0, clock.monotonic()
-        self._seconds = min(FIRST_SECONDS, keep.seconds)
-        self._able = bool(keep.steps or keep.seconds) and _can_be_saved(exchange.system)
+        self._seconds = min(FIRST_SECONDS, self._keep.seconds)
+        self._able = bool(self._keep.steps or self._keep.seconds) and _can_be_saved(exchange.system)
+        self._began = clock.perf_counter()
+        folder, place = self._keep.folder, None
+        if folder is not None and folder.checkpoint.is_file():
+            place = self._go_on(folder.checkpoint)
+        self.recording = Recording(exchange.system, folder, place)
+        if place is None:
+            self.recording.add(float(exchange.time or 0.0), exchange)
 
-    def passed(self) -> Passed | None:
-        """Put all back to the newest checkpoint, after initialisation; None where there is none.
-
-        Raises CheckpointError when it is damaged or of another case.
-        """
-        if not self._path.is_file():
-            return None
-        checkpoint = load_checkpoint(self._path)
-        require_same_setup(self._path, checkpoint, self._setup)
+    def _go_on(self, path: Path) -> Sequence[Any]:
+        """Put all back to the newest checkpoint; where the rows on disk had come to then."""
+        checkpoint = load_checkpoint(path)
+        require_same_setup(path, checkpoint, self._setup)
         try:
             for name, state in checkpoint.states.items():
                 self._whose(name).load_state(state)
         except Exception as error:
-            raise CheckpointError(
-                f"{self._path}: {name} does not go on from it: {error}"
-            ) from error
+            raise CheckpointError(f"{path}: {name} does not go on from it: {error}") from error
         master = checkpoint.master
         _restore_exchange(self._exchange, master["exchange"])
         self._control.restore(master["control"])
-        if master["scheme"] is not None:
-            self._scheme.restore(master["scheme"])  # type: ignore[attr-defined]
-        rows, kept, last = checkpoint.record["place"]
-        return Passed(
-            checkpoint.time, master["rows"], master["seconds"], Place(rows, kept, tuple(last))
-        )
+        self._scheme.restore(master["scheme"])
+        self._counted = master["rows"]
+        self._began = clock.perf_counter() - master["seconds"]
+        place: Sequence[Any] = checkpoint.record["place"]
+        return place
 
-    def look(self, table: GrowingTable, rows: int, seconds: float) -> None:
-        """A step was accepted: save the run where it is time."""
+    def add(self, time: float, is_row: bool) -> None:
+        """A step was accepted and has come to a time (s)."""
+        self._counted += is_row
+        keep = is_row and self._counted % self._every == 0
+        self.recording.add(time, self._exchange, keep)
+
+    def seconds(self) -> float:
+        """How long the run has taken."""
+        return clock.perf_counter() - self._began
+
+    def look(self) -> None:
+        """Save the run where it is time."""
         self._steps += 1
         keep = self._keep
         due = keep.steps and self._steps >= keep.steps
         if due or (keep.seconds and clock.monotonic() - self._saved_at >= self._seconds):
-            self.save(table, rows, seconds)
+            self.save()
 
-    def save(self, table: GrowingTable, rows: int, seconds: float) -> None:
+    def save(self) -> None:
         """Save the run as it stands, at an accepted communication point.
 
-        rows, seconds: as `Passed` has them. Raises OutputError when the rows cannot come to the
-        disk. A checkpoint that cannot be made is a warning: the run does without.
+        Raises OutputError when the rows cannot come to the disk. A checkpoint that cannot be made
+        is a warning: the run does without.
         """
         self._steps, self._saved_at = 0, clock.monotonic()
         self._seconds = self._keep.seconds
-        if not self._able:
+        if not self._able or self._keep.folder is None:
             return
-        table.sync()
+        self.recording.table.sync()
         name = ""
         try:
             states = {}
             for name in (*self._exchange.system.participants, *self._keep.also):
                 states[name] = self._whose(name).save_state()
-            save_checkpoint(self._path, self._checkpoint(states, table, rows, seconds))
+            save_checkpoint(self._keep.folder.checkpoint, self._checkpoint(states))
         except OutputError as error:
             warnings.warn(f"no checkpoint: {error}; the run goes on", UserWarning, stacklevel=2)
         except Exception as error:
@@ -142,19 +148,17 @@ class Keeper:
         participant: Any = self._exchange.system.participants.get(name)
         return self._keep.also[name] if participant is None else participant
 
-    def _checkpoint(
-        self, states: Mapping[str, bytes], table: GrowingTable, rows: int, seconds: float
-    ) -> Checkpoint:
-        exchange, remember = self._exchange, getattr(self._scheme, "state", None)
+    def _checkpoint(self, states: Mapping[str, bytes]) -> Checkpoint:
+        exchange, table = self._exchange, self.recording.table
         return Checkpoint(
             time=float(exchange.time or 0.0),
             setup=self._setup,
             master={
-                "rows": rows,
-                "seconds": seconds,
+                "rows": self._counted,
+                "seconds": self.seconds(),
                 "exchange": _state_of(exchange),
                 "control": self._control.state(),
-                "scheme": None if remember is None else remember(),
+                "scheme": self._scheme.state(),
             },
             states=states,
             record={"file": table.path and table.path.name, "place": table.place},
@@ -207,5 +211,4 @@ def _restore_exchange(exchange: Exchange, state: Mapping[str, Any]) -> None:
     points = [(time, outputs) for time, outputs in state["history"]]
     exchange.history.points = deque(points, maxlen=MOST_POINTS)
     efforts = {name: Effort(**each) for name, each in state["statistics"]["participants"].items()}
-    for key, value in (state["statistics"] | {"participants": efforts}).items():
-        setattr(exchange.statistics, key, value)
+    exchange.statistics = Statistics(**(state["statistics"] | {"participants": efforts}))

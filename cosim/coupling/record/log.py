@@ -11,6 +11,7 @@ from io import FileIO
 from pathlib import Path
 
 from cosim.coupling.messages import FAILURES, WARNING, Message
+from cosim.coupling.participant import Closing
 
 LOG = "messages.log"
 COLUMNS = ("wall time (UTC)", "simulated time (s)", "who", "status", "category", "text")
@@ -20,7 +21,7 @@ _GONE_ON = "# the run was cut off, and goes on from its newest checkpoint\n"
 MOST_BYTES = 100_000_000
 
 
-class MessageLog:
+class MessageLog(Closing):
     """A file with a line for every message, columns apart by tabs; none where nobody says anything.
 
     path: of the file. resumed: go on behind what an earlier process has left; else that is removed.
@@ -93,10 +94,8 @@ class MessageLog:
         warnings, failures = self.counts[WARNING], sum(self.counts[each] for each in FAILURES)
         if not (warnings or failures or self._refused):
             return ""
-        counts = ((warnings, "warnings"), (failures, "errors"))
-        parts = ", ".join(
-            f"{number} {words[:-1] if number == 1 else words}" for number, words in counts if number
-        )
+        counts = ((warnings, "warning"), (failures, "error"))
+        parts = ", ".join(f"{n} {word}{'s' * (n != 1)}" for n, word in counts if n)
         total = self.counts.total()
         said = f"{total} message{'s' * (total != 1)}" + (f" ({parts})" if parts else "")
         said += f" in {self.path}"
@@ -108,12 +107,6 @@ class MessageLog:
         """Let go of the file; may be called twice."""
         if self._file is not None:
             self._file.close()
-
-    def __enter__(self) -> MessageLog:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self.close()
 
 
 def _line(message: Message) -> str:

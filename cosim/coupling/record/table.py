@@ -10,21 +10,20 @@ named fields outgrows, at some 250 names, what numpy.load reads without being to
 from __future__ import annotations
 
 import errno
-import json
 import os
 import struct
 import tempfile
 import time
 import weakref
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from io import FileIO
 from pathlib import Path
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from cosim.files import OutputError, write_text
+from cosim.files import OutputError
 
 #: Digits of the row count. They lie in two machine words, and the upper one does not change before
 #: 1e8 rows: a reader never sees half of a new count.
@@ -46,59 +45,52 @@ class Place(NamedTuple):
 
     rows: int
     kept: int
-    last: tuple[float, ...]
+    last: Sequence[float]
 
 
 class GrowingTable:
     """A table of floats in a file, of which nothing is kept in memory but a row that may not stay.
 
     columns: how many; path: of the file, which replaces an earlier one; None: a file without a
-    name that is gone when it is closed. single: four bytes a number instead of eight.
-    Raises OutputError, in one line, where the disk refuses; what was there stays readable.
+    name that is gone when it is closed. single: four bytes a number instead of eight. place: go on
+    there in the file that an earlier process has left, in place of a new one.
+    Raises OutputError, in one line, where the disk refuses, or the file is not that table or ends
+    before the place; what was there stays readable.
     """
 
-    def __init__(self, columns: int, path: Path | None = None, single: bool = False):
-        self._set_up(columns, path, single)
-        with self._refusing():
-            self._hold(_new_file(path))
-        self._write(header(columns, single), 0)
-        self._rows = 0
-
-    def _set_up(self, columns: int, path: Path | None, single: bool) -> None:
+    def __init__(
+        self,
+        columns: int,
+        path: Path | None = None,
+        single: bool = False,
+        place: Sequence[Any] | None = None,
+    ):
         self.columns, self.path = columns, path
         self._kind = np.dtype("<f4" if single else "<f8")
-        self._pack = struct.Struct(f"<{columns}{'f' if single else 'd'}").pack
+        self._pack = struct.Struct(f"<{columns}{self._kind.char}").pack
         self._size = columns * self._kind.itemsize
-        self._kept, self._rows = 0, -1
-        self._last = b""
+        self._kept, self._rows, self._last = 0, -1, b""
         self._looked = time.monotonic()
+        with self._refusing():
+            self._file = _opened(path, anew=place is None)
+        self._number = self._file.fileno()
+        weakref.finalize(self, self._file.close)
+        head = _header(self._kind.str, columns)
+        if place is not None:
+            self._go_on(Place(*place), head)
+        else:
+            self._write(head, 0)
+            self._rows = 0
 
-    def _hold(self, file: FileIO) -> None:
-        self._file, self._number = file, file.fileno()
-        weakref.finalize(self, file.close)
-
-    @classmethod
-    def resumed(cls, columns: int, path: Path, place: Place, single: bool = False) -> Self:
-        """Open a table of an earlier process and go on at a place that it has passed.
-
-        Raises OutputError where the file is not that table, or ends before the place.
-        """
-        table = cls.__new__(cls)
-        table._set_up(columns, path, single)
-        with table._refusing():
-            table._hold(path.open("r+b", buffering=0))
-        found = table._file.read(_HEADER)
-        enough = os.fstat(table._number).st_size >= _HEADER + place.kept * table._size
-        if _without_count(found) != _without_count(header(columns, single)) or not enough:
-            table.close()
+    def _go_on(self, place: Place, head: bytes) -> None:
+        found = self._file.read(_HEADER)
+        enough = os.fstat(self._number).st_size >= _HEADER + place.kept * self._size
+        if _without_count(found) != _without_count(head) or not enough:
+            self.close()
             raise OutputError(
-                f"{path}: is not the table of {columns} columns and at least {place.kept} rows "
-                "that was begun here"
+                f"{self.path}: is not the table of {self.columns} columns and at least "
+                f"{place.kept} rows that was begun here"
             )
-        table._go_to(place)
-        return table
-
-    def _go_to(self, place: Place) -> None:
         # shorter before anything is written: at no time is there a row that was not computed
         self._count(place.kept)
         self._kept = place.kept
@@ -187,13 +179,11 @@ class GrowingTable:
         return OutputError(f"{what}: cannot be written: {error.strerror or error}")
 
 
-def header(columns: int, single: bool = False) -> bytes:
+def _header(kind: str, columns: int) -> bytes:
     """What numpy puts in front of an array (0, columns), the row count at a place of its own."""
-    kind = "<f4" if single else "<f8"
     front = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': (".encode()
     prefix = b"\x93NUMPY\x01\x00" + struct.pack("<H", _HEADER - 10)
-    count = b"%*d" % (DIGITS, 0)
-    text = (prefix + front).ljust(_COUNT_AT) + count + b", %d), }" % columns
+    text = (prefix + front).ljust(_COUNT_AT) + b"%*d, %d), }" % (DIGITS, 0, columns)
     return text.ljust(_HEADER - 1) + b"\n"
 
 
@@ -201,13 +191,14 @@ def _without_count(head: bytes) -> bytes:
     return head[:_COUNT_AT] + head[_COUNT_AT + DIGITS :]
 
 
-def _new_file(path: Path | None) -> FileIO:
+def _opened(path: Path | None, anew: bool) -> FileIO:
     if path is None:
         # numpy maps it, and wants a file that is one itself
         file: FileIO = tempfile.TemporaryFile(buffering=0)  # noqa: SIM115  closed with the table
         return file
-    path.unlink(missing_ok=True)  # who has the earlier one open keeps it
-    return path.open("x+b", buffering=0)
+    if anew:
+        path.unlink(missing_ok=True)  # who has the earlier one open keeps it
+    return path.open("x+b" if anew else "r+b", buffering=0)
 
 
 def _seek_and_write(file: int, data: bytes, at: int) -> int:
@@ -217,9 +208,3 @@ def _seek_and_write(file: int, data: bytes, at: int) -> int:
 
 #: What writes at a place of a file; Windows has no single call for it.
 _write_at = getattr(os, "pwrite", _seek_and_write)
-
-
-def write_columns(path: Path, units: Mapping[str, str]) -> Path:
-    """The JSON file that says what the columns of a table are: name -> unit, in their order."""
-    columns = [{"name": name, "unit": unit} for name, unit in units.items()]
-    return write_text(json.dumps({"columns": columns}, indent=1) + "\n", path)

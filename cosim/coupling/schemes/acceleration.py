@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,22 +19,6 @@ Vector = NDArray[np.float64]
 #: Directions that differ by less than this part of themselves count as one (Haelterman et al.,
 #: "Improving the performance of the partitioned QN-ILS procedure", Computers and Structures 2016).
 SAME_DIRECTION = 1e-10
-
-
-class Acceleration(Protocol):
-    """The next guess, from the last guesses and what came of them."""
-
-    def begin(self) -> None:
-        """A step's iteration begins."""
-
-    def next(self, guess: Vector, found: Vector) -> Vector:
-        """The next guess (n,), after a guess gave `found`, (n,)."""
-
-    def state(self) -> list[Any]:
-        """What is remembered from step to step, as nested lists of numbers."""
-
-    def restore(self, state: list[Any]) -> None:
-        """Go on from what `state` gave."""
 
 
 class Forgetful:
@@ -50,35 +34,32 @@ class Forgetful:
 
 @dataclass
 class Relaxation(Forgetful):
-    """x + relaxation (h(x) - x): plain iteration for 1, damped below."""
+    """x + relaxation (h(x) - x): plain iteration for 1, damped below. The others are more of it."""
 
     relaxation: float = 1.0
 
     def __post_init__(self) -> None:
-        check_relaxation(self.relaxation)
+        if not 0.0 < self.relaxation <= 2.0:
+            raise CouplingError(f"relaxation = {self.relaxation:g}: must be above 0 and at most 2")
 
     def begin(self) -> None:
-        """Nothing is remembered."""
+        """A step's iteration begins."""
 
     def next(self, guess: Vector, found: Vector) -> Vector:
-        """Part of the way."""
+        """The next guess (n,), after a guess gave `found`, (n,)."""
         return guess + self.relaxation * (found - guess)
 
 
 @dataclass
-class Aitken(Forgetful):
+class Aitken(Relaxation):
     """Relaxation by a factor that follows from the last two changes.
 
     Kuettler and Wall, "Fixed-point fluid-structure interaction solvers with dynamic relaxation",
     Computational Mechanics 43 (2008). relaxation: the factor of a step's first iteration.
     """
 
-    relaxation: float = 1.0
     _factor: float = field(default=1.0, repr=False)
     _before: Vector | None = field(default=None, repr=False)
-
-    def __post_init__(self) -> None:
-        check_relaxation(self.relaxation)
 
     def begin(self) -> None:
         """Start from `relaxation`."""
@@ -97,7 +78,7 @@ class Aitken(Forgetful):
 
 
 @dataclass
-class QuasiNewton:
+class QuasiNewton(Relaxation):
     """IQN-ILS: Newton with an inverse Jacobian by least squares on the differences of the guesses.
 
     Degroote, Bathe and Vierendeels, "Performance of a new partitioned procedure versus a monolithic
@@ -106,14 +87,13 @@ class QuasiNewton:
     differences are used too.
     """
 
-    relaxation: float = 1.0
     reused: int = 1
     _now: list[tuple[Vector, Vector]] = field(default_factory=list, repr=False)
     _last: tuple[Vector, Vector] | None = field(default=None, repr=False)
     _steps: deque[list[tuple[Vector, Vector]]] = field(default_factory=deque, repr=False)
 
     def __post_init__(self) -> None:
-        check_relaxation(self.relaxation)
+        super().__post_init__()
         if self.reused < 0:
             raise CouplingError(f"reused_steps = {self.reused}: must be 0 or more")
         self._steps = deque(maxlen=self.reused)
@@ -169,9 +149,3 @@ def independent(columns: list[tuple[Vector, Vector]]) -> tuple[list[Vector], lis
             changes.append(change)
             founds.append(found)
     return changes, founds
-
-
-def check_relaxation(relaxation: float) -> None:
-    """Refuse a factor of no use."""
-    if not 0.0 < relaxation <= 2.0:
-        raise CouplingError(f"relaxation = {relaxation:g}: must be above 0 and at most 2")

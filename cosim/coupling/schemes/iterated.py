@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.participant import CouplingError, ParticipantError
-from cosim.coupling.schemes.acceleration import Acceleration, QuasiNewton, Vector
-from cosim.coupling.schemes.scheme import EndedEarly, StepDone, against, degree_of, sources
+from cosim.coupling.schemes.acceleration import QuasiNewton, Relaxation, Vector
+from cosim.coupling.schemes.scheme import EndedEarly, StepDone, against, degree_of
 from cosim.coupling.system import Address, CoupledSystem
 from cosim.coupling.tolerance import Tolerance, bounds, nominals
 from cosim.coupling.waveform import Waveform
@@ -18,18 +18,9 @@ from cosim.coupling.waveform import Waveform
 SWEEPS = ("gauss_seidel", "jacobi")
 
 
-class _Plan(NamedTuple):
-    """What of a step's iteration depends on the system alone: found once.
-
-    guessed: outputs; least, scale, bounds: absolute tolerances, nominal values, and what they
-    may be, (n,) each.
-    """
-
-    system: CoupledSystem
-    guessed: tuple[Address, ...]
-    least: Vector
-    scale: Vector
-    bounds: tuple[Vector, Vector]
+#: Of a step's iteration: outputs that are guessed, and, (n,) each, absolute tolerances, nominal
+#: values, and what they may be.
+Plan = tuple[tuple[Address, ...], Vector, Vector, tuple[Vector, Vector]]
 
 
 @dataclass
@@ -46,13 +37,16 @@ class Iterated:
     order: tuple[str, ...]
     waveform: str = "linear"
     sweep: str = "gauss_seidel"
-    acceleration: Acceleration = field(default_factory=QuasiNewton)
+    acceleration: Relaxation = field(default_factory=QuasiNewton)
     tolerance: Tolerance = field(default_factory=Tolerance)
     most_iterations: int = 20
-    _plan: _Plan | None = field(default=None, init=False, repr=False, compare=False)
 
     needs_restore = True
     free_order = False
+
+    def __post_init__(self) -> None:
+        # depends on the system alone: found once
+        self._plan: tuple[CoupledSystem, Plan] | None = None
 
     @property
     def accuracy(self) -> int:
@@ -71,16 +65,13 @@ class Iterated:
 
     def step(self, exchange: Exchange, size: float) -> StepDone:
         """One macro step of the whole system, of length size (s)."""
-        plan = self._planned(exchange.system)
-        guessed, least, scale = plan.guessed, plan.least, plan.scale
+        guessed, least, scale, within = self._planned(exchange.system)
         degree = degree_of(self.waveform)
-        guess = np.array(
-            [exchange.extrapolated(source, degree, size).end for source in guessed]
-        ).clip(*plan.bounds)
-        mark = exchange.mark()
+        ends = [exchange.extrapolated(source, degree, size).end for source in guessed]
+        guess = np.array(ends).clip(*within)
         plain = None
-        try:
-            self.acceleration.begin()
+        self.acceleration.begin()
+        with exchange.marked() as mark:
             for iteration in range(1, self.most_iterations + 1):
                 if iteration > 1:
                     exchange.back(mark)
@@ -93,16 +84,13 @@ class Iterated:
                     exchange.back(mark)
                     guess = plain
                     found = self._sweep(exchange, guessed, guess, degree, size)
-                allowed = self.tolerance.allowed(least, found)
-                changes = np.abs(found - guess) / allowed
+                changes = np.abs(found - guess) / self.tolerance.allowed(least, found)
                 if not guessed or changes.max() <= 1.0:
                     return _done(size, iteration, changes, guessed, True)
                 if iteration < self.most_iterations:
                     plain = found
                     guess = scale * self.acceleration.next(guess / scale, found / scale)
-                    guess = guess.clip(*plan.bounds)
-        finally:
-            exchange.forget(mark)
+                    guess = guess.clip(*within)
         return _done(size, self.most_iterations, changes, guessed, False)
 
     def state(self) -> list[Any]:
@@ -113,21 +101,16 @@ class Iterated:
         """Go on from what `state` gave."""
         self.acceleration.restore(state)
 
-    def _planned(self, system: CoupledSystem) -> _Plan:
-        if self._plan is None or self._plan.system is not system:
+    def _planned(self, system: CoupledSystem) -> Plan:
+        if self._plan is None or self._plan[0] is not system:
             guessed = self.unknown(system)
-            self._plan = _Plan(
-                system,
-                guessed,
-                self.tolerance.least(system, guessed),
-                nominals(system, guessed),
-                bounds(system, guessed),
-            )
-        return self._plan
+            least, scale = self.tolerance.least(system, guessed), nominals(system, guessed)
+            self._plan = system, (guessed, least, scale, bounds(system, guessed))
+        return self._plan[1]
 
     def unknown(self, system: CoupledSystem) -> tuple[Address, ...]:
         """What is guessed: all connected outputs, or those that go against the order."""
-        return sources(system) if self.sweep == "jacobi" else against(system, self.order)
+        return system.sources if self.sweep == "jacobi" else against(system, self.order)
 
     def _sweep(
         self,

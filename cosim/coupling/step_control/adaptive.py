@@ -10,7 +10,7 @@ from cosim.coupling.exchange import Exchange
 from cosim.coupling.messages import SMALLEST
 from cosim.coupling.participant import CouplingError
 from cosim.coupling.schemes.scheme import Scheme
-from cosim.coupling.step_control.control import OFTEN, Stepper
+from cosim.coupling.step_control.control import OFTEN, StepControl, Stepper
 from cosim.coupling.step_control.estimates import Estimate
 from cosim.coupling.system import CoupledSystem
 
@@ -23,7 +23,7 @@ NEWEST, LAST = 0.6, 0.2
 
 
 @dataclass
-class AdaptiveStep:
+class AdaptiveStep(StepControl):
     """Each step's error is estimated; the next size follows from it, and one too large is repeated.
 
     estimate : gives the error as a part of what is allowed. first, smallest, largest : sizes, s.
@@ -51,8 +51,7 @@ class AdaptiveStep:
             )
         if not 0.0 < self.safety < 1.0:
             raise CouplingError(f"safety = {self.safety:g}: must lie between 0 and 1")
-        self._size, self._error = self.first, 1.0
-        self._exponent, self._above = 1.0, 0
+        self._size, self._error, self._above = self.first, 1.0, 0
 
     @property
     def first_size(self) -> float:
@@ -69,15 +68,12 @@ class AdaptiveStep:
             raise CouplingError(f"stop = {stop:g} s: must be later than start = {start:g} s")
         self._size, self._error, self._above = self.first, 1.0, 0
         self.estimate.begin(scheme)
-        self._exponent = self.estimate.exponent
 
     def step(self, stepper: Stepper, stop: float) -> float:
         """Repeat the step until its error is allowed; the time reached, s."""
         exchange = stepper.exchange
-        began = exchange.time
-        assert began is not None
-        mark, refused = exchange.mark(), 0
-        try:
+        began, refused = exchange.now, 0
+        with exchange.marked() as mark:
             while True:
                 size = _shared(self._size, stop - began)
                 reached, error = self.estimate.make(stepper, stop if size is None else began + size)
@@ -88,8 +84,6 @@ class AdaptiveStep:
                 exchange.statistics.rejected += 1
                 refused += 1
                 self._shrink(error, made)
-        finally:
-            exchange.forget(mark)
         self._count_above(exchange, error, made, began, stop)
         if refused > OFTEN:
             exchange.remark(f"was taken back {refused} times, to be of {made:.3g} s", began)
@@ -120,26 +114,19 @@ class AdaptiveStep:
             self._above = 0
 
     def _shrink(self, error: float, made: float) -> None:
-        factor = self.safety * error ** (-1.0 / self._exponent) if math.isfinite(error) else 0.0
+        exponent = self.estimate.exponent
+        factor = self.safety * error ** (-1.0 / exponent) if math.isfinite(error) else 0.0
         self._size = max(self.smallest, made * min(max(factor, SHRINK), self.safety))
 
     def _follow(self, error: float, made: float, asked: float) -> None:
         """The next size; a step that an event or the end has cut says little, and keeps it."""
-        error = max(error, 1e-10)
-        factor = (
-            self.safety
-            * error ** (-NEWEST / self._exponent)
-            * self._error ** (LAST / self._exponent)
-        )
+        error, exponent = max(error, 1e-10), self.estimate.exponent
+        factor = self.safety * error ** (-NEWEST / exponent) * self._error ** (LAST / exponent)
         self._error = error
         grown = made * min(max(factor, SHRINK), GROW)
         if made < asked * (1.0 - 1e-9):
             grown = max(grown, self._size) if error <= 1.0 else grown
         self._size = min(max(grown, self.smallest), self.largest)
-
-    def is_row(self) -> bool:
-        """Every step's end is."""
-        return True
 
     def state(self) -> dict[str, Any]:
         """Size, last error, and steps that were too long at last."""

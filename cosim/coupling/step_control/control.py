@@ -1,8 +1,13 @@
-"""What a step control is: it says where the next step ends, and whether a step may stand."""
+"""What a step control is: it says where the next step ends, and whether a step may stand.
+
+And the plainest, steps of one size.
+"""
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+import math
+from contextlib import nullcontext
+from typing import Any, ClassVar, Protocol
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.messages import UNCONVERGED
@@ -13,6 +18,9 @@ from cosim.coupling.system import CoupledSystem
 STOP, HALVE, ACCEPT = "stop", "halve", "accept"
 #: What is done where an iteration does not converge.
 POLICIES = (STOP, HALVE, ACCEPT)
+#: A remainder below this part of a macro step is rounding in (stop - start) / H, not a step that
+#: somebody asked for: 1e6 steps leave some 1e-10.
+SLIVER = 1e-9
 #: A step that is made again more often than this is worth a remark: something is not as it should.
 OFTEN = 5
 
@@ -52,28 +60,24 @@ class Stepper:
         The step is accepted: a control that takes it back has marked where it began.
         """
         exchange = self.exchange
-        began = exchange.time
-        assert began is not None
-        mark = exchange.mark() if self._marks else None
-        size, done, by_event, halved = end - began, None, False, 0
-        try:
-            while done is None:
+        began = exchange.now
+        size, by_event, halved = end - began, False, 0
+        with exchange.marked() if self._marks else nullcontext() as mark:
+            while True:
                 try:
                     done = self.scheme.step(exchange, size)
                 except EndedEarly as event:
-                    assert mark is not None  # `run` has seen to it
-                    exchange.back(mark)
                     exchange.statistics.events += 1
                     size, by_event = event.size, True
-                    continue
-                exchange.statistics.iterated(done.iterations)
-                if not done.converged and self._is_halved(done, size):
-                    assert mark is not None
-                    exchange.back(mark)
-                    size, done, halved = size / 2.0, None, halved + 1
-        finally:
-            if mark is not None:
-                exchange.forget(mark)
+                else:
+                    told = exchange.statistics
+                    told.iterations += done.iterations
+                    told.most_iterations = max(told.most_iterations, done.iterations)
+                    if done.converged or not self._is_halved(done, size):
+                        break
+                    size, halved = size / 2.0, halved + 1
+                assert mark is not None  # `run` has seen to it
+                exchange.back(mark)
         if halved > OFTEN:
             exchange.remark(f"did not converge until it was halved {halved} times", began)
         # the end itself where it was reached: began + size may miss it by a rounding
@@ -86,7 +90,7 @@ class Stepper:
 
     def _is_halved(self, done: StepDone, size: float) -> bool:
         if self.on_divergence == ACCEPT:
-            self.exchange.statistics.unconverged.append(float(self.exchange.time or 0.0))
+            self.exchange.statistics.unconverged.append(self.exchange.now)
             self.exchange.remark(
                 f"a step of {size:.3g} s has not converged in {done.iterations} iterations and "
                 f"is accepted: {done.worst} still changes by {done.residual:.3g} times what is "
@@ -107,11 +111,12 @@ class Stepper:
 
 
 class StepControl(Protocol):
-    """How long the steps are."""
+    """How long the steps are.
 
-    @property
-    def needs_restore(self) -> bool:
-        """Whether steps are taken back."""
+    needs_restore: whether steps are taken back.
+    """
+
+    needs_restore: ClassVar[bool] = False
 
     @property
     def first_size(self) -> float:
@@ -119,6 +124,7 @@ class StepControl(Protocol):
 
     def check(self, system: CoupledSystem) -> list[str]:
         """What could not be checked, a line each; CouplingError for a system that does not fit."""
+        return []
 
     def begin(self, start: float, stop: float, scheme: Scheme) -> None:
         """Get ready for a run from start to stop (s)."""
@@ -128,9 +134,91 @@ class StepControl(Protocol):
 
     def is_row(self) -> bool:
         """Whether the time reached counts as a communication point of its own for the record."""
+        return True
 
     def state(self) -> dict[str, Any]:
         """What the next step depends on, numbers by name."""
 
     def restore(self, state: dict[str, Any]) -> None:
         """Go on from what `state` gave."""
+
+
+class Grid:
+    """Times t_n = start + n H with the end hit exactly; the last step may be shorter.
+
+    Computed from n, never by adding up, so that nothing drifts. Raises CouplingError.
+
+    >>> list(Grid(0.0, 0.25, 0.1))
+    [0.0, 0.1, 0.2, 0.25]
+    """
+
+    def __init__(self, start: float, stop: float, macro_step: float):
+        for key, value in (("start", start), ("stop", stop), ("macro_step", macro_step)):
+            if not math.isfinite(value):
+                raise CouplingError(f"{key} = {value}: must be a finite number of seconds")
+        if macro_step <= 0:
+            raise CouplingError(f"macro_step = {macro_step:g} s: must be greater than 0")
+        if stop <= start:
+            raise CouplingError(f"stop = {stop:g} s: must be later than start = {start:g} s")
+        self.start: float = start
+        self.stop: float = stop
+        self.macro_step: float = macro_step
+        self.steps: int = max(1, math.ceil((stop - start) / macro_step - SLIVER))
+        # steps are the smaller, the later, in what a number of that size can tell apart
+        late = start + (self.steps - 1) * macro_step
+        if start + macro_step <= start or late >= stop or late + macro_step <= late:
+            raise CouplingError(f"macro_step = {macro_step:g} s: too small to advance {start:g} s")
+
+    def __len__(self) -> int:
+        return self.steps + 1
+
+    def __getitem__(self, n: int) -> float:
+        if not 0 <= n <= self.steps:
+            raise IndexError(n)
+        return self.stop if n == self.steps else self.start + n * self.macro_step
+
+
+class FixedStep(StepControl):
+    """Communication points on a grid, and at known events between them.
+
+    macro_step: s.
+    """
+
+    def __init__(self, macro_step: float):
+        self.macro_step = macro_step
+        self._grid: Grid | None = None
+        self._made = 0
+        self._on_grid = True
+
+    @property
+    def first_size(self) -> float:
+        """That of all, s."""
+        return self.macro_step
+
+    def begin(self, start: float, stop: float, scheme: Scheme) -> None:
+        """The grid from start to stop (s)."""
+        self._grid = Grid(start, stop, self.macro_step)
+        self._made, self._on_grid = 0, True
+
+    def step(self, stepper: Stepper, stop: float) -> float:
+        """To the next time of the grid, or as far as `stop` or an event lets it."""
+        assert self._grid is not None
+        goal = self._grid[self._made + 1]
+        if abs(goal - stop) <= SLIVER * self.macro_step:
+            goal = stop  # an event at 0.6 is that of 6 steps of 0.1, which are 0.6000000000000001
+        reached = stepper.make(min(goal, stop))
+        self._on_grid = reached >= goal
+        self._made += self._on_grid
+        return reached
+
+    def is_row(self) -> bool:
+        """On the grid it is."""
+        return self._on_grid
+
+    def state(self) -> dict[str, Any]:
+        """Steps made."""
+        return {"made": self._made, "on_grid": self._on_grid}
+
+    def restore(self, state: dict[str, Any]) -> None:
+        """Go on from there."""
+        self._made, self._on_grid = int(state["made"]), bool(state["on_grid"])

@@ -4,57 +4,73 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.participant import CouplingError
-from cosim.coupling.schemes.acceleration import Forgetful
+from cosim.coupling.schemes.acceleration import Forgetful, Vector
 from cosim.coupling.schemes.iterated import Iterated
-from cosim.coupling.schemes.scheme import Scheme, sources
+from cosim.coupling.schemes.scheme import Scheme
 from cosim.coupling.step_control.control import Stepper
 from cosim.coupling.step_control.power_bond import PowerBond
 from cosim.coupling.system import Address, CoupledSystem
 from cosim.coupling.tolerance import Tolerance
 
 
-class Estimate(Protocol):
-    """Makes a step and says how large its error is."""
+class Estimate(Forgetful):
+    """Makes a step and says how large its error is.
+
+    more: powers of the step's size by which the error of a step is smaller than what the scheme is
+    off by over a run.
+    """
+
+    more: ClassVar[int] = 0
+
+    def check(self, system: CoupledSystem) -> list[str]:
+        """What could not be checked, a line each; CouplingError for a system that does not fit."""
+        return []
+
+    def begin(self, scheme: Scheme) -> None:
+        """A run with a scheme begins."""
+        self._accuracy = scheme.accuracy
 
     @property
     def exponent(self) -> float:
         """Power of the step's size that the error goes with."""
-
-    def check(self, system: CoupledSystem) -> list[str]:
-        """What could not be checked, a line each; CouplingError for a system that does not fit."""
-
-    def begin(self, scheme: Scheme) -> None:
-        """A run with a scheme begins."""
+        return float(self._accuracy + self.more)
 
     def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
         """Step to an end (s) or less far: the time reached, s, and error / allowed."""
-
-    def state(self) -> Any:
-        """What is remembered, as numbers."""
-
-    def restore(self, state: Any) -> None:
-        """Go on from what `state` gave."""
+        raise NotImplementedError
 
 
-class OfOutputs(Forgetful):
+@dataclass
+class OfOutputs(Estimate):
     """Compares values of outputs, of which any will do."""
 
-    tolerance: Tolerance
+    tolerance: Tolerance = field(default_factory=Tolerance)
 
     def check(self, system: CoupledSystem) -> list[str]:
         """The tolerances are those of its ports."""
         self.tolerance.check(system)
         return []
 
+    def largest(
+        self, exchange: Exchange, which: tuple[Address, ...], expected: Vector, times: float = 1.0
+    ) -> float:
+        """Error of some outputs as a part of what is allowed, the largest.
 
-@dataclass
+        times: how often it is in the difference from what was expected, (n,).
+        """
+        if not which:
+            return 0.0
+        found = exchange.values(which)
+        allowed = self.tolerance.allowed(self.tolerance.least(exchange.system, which), found)
+        return float((np.abs(found - expected) / times / allowed).max())
+
+
 class Doubling(OfOutputs):
     """The step is made once whole and once in two halves, which stand.
 
@@ -62,43 +78,23 @@ class Doubling(OfOutputs):
     Three steps for two; of all connected outputs.
     """
 
-    tolerance: Tolerance = field(default_factory=Tolerance)
-
-    def begin(self, scheme: Scheme) -> None:
-        """The scheme's order is that of the estimate."""
-        self._order = scheme.accuracy
-
-    @property
-    def exponent(self) -> float:
-        """Of one step, which is one more than over a run."""
-        return self._order + 1.0
+    more = 1
 
     def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
         """Whole, back, and in halves."""
         exchange = stepper.exchange
-        began = exchange.time
-        assert began is not None
-        which = sources(exchange.system)
-        mark = exchange.mark()
-        try:
+        began, which = exchange.now, exchange.system.sources
+        with exchange.marked() as mark:
             end = stepper.make(end)
             whole = exchange.values(which)
             exchange.back(mark)
-        finally:
-            exchange.forget(mark)
-        middle = began + (end - began) / 2.0
-        reached = stepper.make(middle)
-        if reached < middle:
-            return reached, 0.0  # an event came first: a step of less than half the size
-        reached = stepper.make(end)
-        if reached < end:
-            return reached, 0.0
-        halves = exchange.values(which)
-        difference = np.abs(whole - halves) / (2.0**self._order - 1.0)
-        return reached, _largest(exchange, which, difference, halves, self.tolerance)
+        for goal in (began + (end - began) / 2.0, end):
+            reached = stepper.make(goal)
+            if reached < goal:
+                return reached, 0.0  # an event came first: a step of less than the size
+        return reached, self.largest(exchange, which, whole, 2.0**self._accuracy - 1.0)
 
 
-@dataclass
 class Defect(OfOutputs):
     """What inputs were extrapolated to at the step's end, against what has come of them.
 
@@ -106,32 +102,18 @@ class Defect(OfOutputs):
     over since the start are held by every scheme, so theirs is what the step has handed over.
     """
 
-    tolerance: Tolerance = field(default_factory=Tolerance)
-
-    def begin(self, scheme: Scheme) -> None:
-        """The scheme's polynomial is the one that is compared."""
-        self._degree = scheme.accuracy - 1
-
-    @property
-    def exponent(self) -> float:
-        """Of the first power that the polynomial lacks."""
-        return self._degree + 1.0
-
     def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
         """One step."""
-        exchange = stepper.exchange
-        began = exchange.time
-        assert began is not None
-        which = stepper.scheme.unknown(exchange.system)
-        courses = [exchange.extrapolated(source, self._degree, end - began) for source in which]
+        exchange, degree = stepper.exchange, self._accuracy - 1
+        began, which = exchange.now, stepper.scheme.unknown(exchange.system)
+        courses = [exchange.extrapolated(source, degree, end - began) for source in which]
         reached = stepper.make(end)
         expected = np.array([course.at(reached - began) for course in courses])
-        found = exchange.values(which)
-        return reached, _largest(exchange, which, np.abs(found - expected), found, self.tolerance)
+        return reached, self.largest(exchange, which, expected)
 
 
 @dataclass
-class EnergyResidual:
+class EnergyResidual(Estimate):
     """Energy that a step makes or loses on power bonds, against what has crossed them.
 
     dE = h (effort given x flow got - effort got x flow given) at the step's end: Sadjina and
@@ -145,6 +127,8 @@ class EnergyResidual:
     absolute: float = 1e-9
     _crossed: float = 0.0
     _watts: tuple[float, ...] = ()
+
+    more = 1  # a step's length times the first power that the polynomial lacks
 
     def check(self, system: CoupledSystem) -> list[str]:
         """Every bond is one, and its product a power."""
@@ -162,18 +146,13 @@ class EnergyResidual:
                 "step_control = 'energy': measures what extrapolated inputs are off by, and "
                 "scheme = 'iterated' has none; allowed are gauss_seidel and jacobi"
             )
-        self._crossed, self._degree = 0.0, scheme.accuracy - 1
-
-    @property
-    def exponent(self) -> float:
-        """A step's length times the first power that the polynomial lacks."""
-        return self._degree + 2.0
+        super().begin(scheme)
+        self._crossed = 0.0
 
     def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
         """One step."""
         exchange = stepper.exchange
-        began = exchange.time
-        assert began is not None
+        began = exchange.now
         reached = stepper.make(end)
         lost, crossed = 0.0, 0.0
         for bond, watts in zip(self.bonds, self._watts, strict=True):
@@ -193,16 +172,3 @@ class EnergyResidual:
     def restore(self, state: Any) -> None:
         """Go on with it."""
         self._crossed = float(state)
-
-
-def _largest(
-    exchange: Exchange,
-    which: Sequence[Address],
-    differences: NDArray[np.float64],
-    found: NDArray[np.float64],
-    tolerance: Tolerance,
-) -> float:
-    if not which:
-        return 0.0
-    least = tolerance.least(exchange.system, tuple(which))
-    return float((differences / tolerance.allowed(least, found)).max())

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from cosim.coupling.conversion import POWER, told_dimension
 from cosim.coupling.exchange import Exchange
-from cosim.coupling.participant import CouplingError, Port
+from cosim.coupling.participant import CouplingError
 from cosim.coupling.system import Address, Connection, CoupledSystem, find_port
 
 #: Exponents of a unit that count: the radian, the last of them, is a number.
@@ -26,8 +26,7 @@ class PowerBond:
     flow: Address
 
     def __init__(self, effort: str, flow: str):
-        object.__setattr__(self, "effort", Address.parse(effort))
-        object.__setattr__(self, "flow", Address.parse(flow))
+        vars(self).update(effort=Address.parse(effort), flow=Address.parse(flow))
 
     def __str__(self) -> str:
         return f"{self.effort} with {self.flow}"
@@ -47,12 +46,11 @@ class PowerBond:
                 )
         ports = [find_port(system.participants, each) for each in (self.effort, self.flow)]
         units = " times ".join("no unit" if port.unit == "1" else port.unit for port in ports)
-        if any(port.definition is None for port in ports):
+        first, second = (port.definition for port in ports)
+        if first is None or second is None:
             return f"power bond {self}: whether {units} is a power is not checked: not defined"
-        exponents = _product(*ports)
-        if exponents[:COUNTED] != POWER[:COUNTED] or any(
-            port.definition and port.definition.offset for port in ports
-        ):
+        exponents = [a + b for a, b in zip(first.exponents, second.exponents, strict=True)]
+        if tuple(exponents[:COUNTED]) != POWER[:COUNTED] or first.offset or second.offset:
             raise CouplingError(
                 f"power bond {self}: {units} ({told_dimension(exponents)}) is no power, allowed "
                 "are two outputs whose product is one, as force and velocity, in W or multiples"
@@ -78,12 +76,6 @@ def _feed(system: CoupledSystem, source: Address, sink: str) -> Connection:
         if each.source == source and each.sink.participant == sink:
             return each
     raise CouplingError(f"power bond: {source} does not feed {sink}, allowed are outputs that do")
-
-
-def _product(*ports: Port) -> tuple[int, ...]:
-    first, second = (port.definition for port in ports)
-    assert first is not None and second is not None
-    return tuple(a + b for a, b in zip(first.exponents, second.exponents, strict=True))
 
 
 def _both_ends(exchange: Exchange, source: Address, sink: str) -> tuple[float, float]:

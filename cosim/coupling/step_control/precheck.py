@@ -14,9 +14,6 @@ from cosim.coupling.step_control.control import HALVE, StepControl
 from cosim.coupling.system import CoupledSystem
 from cosim.names import listed
 
-#: Degree of the inputs over a step -> its name.
-DEGREES = {2: "quadratic"}
-
 
 def remarks_of(
     system: CoupledSystem, scheme: Scheme, control: StepControl, length: float
@@ -25,28 +22,18 @@ def remarks_of(
 
     length: of the run, s.
     """
-    size = control.first_size
-    found = []
+    size, found = control.first_size, []
     if size > length * (1.0 + 1e-9):
         found.append(
             f"macro_step = {size:g} s is longer than the run, which is one step of {length:g} s"
         )
-    return [*found, *_lower_degrees(system, scheme)]
-
-
-def _lower_degrees(system: CoupledSystem, scheme: Scheme) -> list[str]:
-    """Participants that are given less of their inputs' course than the scheme knows of it."""
-    degree = scheme.accuracy - 1
-    if degree not in DEGREES:
-        return []
     fed = {connection.sink.participant for connection in system.connections}
-    found = []
-    for name in system.participants:
-        order = capabilities(system.participants[name]).input_order
-        if name in fed and order is not None and order < degree:
+    for name, participant in system.participants.items():
+        order = capabilities(participant).input_order
+        if scheme.accuracy == 3 and name in fed and order is not None and order < 2:
             found.append(
                 f"{name} takes no more than first derivatives of its inputs: they are linear over"
-                f" a step there, not {DEGREES[degree]}"
+                " a step there, not quadratic"
             )
     return found
 
@@ -109,14 +96,13 @@ def restores_exactly(participant: Any, time: float, size: float) -> bool:
             participant.free_state(state)
         raise
     try:
-        participant.set_state(state)
-        same = _bits(participant.read()) == before
-        same = same and _stepped(participant, time, size) == first
-        participant.set_state(state)
-    except Exception:
-        same = False
-    try:
-        participant.free_state(state)
+        try:
+            participant.set_state(state)
+            same = _bits(participant.read()) == before
+            same = same and _stepped(participant, time, size) == first
+            participant.set_state(state)
+        finally:
+            participant.free_state(state)
     except Exception:
         return False
     return same

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from importlib.metadata import version
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from stickslip.units import UNITS
@@ -17,21 +18,15 @@ LOG_CATEGORIES = {
 }
 AUTHOR = "The stickslip developers"
 COPYRIGHT = "Copyright (c) 2026, the stickslip developers"
-LICENSE = "BSD-3-Clause"
+LICENSE, VERSION = "BSD-3-Clause", version("stickslip")
 # Initial value of an output -> the parameters that it follows from. Totals start from zero;
 # of the outputs not named here all parameters and inputs have a say.
 STARTS: dict[str, tuple[str, ...]] = {
     name: (f"initial.{name}",) for name in ("x", "y", "phi", "vx", "vy", "omega")
 } | dict.fromkeys(
     (
-        "heat",
-        "heat_flow",
-        "damping_heat",
-        "sliding_distance",
-        "surface_travel",
-        "slip_time",
-        "slip_count",
-        "energy_residual",
+        *("heat", "heat_flow", "damping_heat", "sliding_distance", "surface_travel"),
+        *("slip_time", "slip_count", "energy_residual"),
     ),
     (),
 )
@@ -52,7 +47,7 @@ class UnitFacts:
     """What a unit says of itself beside its variables.
 
     name : of the model and of its libraries
-    version : of the product, and of the build
+    version, tool : of the product that made it
     python : whether it needs a Python in its host, and its temporary files
     indicators : event indicators of model exchange; None: it is for co-simulation only
     sources : C files of the library, in the unit's folder `sources`
@@ -64,8 +59,9 @@ class UnitFacts:
     name: str
     guid: str
     description: str
-    version: str
-    tool: str
+    version: str = VERSION
+    tool: str = "stickslip"
+    license: str = LICENSE
     python: bool = False
     indicators: int | None = None
     sources: tuple[str, ...] = ()
@@ -73,25 +69,20 @@ class UnitFacts:
     gives_rates: bool = True
     starts: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: STARTS)
 
-    @property
-    def license(self) -> str:
-        """Of the unit."""
-        return LICENSE
 
-
-def begun(facts: UnitFacts, version: str, token: str) -> Element:
+def begun(facts: UnitFacts, fmi: str, token: str) -> Element:
     """The root of a description in a version of FMI, in which the GUID is called ``token``."""
     return Element(
         "fmiModelDescription",
         {
-            "fmiVersion": version,
+            "fmiVersion": fmi,
             "modelName": facts.name,
             token: facts.guid,
             "description": facts.description,
             "author": AUTHOR,
             "version": facts.version,
             "copyright": COPYRIGHT,
-            "license": LICENSE,
+            "license": facts.license,
             "generationTool": facts.tool,
             "variableNamingConvention": "structured",
         },
@@ -139,6 +130,13 @@ def set_variability(element: Element, variable: Variable, otherwise: str | None)
         element.set("initial", "calculated")
 
 
+def set_known(element: Element, variable: Variable, *keys: str) -> None:
+    """Set what is declared of a variable."""
+    for key in keys:
+        if (value := getattr(variable, key)) is not None:
+            element.set(key, value if isinstance(value, str) else repr(value))
+
+
 #: Name of an unknown -> names of what it depends on; None: of all states and inputs.
 Dependencies = dict[str, list[str] | None]
 
@@ -151,17 +149,15 @@ def of_outputs(variables: Sequence[Variable]) -> Dependencies:
     inputs of the moment (`DIRECT`); where there is only co-simulation, none does.
     """
     states = [variable.name for variable in variables if variable.is_state]
-    found: Dependencies = {}
-    for variable in variables:
-        if variable.causality != "output":
-            continue
-        if not states or variable.is_discrete:
-            found[variable.name] = []
-        elif variable.name in DIRECT:
-            found[variable.name] = None
-        else:
-            found[variable.name] = [variable.name] if variable.is_state else states
-    return found
+    return {each.name: _direct(each, states) for each in variables if each.causality == "output"}
+
+
+def _direct(variable: Variable, states: list[str]) -> list[str] | None:
+    if not states or variable.is_discrete:
+        return []
+    if variable.name in DIRECT:
+        return None
+    return [variable.name] if variable.is_state else states
 
 
 def of_rates(variables: Sequence[Variable]) -> Dependencies:

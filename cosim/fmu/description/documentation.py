@@ -120,16 +120,16 @@ def of_mechanics(
     name: str, variables: Sequence[Variable], catalogue: Catalogue = CATALOGUE
 ) -> dict[str, bytes]:
     """Of the block as the unit starts: the interpreted model."""
-    inputs = [variable for variable in variables if variable.causality == "input"]
+    inputs = [each for each in variables if each.causality == "input"]
     starts = [each.start or 0.0 for each in inputs]
     u = [0.0] * U_SIZE
     for each, start in zip(inputs, starts, strict=True):
         u[_place(each)] = start
     given = [(time, starts) for time in (0.0, MECHANICS.stop)]
-    slots = [_place(each) for each in variables if each.name in SHOWN_OF_MECHANICS]
-    motion = ((time, [o[slot] for slot in slots]) for time, o in _motion(tuple(u), catalogue))
-    shown = [each.name for each in variables if each.name in SHOWN_OF_MECHANICS]
-    return cross_check(name, MECHANICS, ([each.name for each in inputs], given), (shown, motion))
+    shown = [each for each in variables if each.name in SHOWN_OF_MECHANICS]
+    motion = ((t, [o[_place(each)] for each in shown]) for t, o in _motion(tuple(u), catalogue))
+    tables = ([each.name for each in inputs], given), ([each.name for each in shown], motion)
+    return cross_check(name, MECHANICS, *tables)
 
 
 def _place(variable: Variable) -> int:

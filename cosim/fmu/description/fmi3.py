@@ -18,6 +18,7 @@ from cosim.fmu.description import (
     of_initial_unknowns,
     of_outputs,
     of_rates,
+    set_known,
     set_variability,
     written,
 )
@@ -39,14 +40,20 @@ def fmi3_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
     add_units(root, variables, more=["s"])  # of the time
     add_common(root)
     indicators = INDICATORS if facts.indicators else {}
-    added = ["time", *indicators]
-    names = [*(variable.name for variable in variables), *added]
+    names = [*(variable.name for variable in variables), "time", *indicators]
     references = {name: str(place) for place, name in enumerate(names)}
     declared = SubElement(root, "ModelVariables")
     for elements in by_array(variables):
         _add_variable(declared, elements, references)
     _add_time_and_indicators(declared, references, indicators)
-    _add_structure(root, variables, references, facts, indicators)
+    structure = SubElement(root, "ModelStructure")
+    for kind, unknowns in (
+        ("Output", of_outputs(variables)),
+        ("ContinuousStateDerivative", of_rates(variables)),
+        ("InitialUnknown", of_initial_unknowns(variables, facts.starts)),
+        ("EventIndicator", dict.fromkeys(indicators)),
+    ):
+        add_unknowns(structure, kind, "valueReference", unknowns, references)
     return written(root)
 
 
@@ -62,23 +69,15 @@ def build_description(facts: UnitFacts) -> bytes:
 
 
 def _add_interfaces(root: Element, facts: UnitFacts) -> None:
-    common = {
-        "modelIdentifier": facts.name,
-        "canGetAndSetFMUState": "true",
-        "canSerializeFMUState": "true",
-    }
+    can = dict.fromkeys(("canGetAndSetFMUState", "canSerializeFMUState"), "true")
+    common = {"modelIdentifier": facts.name} | can
     of_steps = {"canHandleVariableCommunicationStepSize": "true"}
     if facts.gives_rates:
         of_steps["maxOutputDerivativeOrder"] = "1"
     if facts.indicators:
         of_steps |= {"mightReturnEarlyFromDoStep": "true", "hasEventMode": "true"}
-        SubElement(
-            root,
-            "ModelExchange",
-            common,
-            providesDirectionalDerivatives="true",
-            needsCompletedIntegratorStep="true",
-        )
+        asked = ("providesDirectionalDerivatives", "needsCompletedIntegratorStep")
+        SubElement(root, "ModelExchange", common | dict.fromkeys(asked, "true"))
     SubElement(root, "CoSimulation", common | of_steps)
 
 
@@ -93,19 +92,11 @@ def _add_variable(
 ) -> None:
     """A variable, or an array of which all elements but the start values are alike."""
     first = elements[0]
-    variable = SubElement(
-        declared,
-        _type(first),
-        name=first.array or first.name,
-        valueReference=references[first.name],
-        causality=first.causality,
-    )
+    told = {"name": first.array or first.name, "valueReference": references[first.name]}
+    variable = SubElement(declared, _type(first), told, causality=first.causality)
     set_variability(variable, first, "continuous")
     variable.set("description", first.description)
-    for key in ("unit", "min", "max"):
-        value = getattr(first, key)
-        if value is not None:
-            variable.set(key, value if isinstance(value, str) else repr(value))
+    set_known(variable, first, "unit", "min", "max")
     nominals = [each.nominal for each in elements if each.nominal is not None]
     if nominals and not first.is_discrete:
         variable.set("nominal", repr(max(nominals)))
@@ -122,42 +113,11 @@ def _add_variable(
 def _add_time_and_indicators(
     declared: Element, references: Mapping[str, str], indicators: Mapping[str, str]
 ) -> None:
-    SubElement(
-        declared,
-        "Float64",
-        name="time",
-        valueReference=references["time"],
-        causality="independent",
-        variability="continuous",
-        description="Time",
-        unit="s",
-    )
-    for name, event in indicators.items():
-        SubElement(
-            declared,
-            "Float64",
-            name=name,
-            valueReference=references[name],
-            causality="local",
-            variability="continuous",
-            initial="calculated",
-            description=f"Above 0 until its event: {event}",
-            unit="1",
-        )
-
-
-def _add_structure(
-    root: Element,
-    variables: Sequence[Variable],
-    references: Mapping[str, str],
-    facts: UnitFacts,
-    indicators: Mapping[str, str],
-) -> None:
-    structure = SubElement(root, "ModelStructure")
-    for kind, unknowns in (
-        ("Output", of_outputs(variables)),
-        ("ContinuousStateDerivative", of_rates(variables)),
-        ("InitialUnknown", of_initial_unknowns(variables, facts.starts)),
-        ("EventIndicator", dict.fromkeys(indicators)),
-    ):
-        add_unknowns(structure, kind, "valueReference", unknowns, references)
+    calculated = {"causality": "local", "variability": "continuous", "initial": "calculated"}
+    added = {"time": ({"causality": "independent", "variability": "continuous"}, "Time", "s")} | {
+        name: (calculated, f"Above 0 until its event: {event}", "1")
+        for name, event in indicators.items()
+    }
+    for name, (kind, said, unit) in added.items():
+        told = {"name": name, "valueReference": references[name]} | kind
+        SubElement(declared, "Float64", told, description=said, unit=unit)

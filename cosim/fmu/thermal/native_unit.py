@@ -10,7 +10,6 @@ import json
 from collections.abc import Sequence
 from dataclasses import asdict
 from functools import cache
-from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -35,10 +34,7 @@ FMU = f"{NAME}.fmu"
 FILES = {FMI2: FMU, FMI3: f"{NAME}-fmi3.fmu"}
 #: Files that make the sources, and the heat model that the matrices are of.
 MAKERS = (
-    *(
-        Path(__file__).with_name(name)
-        for name in ("native_unit.py", "variables.py", "variables.toml")
-    ),
+    *map(Path(__file__).with_name, ("native_unit.py", "variables.py", "variables.toml")),
     Path(c_tables.__file__),
 )
 CAN = {"HAS_EXCHANGE": False, "TAKES_RATES": False, "BEGINS_WITH_INPUTS": False}
@@ -85,23 +81,16 @@ def _written() -> dict[str, bytes]:
 @cache
 def guid() -> str:
     """The GUID of a unit built now: of its C, its variables and the heat model's code."""
+    # the package `thermal` is not imported: it needs scikit-fem
+    heat = Path(cosim.__path__[0]).parent / "thermal"
+    files = {file.relative_to(heat).as_posix(): file for file in heat.rglob("*.py")}
     made_from = {
         "variables": json.dumps([asdict(each) for each in reduced()], sort_keys=True).encode(),
         **{f"maker/{file.name}": file.read_bytes() for file in MAKERS},
-        **{f"thermal/{file}": (_heat_model() / file).read_bytes() for file in _heat_files()},
+        **{f"thermal/{name}": file.read_bytes() for name, file in files.items()},
         **_written(),
     }
     return guid_of(NAME, digest_of(made_from).hexdigest())
-
-
-def _heat_model() -> Path:
-    """The folder of the package `thermal`, which is not imported: it needs scikit-fem."""
-    return Path(cosim.__path__[0]).parent / "thermal"
-
-
-def _heat_files() -> list[str]:
-    folder = _heat_model()
-    return sorted(file.relative_to(folder).as_posix() for file in folder.rglob("*.py"))
 
 
 def build(directory: Path, platforms: Sequence[Platform], fmi: int = FMI2) -> Path:
@@ -181,8 +170,6 @@ def _facts(fmi: int) -> UnitFacts:
         name=NAME,
         guid=guid(),
         description=f"{DESCRIPTION}. Modes of the finite elements",
-        version=version("stickslip"),
-        tool="stickslip",
         sources=native.compiled_in(sources(), fmi),
         interpolates=False,
         gives_rates=False,

@@ -46,9 +46,7 @@ _NAMES = {
 
 
 def build(
-    directory: Path,
-    platforms: Sequence[Platform] = PLATFORMS,
-    catalogue: Catalogue = CATALOGUE,
+    directory: Path, platforms: Sequence[Platform] = PLATFORMS, catalogue: Catalogue = CATALOGUE
 ) -> Path:
     """Make the system of the reference scenario in a directory, its units inside.
 
@@ -66,8 +64,6 @@ def build(
 
 def values(catalogue: Catalogue) -> bytes:
     """The set of values for tools that take it from a file."""
-    for prefix, space in _NAMES.items():
-        register_namespace(prefix, space)
     known = {each.name: each for each in exchange.variables(catalogue)}
     return written(_parameter_set(known, _changed(known), f"{MECHANICS}."))
 
@@ -85,87 +81,77 @@ def _changed(known: Mapping[str, Variable]) -> dict[str, float]:
 
 def description(catalogue: Catalogue) -> bytes:
     """SystemStructure.ssd."""
-    mechanics = exchange.variables(catalogue)
-    for prefix, space in _NAMES.items():
-        register_namespace(prefix, space)
-    root = Element(
-        _of("ssd", "SystemStructureDescription"), {"name": "StickSlipThermal", "version": "1.0"}
-    )
-    system = SubElement(root, _of("ssd", "System"), name="StickSlipThermal")
-    elements = SubElement(system, _of("ssd", "Elements"))
-    used: set[str] = set()
-    changed = _changed({each.name: each for each in mechanics})
-    for name, fmu, declared, chosen in (
-        (MECHANICS, f"{native.NAME}.fmu", mechanics, changed),
-        (THERMAL, native_unit.FMU, reduced(), {}),
+    root = _root("ssd:SystemStructureDescription", name="StickSlipThermal", version="1.0")
+    system = _add(root, "ssd:System", name="StickSlipThermal")
+    elements = _add(system, "ssd:Elements")
+    mechanics = {each.name: each for each in exchange.variables(catalogue)}
+    used: set[str | None] = set()
+    for name, fmu, known, chosen in (
+        (MECHANICS, f"{native.NAME}.fmu", mechanics, _changed(mechanics)),
+        (THERMAL, native_unit.FMU, {each.name: each for each in reduced()}, {}),
     ):
-        used |= _add_component(elements, name, fmu, declared, chosen)
-    connections = SubElement(system, _of("ssd", "Connections"))
-    for (start, source), (end, sink) in CONNECTIONS:
-        facts = zip(
-            ("startElement", "startConnector", "endElement", "endConnector"),
-            (start, source, end, sink),
-            strict=True,
+        component = _add(
+            elements,
+            "ssd:Component",
+            name=name,
+            type="application/x-fmu-sharedlibrary",
+            source=f"resources/{fmu}",
         )
-        SubElement(connections, _of("ssd", "Connection"), dict(facts))
-    _add_units(SubElement(root, _of("ssd", "Units")), used)
-    SubElement(root, _of("ssd", "DefaultExperiment"), startTime="0", stopTime=STOP_TIME)
+        used |= _fill(component, name, known, chosen)
+    connections = _add(system, "ssd:Connections")
+    ends = ("startElement", "startConnector", "endElement", "endConnector")
+    for source, sink in CONNECTIONS:
+        _add(connections, "ssd:Connection", **dict(zip(ends, (*source, *sink), strict=True)))
+    units = _add(root, "ssd:Units")
+    for unit in sorted(filter(None, used)):
+        facts = {key: repr(value) for key, value in (UNITS[unit] or {}).items()}
+        _add(_add(units, "ssc:Unit", name=unit), "ssc:BaseUnit", **facts)
+    _add(root, "ssd:DefaultExperiment", startTime="0", stopTime=STOP_TIME)
     return written(root)
 
 
-def _of(space: str, name: str) -> str:
+def _of(tag: str) -> str:
+    space, _, name = tag.partition(":")
     return f"{{{_NAMES[space]}}}{name}"
 
 
-def _add_component(
-    elements: Element,
-    name: str,
-    fmu: str,
-    declared: Sequence[Variable],
-    chosen: Mapping[str, float],
-) -> set[str]:
-    """A unit with its connectors and the values that it starts from; the units it speaks in."""
-    component = SubElement(
-        elements,
-        _of("ssd", "Component"),
-        {"name": name, "type": "application/x-fmu-sharedlibrary", "source": f"resources/{fmu}"},
-    )
-    known = {each.name: each for each in declared}
-    ends = [end for connection in CONNECTIONS for end in connection if end[0] == name]
-    ends += [(name, port) for port in BALANCE if port in known]
-    connectors = SubElement(component, _of("ssd", "Connectors"))
-    for _, port in ends:
-        variable = known[port]
-        facts = {"name": port, "kind": variable.causality}
-        connector = SubElement(connectors, _of("ssd", "Connector"), facts)
-        SubElement(connector, _of("ssc", "Real"), unit=variable.unit or "1")
+def _root(tag: str, /, **facts: str) -> Element:
+    for prefix, space in _NAMES.items():
+        register_namespace(prefix, space)
+    return Element(_of(tag), facts)
+
+
+def _add(parent: Element, tag: str, /, **facts: str) -> Element:
+    return SubElement(parent, _of(tag), facts)
+
+
+def _fill(
+    component: Element, name: str, known: Mapping[str, Variable], chosen: Mapping[str, float]
+) -> set[str | None]:
+    """Give a unit its connectors and the values that it starts from; the units it speaks in."""
+    ends = [port for connection in CONNECTIONS for of, port in connection if of == name]
+    ends += [port for port in BALANCE if port in known]
+    connectors = _add(component, "ssd:Connectors")
+    for port in ends:
+        connector = _add(connectors, "ssd:Connector", name=port, kind=known[port].causality)
+        _add(connector, "ssc:Real", unit=known[port].unit or "1")
     if chosen:
-        bindings = SubElement(component, _of("ssd", "ParameterBindings"))
-        binding = SubElement(bindings, _of("ssd", "ParameterBinding"))
-        place = SubElement(binding, _of("ssd", "ParameterValues"))
-        place.append(_parameter_set(known, chosen))
-    units = {known[port].unit for _, port in ends} | {known[key].unit for key in chosen}
-    return {unit for unit in units if unit}
+        binding = _add(_add(component, "ssd:ParameterBindings"), "ssd:ParameterBinding")
+        _add(binding, "ssd:ParameterValues").append(_parameter_set(known, chosen))
+    return {known[key].unit for key in (*ends, *chosen)}
 
 
 def _parameter_set(
     known: Mapping[str, Variable], chosen: Mapping[str, float], before: str = ""
 ) -> Element:
     """Values by the names of the variables, with something before each."""
-    root = Element(_of("ssv", "ParameterSet"), name=SET, version="1.0")
-    parameters = SubElement(root, _of("ssv", "Parameters"))
+    root = _root("ssv:ParameterSet", name=SET, version="1.0")
+    parameters = _add(root, "ssv:Parameters")
     for key, value in chosen.items():
-        parameter = SubElement(parameters, _of("ssv", "Parameter"), name=before + key)
+        parameter = _add(parameters, "ssv:Parameter", name=before + key)
         if known[key].is_integer:
-            SubElement(parameter, _of("ssv", "Integer"), value=str(int(value)))
+            _add(parameter, "ssv:Integer", value=str(int(value)))
         else:
-            facts = {"value": repr(value)} | ({} if before else {"unit": known[key].unit or "1"})
-            SubElement(parameter, _of("ssv", "Real"), facts)
+            unit = {} if before else {"unit": known[key].unit or "1"}
+            _add(parameter, "ssv:Real", value=repr(value), **unit)
     return root
-
-
-def _add_units(element: Element, names: set[str]) -> None:
-    for name in sorted(names):
-        unit = SubElement(element, _of("ssc", "Unit"), name=name)
-        facts = {key: repr(value) for key, value in (UNITS[name] or {}).items()}
-        SubElement(unit, _of("ssc", "BaseUnit"), facts)

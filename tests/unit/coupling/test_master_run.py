@@ -21,7 +21,7 @@ from cosim.coupling import (
     port_table,
     run,
 )
-from cosim.coupling.step_control.fixed import Grid
+from cosim.coupling.step_control.control import Grid
 
 
 class Model(Part):

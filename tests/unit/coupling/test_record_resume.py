@@ -16,8 +16,8 @@ from cosim.coupling import GaussSeidel, run
 from cosim.coupling.record import Keep, RunFolder
 from cosim.coupling.record.checkpoint import CheckpointError, load_checkpoint
 from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton
-from cosim.coupling.schemes.explicit import Jacobi
 from cosim.coupling.schemes.iterated import Iterated
+from cosim.coupling.schemes.scheme import Jacobi
 from cosim.coupling.step_control.adaptive import AdaptiveStep
 from cosim.coupling.step_control.estimates import Defect, Doubling
 from cosim.coupling.tolerance import Tolerance

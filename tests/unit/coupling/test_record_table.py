@@ -84,7 +84,7 @@ def test_goes_on_at_a_place_that_it_has_passed(tmp_path):
             place = cut.place
     assert place == Place(4, 3, (10.0, 1.0))
     cut.close()
-    cut = GrowingTable.resumed(2, tmp_path / "cut.npy", place)
+    cut = GrowingTable(2, tmp_path / "cut.npy", place=place)
     assert loaded(cut.path)[:, 0].tolist() == [0, 4, 8, 10], "later rows are gone"
     for n in range(11, 20):
         cut.append([n, 0.1 * n], keep=n % 4 == 0)
@@ -99,7 +99,7 @@ def test_goes_on_where_it_was(tmp_path, keep):
     table.append([2.0], keep=keep)
     place = table.place
     table.close()
-    again = GrowingTable.resumed(1, table.path, place)
+    again = GrowingTable(1, table.path, place=place)
     assert again.place == place
     again.append([3.0])
     assert again.rows()[:, 0].tolist() == ([1.0, 2.0, 3.0] if keep else [1.0, 3.0])
@@ -123,7 +123,7 @@ def test_another_file_is_refused(tmp_path, spoil):
     table.close()
     spoil(table.path)
     with pytest.raises(OutputError, match=r"t\.npy: ") as refused:
-        GrowingTable.resumed(2, table.path, place)
+        GrowingTable(2, table.path, place=place)
     assert "\n" not in str(refused.value)
 
 

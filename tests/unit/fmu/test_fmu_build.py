@@ -171,8 +171,9 @@ def test_only_the_python_unit_says_that_it_needs_another_tool(built, built_in_py
 
 def test_an_unknown_library_is_left_alone_and_what_is_lost_is_said():
     step = pythonfmu_library.corrections()[0]
-    known = b"head" + step.found + b"tail"
-    assert pythonfmu_library.corrected(known) == b"head" + step.put + b"tail"
+    found, put = (bytes.fromhex(step[key]) for key in ("found", "put"))
+    known = b"head" + found + b"tail"
+    assert pythonfmu_library.corrected(known) == b"head" + put + b"tail"
     for unknown in (b"head", known * 2):
         with pytest.warns(UserWarning, match="not known: the FMU returns fmi2Discard"):
             assert pythonfmu_library.corrected(unknown) == unknown

@@ -14,7 +14,7 @@ from stickslip import Trajectory, simulate
 from stickslip.ports import OUTPUTS
 
 from cosim.coupling import Connection, CoupledResult, EnergyFlow, Ledger
-from cosim.coupling.statistics import Statistics
+from cosim.coupling.exchange import Effort, Statistics
 from cosim.report import OutputError, run_dataset, trajectory_dataset, write_data
 from cosim.report.contents import mechanics_of, thermal_of
 from cosim.report.dataset import THERMAL
@@ -106,13 +106,8 @@ def made_coupled(surface: str) -> tuple[CoupledResult, SimpleNamespace]:
 
 def statistics(steps: int) -> Statistics:
     """As of steps that were iterated twice each and, one of them, a third time."""
-    made = Statistics(["mechanics", "thermal"])
-    for _ in range(steps):
-        made.iterated(2)
-        made.stepped("mechanics", 0.25)
-        made.stepped("thermal", 0.5)
-    made.iterated(3)
-    made.rejected = 1
+    efforts = {"mechanics": Effort(steps, 0.25 * steps), "thermal": Effort(steps, 0.5 * steps)}
+    made = Statistics(efforts, iterations=2 * steps + 3, most_iterations=3, rejected=1)
     made.unconverged.append(0.5)
     return made
 

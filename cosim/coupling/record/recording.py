@@ -1,0 +1,93 @@
+"""The rows of a coupled run, one for each recorded time."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from itertools import groupby
+from operator import itemgetter
+
+import numpy as np
+
+from cosim.coupling.exchange import Exchange
+from cosim.coupling.participant import Causality
+from cosim.coupling.record.checkpoint import CheckpointError
+from cosim.coupling.record.folder import RunFolder
+from cosim.coupling.record.table import GrowingTable
+from cosim.coupling.system import Address, CoupledSystem, find_port
+from cosim.files import OutputError, write_text
+
+#: Takes the values of some ports of one participant, for a row.
+Taking = Callable[[Mapping[str, float]], Sequence[float]]
+
+
+class Recording:
+    """All outputs and the connected inputs of a system, one row per recorded time, on disk.
+
+    The newest row is replaced by the next one until it is kept, so that a run that ends early
+    still has the point it came to. An input's row holds the value that the step ending there was
+    made with.
+    folder: where the rows are for everybody to read; None: in a file without a name. place: go on
+    there in the file that an earlier process has left.
+    units: `participant.port` -> unit, in the order of participants and ports.
+    Raises OutputError where the disk refuses, CheckpointError where that file is another.
+    """
+
+    def __init__(
+        self,
+        system: CoupledSystem,
+        folder: RunFolder | None = None,
+        place: Sequence[object] | None = None,
+    ):
+        channels = _channels(system)
+        self.units = {str(each): find_port(system.participants, each).unit for _, each in channels}
+        # one for each run of channels of a participant
+        self._readers = [
+            (*of, _taking([each.port for _, each in group]))
+            for of, group in groupby(channels, key=lambda one: (one[0], one[1].participant))
+        ]
+        try:
+            self.table = GrowingTable(
+                1 + len(channels), None if folder is None else folder.record, place=place
+            )
+        except OutputError as error:
+            if place is None:
+                raise
+            raise CheckpointError(f"{error}: its run cannot be resumed") from error
+        if folder is not None:
+            columns = [{"name": n, "unit": u} for n, u in ({"time": "s"} | self.units).items()]
+            write_text(json.dumps({"columns": columns}, indent=1) + "\n", folder.columns)
+
+    def add(self, time: float, exchange: Exchange, keep: bool = True) -> None:
+        """Write the values of now as the row of a time (s); keep: do not replace it later."""
+        row = [time]
+        for causality, name, values in self._readers:
+            given = causality is Causality.OUTPUT
+            row += values((exchange.outputs if given else exchange.inputs)[name])
+        self.table.append(row, keep)
+
+    @property
+    def time(self) -> np.ndarray:
+        """Recorded times, s, (n,)."""
+        return self.table.rows()[:, 0]
+
+    def values(self) -> dict[str, np.ndarray]:
+        """`participant.port` -> (n,), read-only: memory is taken when they are looked at."""
+        return dict(zip(self.units, self.table.rows().T[1:], strict=True))
+
+
+def _channels(system: CoupledSystem) -> list[tuple[Causality, Address]]:
+    outputs = [
+        (Causality.OUTPUT, Address(name, port.name))
+        for name, participant in system.participants.items()
+        for port in participant.ports.values()
+        if port.causality is Causality.OUTPUT
+    ]
+    return outputs + [(Causality.INPUT, each.sink) for each in system.connections]
+
+
+def _taking(ports: Sequence[str]) -> Taking:
+    if len(ports) > 1:
+        return itemgetter(*ports)
+    (port,) = ports  # of one name, itemgetter gives the value itself
+    return lambda values: [values[port]]
