@@ -18,7 +18,7 @@ LOG_CATEGORIES = {
 }
 AUTHOR = "The stickslip developers"
 COPYRIGHT = "Copyright (c) 2026, the stickslip developers"
-LICENSE, VERSION = "BSD-3-Clause", version("stickslip")
+LICENSE = "BSD-3-Clause"
 # Initial value of an output -> the parameters that it follows from. Totals start from zero;
 # of the outputs not named here all parameters and inputs have a say.
 STARTS: dict[str, tuple[str, ...]] = {
@@ -59,7 +59,7 @@ class UnitFacts:
     name: str
     guid: str
     description: str
-    version: str = VERSION
+    version: str = field(default_factory=lambda: version("stickslip"))  # a wheel is built before
     tool: str = "stickslip"
     license: str = LICENSE
     python: bool = False
