@@ -200,8 +200,8 @@ class Models:
     def gained(self, part: Part) -> float:
         """ln of how much more probable the runs are with a finding beside all that the ladder has.
 
-        From where the ladder ended, scatters of friction averaged over. A number that is less known
-        with the finding is less probable beforehand, in every run.
+        From where the ladder ended, scatters of friction and of zeros averaged over. A number that
+        is less known with the finding is less probable beforehand, in every run.
         """
         (numbers, settings, scatter), near = self.free[-1], self.fits[-1]
         # from next to nothing of it, where no run is lost; else as the rows have it all

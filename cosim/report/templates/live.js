@@ -35,6 +35,12 @@ const live = (() => {
     return text.replaceAll("-", "−");
   }
 
+  // What axes look like, whatever is between them.
+  const DASH = [5, 4], FONT = '12px system-ui, "DejaVu Sans", sans-serif';
+  const axis = { stroke: "#222", font: FONT, labelFont: FONT, grid: { stroke: "#e3e3e3", width: 1 },
+    ticks: { stroke: "#8a8a8a", width: 1, size: 5 },
+    values: (_, values) => values.map((value) => (value === null ? "" : told(value, 6))) };
+
   // Each figure of a kind with its data and an empty stage; none where its script fails.
   function each(kind, draw) {
     for (const figure of document.querySelectorAll("figure.live")) {
@@ -138,5 +144,5 @@ const live = (() => {
     },
   };
 
-  return { numbers, element, swatch, told, each, dataOf, onPaper, onWidth, sized, colours, scale, placeOf, clock };
+  return { DASH, FONT, axis, numbers, element, swatch, told, each, dataOf, onPaper, onWidth, sized, colours, scale, placeOf, clock };
 })();

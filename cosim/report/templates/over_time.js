@@ -2,8 +2,8 @@
 // figures of a page that are over the same time, from begin to end, zoom and point together.
 "use strict";
 (() => {
-  const HEIGHT = 190, MAP_HEIGHT = 340, PAPER = 0.6, INK = "#222", SOFT = "#5c5c5c", GRID = "#e3e3e3", SHADE = "#f8ead0";
-  const ON_A_SCREEN = 3, DASH = [5, 4], FONT = '12px system-ui, "DejaVu Sans", sans-serif';
+  const HEIGHT = 190, MAP_HEIGHT = 340, PAPER = 0.6, INK = "#222", SOFT = "#5c5c5c", SHADE = "#f8ead0";
+  const ON_A_SCREEN = 3, { DASH, FONT } = live;
   const plots = [];
   let sharing = false;
 
@@ -169,10 +169,6 @@
     return names.length ? Math.max(28, 10 + 6.5 * Math.max(...names)) : 14;
   }
 
-  function axisTold(_, values) {
-    return values.map((value) => (value === null ? "" : live.told(value, 6)));
-  }
-
   // A label that is longer than the plot is high stands above it; of plots side by side, all do.
   const isAbove = (panel, data) => data.columns > 1 || panel.label.length > 20;
   const unitOf = (panel) => (panel.label.match(/\[(.*)\]/) || ["", ""])[1];
@@ -188,8 +184,7 @@
       points: { show: curve.dots || data.time.length < 3, size: 4, fill: curve.colour },
       paths: curve.dots || floor ? () => null : curve.steps ? uPlot.paths.stepped({ align: -1 }) : undefined,
     }));
-    const look = { stroke: INK, font: FONT, labelFont: FONT, grid: { show: !floor, stroke: GRID, width: 1 },
-      ticks: { stroke: "#8a8a8a", width: 1, size: 5 }, values: axisTold };
+    const look = { ...live.axis, grid: { ...live.axis.grid, show: !floor } };
     return {
       width: 300,
       height: (floor ? MAP_HEIGHT : HEIGHT) + (first && data.marks.length ? 14 : 0) + (last ? 18 : 0),

@@ -1,8 +1,7 @@
 // Ways in a plane of velocity over place, on uPlot's axes: their points do not go from left to right.
 "use strict";
 (() => {
-  const SIZE = 340, INK = "#222", GRID = "#e3e3e3", DASH = [5, 4], FONT = '12px system-ui, "DejaVu Sans", sans-serif';
-  const FAINT = 0.15, FULL = 0.9, PIECES = 24, MARGIN = 0.06;
+  const SIZE = 340, FAINT = 0.15, FULL = 0.9, PIECES = 24, MARGIN = 0.06;
 
   function ends(ways, name) {
     const all = ways.flatMap((way) => way[name] ? [way[name].reduce((a, b) => (b < a ? b : a), Infinity),
@@ -31,7 +30,7 @@
     for (const way of ways) {
       ctx.strokeStyle = way.colour;
       ctx.lineWidth = way.width * dense;
-      ctx.setLineDash(way.dash ? DASH.map((length) => length * dense) : []);
+      ctx.setLineDash(way.dash ? live.DASH.map((length) => length * dense) : []);
       const pieces = way.fades ? PIECES : 1, count = way.y.length;
       if (!way.x) {
         const height = plot.valToPos(way.y[0], "y", true);
@@ -63,8 +62,7 @@
     box.append(bar, holder);
     room.append(box);
     const x = ends(ways, "x"), y = ends(ways, "y");
-    const look = { stroke: INK, font: FONT, labelFont: FONT, labelSize: 18, grid: { stroke: GRID, width: 1 },
-      ticks: { stroke: "#8a8a8a", width: 1, size: 5 }, values: (_, at) => at.map((value) => live.told(value, 6)) };
+    const look = { ...live.axis, labelSize: 18 };
     const plot = new uPlot({
       width: 300, height: SIZE, legend: { show: false }, cursor: { show: false }, padding: [8, 14, 0, 0],
       scales: { x: { time: false, range: x }, y: { range: y } }, series: [{}, {}],
