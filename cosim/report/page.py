@@ -22,7 +22,7 @@ from functools import cache, cached_property
 from importlib import resources
 from typing import Any
 
-from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
+from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined, select_autoescape
 from markupsafe import Markup
 
 #: Pixels of an inch: on a page, and of the pictures.
@@ -79,6 +79,26 @@ def render(template: str, package: str, **values: Any) -> str:
     return found.render(**values, figure=drawn, scripts=lambda: _scripts(kinds))
 
 
+def texts(template: str, package: str, known: Mapping[str, Any]) -> Any:
+    """The macros of a text template that lies in a package, as functions of what they are told.
+
+    known: names that the template uses, such as those of a module.
+    """
+    return _environment(package).get_template(template, globals=dict(known)).module
+
+
+def sentences(text: str) -> list[str]:
+    """The paragraphs of a text, which blank lines part, each as one line."""
+    parts = re.split(r"\n *\n", text)
+    return [re.sub(r"[ \n]+", " ", part).strip() for part in parts if part.strip()]
+
+
+def tiles_of(text: str) -> list[tuple[str, str]]:
+    """Names and values of figures, of a text whose paragraphs are "name | value"."""
+    parts = [line.partition("|") for line in sentences(text)]
+    return [(name.strip(), value.strip()) for name, _, value in parts]
+
+
 def _scripts(kinds: set[str]) -> Markup:
     """The scripts that these kinds of live pictures need, each once."""
     files = dict.fromkeys(file for kind in SCRIPTS if kind in kinds for file in SCRIPTS[kind])
@@ -101,13 +121,14 @@ def asset(file: str) -> str:
 def _environment(package: str) -> Environment:
     environment = Environment(
         loader=ChoiceLoader([PackageLoader("cosim.report"), PackageLoader(package, ".")]),
-        autoescape=True,
+        autoescape=select_autoescape(["html.j2"]),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
     environment.filters["number"] = number
     environment.filters["unit"] = unit_text
+    environment.filters["g"] = "{:g}".format
     environment.globals["asset"] = lambda file: Markup(asset(file))
     return environment
 

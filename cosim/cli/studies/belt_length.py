@@ -6,11 +6,10 @@ import json
 import sys
 import time
 from argparse import Namespace
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from cosim.cli import DONE, FAILED, BadInput
 from cosim.cli.bar import Bar
@@ -33,12 +32,9 @@ from cosim.studies.belt_length import (
     ignored_keys,
     remarks,
     scenario_case,
-    verdict,
     with_ranges,
     work_off,
 )
-from cosim.studies.belt_length.lengths import length_text
-from cosim.studies.belt_length.result import PRINTED
 from cosim.studies.belt_length.show.page import (
     CHANGES,
     DOUBT,
@@ -48,23 +44,11 @@ from cosim.studies.belt_length.show.page import (
     write_numbers,
     write_page,
 )
-from cosim.studies.belt_length.show.wording import two_digits
+from cosim.studies.belt_length.show.words import printed
 from cosim.studies.belt_length.study import BOUNDS, check_case, check_options, steps
 
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
 STUDY = Case(1.0, 0.82)
-
-#: The printed columns in words.
-LEGEND = (
-    "study: its single pass; drift: rise of the belt over the air where it enters the contact, at"
-    " the end of the runs; low, high: 5 and 95 % of the doubt; steady: for ever; interface drift:"
-    " what the interface warms by at constant speed; endless belt: on one that never comes round;"
-    " ice: rise of its face; belt share: of the friction heat; wait: until belt and ice are within"
-    " the limit again; mu change: of the kinetic friction by the interface's rise, relative."
-)
-
-#: The two questions, as tables have them.
-COLD, STEADY = "comes round cold", "interface steady"
 
 #: Choice -> the study's values; of the others it has the default case's.
 STUDIED = {"length": (1.0, 2.0, 3.0, 4.0), "speed": (0.15, 0.5, 0.82)}
@@ -169,71 +153,6 @@ def _protocol(base: Case, arguments: Namespace) -> Protocol:
 def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None:
     if asked.give(json.dumps(study.summary(), indent=1)):
         return
-    if study.answers:
-        _print_answers(study)
-    elif study.rows:
-        shown = study.table()[PRINTED]
-        # what is asked for is printed as it is, what is found with as much as it is worth
-        exact = {name: "{:g}".format for name in ("length [m]", "speed [m/s]")}
-        print(shown.to_string(index=False, formatters=exact, float_format=two_digits))
-        print(LEGEND)
-        _print_shortest(study)
-    if not study.answers:
-        for sentence in verdict(study):
-            print(sentence)
-    if study.rows:
-        _print_changes(study)
+    print(printed(study), end="")
     cases = f"{len(study.rows)} case{'s' * (len(study.rows) != 1)}"
     print(f"{cases} in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
-
-
-def _print_answers(study: Study) -> None:
-    """Of an own rig: the answer, then its numbers."""
-    for sentence in verdict(study):
-        print(sentence)
-    print("Lengths are rounded up to two digits.")
-    belts = []
-    for answer in study.answers:
-        for name, question, ever in (
-            (COLD, answer.run, length_text(answer.run.for_ever)),
-            (STEADY, answer.interface, "-"),
-        ):
-            levels = [level.says if level else "-" for level in question.levels]
-            belts.append((name, answer.case.speed, length_text(question.shortest), *levels, ever))
-    _print_belts("shortest belt [m]", ("as said", "5 %", "median", "95 %", "for ever"), belts)
-
-
-def _print_shortest(study: Study) -> None:
-    """The shortest belts of the nominal rig, and at the levels of its doubt."""
-    print(
-        "Shortest belt [m], rounded up to two digits: as the rig is given; in half and in 95 % of"
-        " the sampled rigs; for ever"
-    )
-    doubted, belts = study.shortest_in_doubt(), []
-    for case, row in {row.case.with_length(1.0): row for row in study.rows}.items():
-        for name, rise, said, ever in (
-            (COLD, "run", row.shortest_run, length_text(row.shortest_steady)),
-            (STEADY, "interface", row.shortest_interface, "-"),
-        ):
-            levels = [doubted[case][rise][level].says or "-" for level in ("median", "high")]
-            belts.append((name, case.speed, length_text(said), *levels, ever))
-    _print_belts("question", ("as said", "median", "95 %", "for ever"), belts)
-
-
-def _print_belts(what: str, headings: Sequence[str], belts: Iterable[tuple[Any, ...]]) -> None:
-    """Lengths of belts by question and speed."""
-    print(f"{what:<22} {'speed [m/s]':>11} " + " ".join(f"{one:>8}" for one in headings))
-    for name, speed, *lengths in belts:
-        print(f"{name:<22} {speed:11g} " + " ".join(f"{one:>8}" for one in lengths))
-
-
-def _print_changes(study: Study) -> None:
-    """What would help, in the case that drifts most."""
-    row = study.worst
-    print(
-        f"One change alone, {row.case.length:g} m at {row.case.speed:g} m/s: belt at entry,"
-        " interface at constant speed, K"
-    )
-    for one in row.changes:
-        rises = (two_digits(rise) for rise in (one.run, one.interface_drift))
-        print(f"  {one.what:60} {' '.join(f'{rise:>9}' for rise in rises)}")

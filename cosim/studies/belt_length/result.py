@@ -22,7 +22,7 @@ from .required_length import Answer
 from .uncertainty import Uncertainty
 
 #: What speaks, draws and writes; loaded when asked for.
-HEADLINE, VERDICT, PAGE = (f"{__package__}.show.{n}" for n in ("headline", "verdict", "page"))
+WORDS, PAGE = f"{__package__}.show.words", f"{__package__}.show.page"
 #: Column of the table -> place in a case's JSON.
 _TABLE = packaged_tables(__package__, "columns.toml")
 _COLUMNS, PRINTED = _TABLE["columns"], _TABLE["printed"]
@@ -131,7 +131,7 @@ class Study(Result):
             **shared,
             "answers": [one.as_dict() for one in self.answers],
             "cases": self._cases(),
-            "verdict": import_module(VERDICT).verdict(self),
+            "verdict": import_module(WORDS).verdict(self),
         }
         if self.grid is not None:
             # where a stopped map did not come is null
@@ -140,8 +140,8 @@ class Study(Result):
         return numbers
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        headline = import_module(HEADLINE)
-        return headline.headline(self), headline.tiles(self)
+        words = import_module(WORDS)
+        return words.headline(self), words.tiles(self)
 
     def _page(self) -> str:
         text: str = import_module(PAGE).page(self)[0]

@@ -22,9 +22,7 @@ from ..lengths import length_text
 from ..result import Row, Study
 from ..unknowns import unknowns_of
 from .figures import draw_doubt, draw_drift, draw_map
-from .headline import headline, tiles
-from .verdict import verdict
-from .wording import percent, two_digits
+from .words import headline, percent, tiles, two_digits, verdict
 
 RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
 CHANGES, DOUBT = "changes.csv", "doubt.csv"
