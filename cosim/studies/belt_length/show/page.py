@@ -18,11 +18,10 @@ from cosim.files import write_atomically, write_bytes, write_text
 from cosim.report.material import page_of_material
 from cosim.report.page import Picture, render
 
-from ..lengths import length_text
 from ..result import Row, Study
 from ..unknowns import unknowns_of
+from . import words
 from .figures import draw_doubt, draw_drift, draw_map
-from .words import headline, percent, tiles, two_digits, verdict
 
 RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
 CHANGES, DOUBT = "changes.csv", "doubt.csv"
@@ -55,38 +54,26 @@ def write_page(study: Study, folder: Path, command: str = "") -> None:
 
 def page(study: Study, command: str = "") -> tuple[str, list[Picture]]:
     """HTML of a study with rows; its pictures."""
-    answers, doubted, worst = study.answers, study.most_doubted, study.worst
+    doubted = study.most_doubted
     pictures = [draw_drift(study)]
     if doubted is not None and doubted.uncertainty is not None:
         pictures.append(draw_doubt(doubted, doubted.uncertainty))
     if study.grid is not None:
         pictures.append(draw_map(study.grid, study.rows[0].case, study.options.limit))
-    start, *rest = worst.changes
-    own = tomllib.loads(study.scenario)
+    start, *rest = study.worst.changes
     html = render(
         "belt_length.html.j2",
         "cosim.studies.belt_length.show",
-        name=own.get("name", "The source study's rig"),
-        headline=headline(study),
-        tiles=tiles(study),
-        sentences=[_on_page(sentence) for sentence in verdict(study)],
+        **vars(words),
+        study=study,
+        name=tomllib.loads(study.scenario).get("name", "The source study's rig"),
+        on_page=_on_page,
         most=MOST_SENTENCES,
-        answers=answers,
-        rows=study.rows,
-        layers=study.rows[0].case.thermal().belt.stack,
         changes=[start, *sorted(rest, key=lambda one: abs(one.run))],
-        worst=worst.case,
         doubts=[] if doubted is None else _doubts(doubted),
-        evaluations=max((one.evaluations for one in answers), default=0),
-        unexplained=max((max(one.unexplained) for one in answers), default=0.0),
-        reasons=list(dict.fromkeys(one.reason for one in answers if one.reason)),
         pictures={one.name: one for one in pictures},
-        scenario=study.scenario,
         command=command,
         files=FILES,
-        two_digits=lambda value: two_digits(value).replace("-", "−"),
-        percent=percent,
-        metres=length_text,
     )
     return page_of_material(html, study.material), pictures
 
