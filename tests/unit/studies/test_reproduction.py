@@ -27,7 +27,6 @@ from cosim.studies.reproduction.claim import (
     DOES_NOT_HOLD,
     FAR,
     HOLDS,
-    JUDGES,
     ONLY_WITH_FAULT,
     OPEN,
     PUT_IN,
@@ -35,7 +34,6 @@ from cosim.studies.reproduction.claim import (
     Margin,
     Turn,
     judged,
-    judges,
     responsible,
     responsible_pairs,
 )
@@ -112,16 +110,14 @@ def test_numbers_are_judged_by_the_written_limit(monkeypatch, size):
         "turn": {"wider": {"change": "wider", "figure": "size {value:.1f}", "weight": "open"}},
     }  # fmt: skip
     monkeypatch.setitem(WRITTEN, "C0", written)
-    monkeypatch.setitem(JUDGES, "C0", None)
 
-    @judges("C0")
     def judge(claim):
         claim.row("size", [size, None, math.nan], who="a block")
         claim.check("below", [None, 3.0, size])
         claim.turn("wider", 2.0 * size)
         return {"n": 7}
 
-    claim = judged("C0")
+    claim = judged("C0", judge)
     check, row = claim.checks[0], claim.rows[0]
     assert (check.printed, check.mended, check.exact) == (None, False, size <= 2.0)
     assert check.margin == Margin("size", size, 2.0)

@@ -20,7 +20,7 @@ from cosim.report.style import panels
 
 from .. import cases
 from ..cases import DATASET_1, DATASET_2, DATASETS, Case
-from ..claim import MODELS, STUDY, WRITTEN, Claim, judges, responsible
+from ..claim import MODELS, STUDY, WRITTEN, Claim, responsible
 from ..drawing import COLOURS, Panel, add_picture, over_time
 from ..motion import Motion
 
@@ -98,7 +98,6 @@ def _quarter_wins(faults: Faults) -> bool:
     return misfit(of_scheme(DATASET_2, PRINTED)) < misfit(of_scheme(DATASET_1, faults))
 
 
-@judges("C6")
 def judge(claim: Claim) -> dict[str, Any]:
     """All observations against every variant; the claim holds where a quarter of mu fits better."""
     of = {key: values for key, (_, values) in variants().items()}
