@@ -1,7 +1,8 @@
 """Pages: one self-contained HTML file, its pictures inside, its look that of all the others.
 
 A page is a Jinja template that extends `page.html.j2` and fills its blocks title, style and
-content. Beside its own values it has ``figure(picture)`` and the filters ``number`` and ``unit``.
+content. Beside its own values it has ``figure(picture)``, ``boxes(tiles)`` and the filters
+``number``, ``unit`` and ``g``.
 
 A picture with ``live`` is drawn by the scripts in `templates/`, to hover over, to zoom or to play;
 others are PNGs. The scripts are in the page, plain and readable, and so is uPlot (MIT licence, in
@@ -130,6 +131,7 @@ def _environment(package: str) -> Environment:
     environment.filters["unit"] = unit_text
     environment.filters["g"] = "{:g}".format
     environment.globals["asset"] = lambda file: Markup(asset(file))
+    environment.globals["boxes"] = environment.get_template("parts.html.j2").module.boxes
     return environment
 
 
