@@ -17,14 +17,17 @@ import base64
 import json
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from importlib import resources
+from pathlib import Path
 from typing import Any
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined, select_autoescape
 from markupsafe import Markup
+
+from cosim.files import write_bytes, write_text
 
 #: Pixels of an inch: on a page, and of the pictures.
 CSS_DPI, DPI = 96, 150
@@ -78,6 +81,13 @@ def render(template: str, package: str, **values: Any) -> str:
 
     found = _environment(package).get_template(template)
     return found.render(**values, figure=drawn, scripts=lambda: _scripts(kinds))
+
+
+def write_page(text: str, pictures: Iterable[Picture], folder: Path) -> None:
+    """Pictures as files beside the page that has them, then the page."""
+    for picture in pictures:
+        write_bytes(picture.png, folder / f"{picture.name}.png")
+    write_text(text, folder / "report.html")
 
 
 def texts(template: str, package: str, known: Mapping[str, Any]) -> Any:

@@ -17,6 +17,7 @@ from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
+from cosim.report.page import write_page
 from cosim.scenario import Scenario
 from cosim.studies.belt_length import (
     Case,
@@ -35,16 +36,8 @@ from cosim.studies.belt_length import (
     with_ranges,
     work_off,
 )
-from cosim.studies.belt_length.show.page import (
-    CHANGES,
-    DOUBT,
-    PAGE,
-    RESULT,
-    TABLE,
-    write_numbers,
-    write_page,
-)
-from cosim.studies.belt_length.show.words import printed
+from cosim.studies.belt_length.show import page
+from cosim.studies.belt_length.show.text import printed
 from cosim.studies.belt_length.study import BOUNDS, check_case, check_options, steps
 
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
@@ -59,7 +52,7 @@ def execute(arguments: Namespace) -> int:
     began = time.perf_counter()
     scenario, wanted, options = _asked(arguments)
     numbers = numbers_asked(arguments, ("limit", "cases", "verdict"))
-    own_files = (RESULT, TABLE, PAGE, CHANGES, DOUBT)
+    own_files = (page.RESULT, page.TABLE, page.PAGE, page.CHANGES, page.DOUBT)
     folder = own_folder(arguments.output, own_files, arguments.force)
     if scenario is not None:
         _note(scenario)
@@ -81,9 +74,9 @@ def execute(arguments: Namespace) -> int:
         status = FAILED
     made = made_by(scenario=study.scenario or None)
     with results_in(folder, made, force=arguments.force) as results:
-        write_numbers(study, folder)
+        page.write_numbers(study, folder)
         if status == DONE:
-            write_page(study, folder, made["command"])
+            write_page(*page.page(study, made["command"]), folder)
             results.complete = True
     _print(study, numbers, folder, time.perf_counter() - began)
     return status
@@ -155,4 +148,4 @@ def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None
         return
     print(printed(study), end="")
     cases = f"{len(study.rows)} case{'s' * (len(study.rows) != 1)}"
-    print(f"{cases} in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
+    print(f"{cases} in {wall_time:.1f} s; {folder / page.PAGE}, {folder / page.RESULT}")

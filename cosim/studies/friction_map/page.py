@@ -14,9 +14,9 @@ from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke
 from stickslip import friction_coefficient
 
-from cosim.files import write_bytes, write_text
+from cosim.files import write_text
 from cosim.report.files import write_table
-from cosim.report.page import Picture, number, render
+from cosim.report.page import Picture, number, render, write_page
 from cosim.report.palette import GREY, INK, PALE_GREY, SERIES
 from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
 
@@ -228,8 +228,7 @@ def write(found: FrictionMap, folder: Path, command: str = "") -> None:
     write_text(json.dumps(found.summary(), indent=1), folder / "friction_map.json")
     write_table(pd.DataFrame(found.points), folder / "friction_map.csv", index=False)
     drawn = draw_map(found)
-    write_bytes(drawn.png, folder / "friction_map.png")
-    write_text(page(found, drawn, command), folder / "report.html")
+    write_page(page(found, drawn, command), [drawn], folder)
 
 
 def page(found: FrictionMap, drawn: Picture, command: str) -> str:

@@ -3,30 +3,31 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from stickslip.steady_motion.starts import OWN, STARTS
 
-from cosim.files import write_bytes, write_text
+from cosim.files import write_text
+from cosim.report.files import without_nan
 from cosim.report.motion_text import border_sentence, regime_sentence, stability_sentence
-from cosim.report.page import Picture
+from cosim.report.page import Picture, number, render, write_page
 from cosim.result import Result
 from cosim.scenario import Scenario
 
 from .maps import (
+    MAPPED,
     Case,
     NotAMotion,
     PretensionMap,
     RegimeMap,
-    as_json,
     case_of,
-    page,
     pretension_map,
     regime_map,
-    tiles,
 )
 from .stick_slip_range import range_sentence, stick_slip_range
 
@@ -102,9 +103,7 @@ class Stability(Result):
     def _write(self, folder: Path) -> None:
         pictures = self.pictures
         write_text(json.dumps(self.summary(), indent=1), folder / RESULT)
-        for picture in pictures:
-            write_bytes(picture.png, folder / f"{picture.name}.png")
-        write_text(page(self.summary(), self.sentences, pictures), folder / PAGE)
+        write_page(page(self.summary(), self.sentences, pictures), pictures, folder)
 
 
 def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stability:
@@ -129,3 +128,58 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
     if grid:
         found.fill_maps(grid)
     return found
+
+
+def as_json(
+    case: Case, stretched: PretensionMap | None, regimes: RegimeMap | None
+) -> dict[str, Any]:
+    """Case and maps with plain numbers, SI; what was not computed is None."""
+    return {
+        "name": case.name,
+        **case.assessment.as_dict(),
+        "starts": STARTS,
+        "pretension_map": stretched
+        and {key: without_nan(values.tolist()) for key, values in vars(stretched).items()},
+        "regime_map": regimes
+        and {
+            "ratios": regimes.ratios.tolist(),
+            "speeds": regimes.speeds.tolist(),
+            "simulated": _by_start(regimes.simulated),
+            "closed_form": None if regimes.closed_form is None else _by_start(regimes.closed_form),
+            "cells_that_differ": regimes.wrong,
+            "fastest_from_rest": regimes.fastest_from_rest,
+            "closed_form_borders": _by_start(regimes.borders),
+        },
+    }
+
+
+def _by_start(tables: Iterable[np.ndarray]) -> dict[str, Any]:
+    return {start: table.tolist() for start, table in zip(MAPPED, tables, strict=False)}
+
+
+def page(numbers: dict[str, Any], sentences: Sequence[str], pictures: Sequence[Picture]) -> str:
+    """HTML of the numbers of `as_json`, what they say, the first of it first, and the maps."""
+    # the heading is one sentence, and what it goes on with stands below
+    sentence, *rest = re.split(r"(?<=\.) (?=[A-Z])", sentences[0], maxsplit=1)
+    return render(
+        "stability.html.j2",
+        "cosim.studies.stability",
+        numbers=numbers,
+        sentence=sentence,
+        sentences=[*rest, *sentences[1:]],
+        tiles=tiles(numbers),
+        pictures=pictures,
+    )
+
+
+def tiles(numbers: dict[str, Any]) -> list[tuple[str, str]]:
+    """Four figures: how fast disturbances grow, what would help, and what the run does."""
+    found, own = numbers["stability"], numbers["regimes"][OWN]
+    growth, least = found.get("growth"), found.get("least_pretension")
+    there = [
+        ("growth of a disturbance in a cycle", growth and f"{number(growth, 3)} times"),
+        ("least pretension for stability", least and f"{number(1e3 * least, 3)} mm"),
+        ("break-aways", own["frequency"] and f"{number(own['frequency'], 3)} Hz"),
+        ("of the time in slip", f"{number(100.0 * own['slip_share'], 3)} %"),
+    ]
+    return [(words, value) for words, value in there if value]

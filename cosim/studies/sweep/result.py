@@ -10,9 +10,8 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 import xarray as xr
 
-from cosim.files import write_bytes, write_text
 from cosim.report.files import without_nan, write_netcdf, write_table
-from cosim.report.page import render
+from cosim.report.page import render, write_page
 from cosim.result import Result
 
 from . import words
@@ -71,8 +70,7 @@ def write(
     write_netcdf(datasets, folder / RESULT)
     write_table(pd.DataFrame(records(datasets[""])), folder / TABLE, index=False)
     text, picture = _drawn(datasets[""], asked, command)
-    write_bytes(picture.png, folder / FIGURE)
-    write_text(text, folder / PAGE)
+    write_page(text, [picture], folder)
 
 
 def _drawn(

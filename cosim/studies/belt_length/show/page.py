@@ -14,13 +14,13 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
-from cosim.files import write_atomically, write_bytes, write_text
+from cosim.files import write_atomically, write_text
 from cosim.report.material import page_of_material
 from cosim.report.page import Picture, render
 
 from ..result import Row, Study
 from ..unknowns import unknowns_of
-from . import words
+from . import text
 from .figures import draw_doubt, draw_drift, draw_map
 
 RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
@@ -44,14 +44,6 @@ def write_numbers(study: Study, folder: Path) -> None:
             write_atomically(folder / name, partial(table.to_csv, index=False))
 
 
-def write_page(study: Study, folder: Path, command: str = "") -> None:
-    """Of a study with rows."""
-    text, pictures = page(study, command)
-    for one in pictures:
-        write_bytes(one.png, folder / f"{one.name}.png")
-    write_text(text, folder / PAGE)
-
-
 def page(study: Study, command: str = "") -> tuple[str, list[Picture]]:
     """HTML of a study with rows; its pictures."""
     doubted = study.most_doubted
@@ -64,7 +56,7 @@ def page(study: Study, command: str = "") -> tuple[str, list[Picture]]:
     html = render(
         "belt_length.html.j2",
         "cosim.studies.belt_length.show",
-        **vars(words),
+        **vars(text),
         study=study,
         name=tomllib.loads(study.scenario).get("name", "The source study's rig"),
         on_page=_on_page,

@@ -1,4 +1,4 @@
-"""What is said of a study: `said.txt.j2` with the figures in words that it asks for."""
+"""What is said of a study: `sentences.txt.j2` with the figures in words that it asks for."""
 
 from __future__ import annotations
 
@@ -28,22 +28,22 @@ _HELPS = 0.95
 
 def verdict(study: Study) -> list[str]:
     """Some sentences; what is said holds for the cases that were computed."""
-    return [of_material(one, study.material) for one in sentences(said().verdict(study))]
+    return [of_material(one, study.material) for one in sentences(macros().verdict(study))]
 
 
 def answered(answer: Answer) -> list[str]:
     """The answer for one drive of an own rig, in the words of ice."""
-    return sentences(said().answered(answer))
+    return sentences(macros().answered(answer))
 
 
 def headline(study: Study) -> str:
     """How long the belt must be: of an own rig, or whether the asked ones of the study's do."""
-    return " ".join(sentences(said().headline(study)))
+    return " ".join(sentences(macros().headline(study)))
 
 
 def tiles(study: Study) -> list[tuple[str, str]]:
     """The first answer's lengths, or the shortest belts of the study's rig by speed."""
-    return tiles_of(said().tiles(study))
+    return tiles_of(macros().tiles(study))
 
 
 def printed(study: Study) -> str:
@@ -52,13 +52,13 @@ def printed(study: Study) -> str:
     exact = {name: "{:g}".format for name in ("length [m]", "speed [m/s]")}
     style: Any = {"index": False, "formatters": exact, "float_format": two_digits}
     table = study.table()[PRINTED].to_string(**style) if study.rows else ""
-    return str(said().printed(study, verdict(study), table))
+    return str(macros().printed(study, verdict(study), table))
 
 
 @cache
-def said() -> Any:
-    """The macros of `said.txt.j2`."""
-    return texts("said.txt.j2", __package__, globals())
+def macros() -> Any:
+    """The macros of `sentences.txt.j2`."""
+    return texts("sentences.txt.j2", __package__, globals())
 
 
 def two_digits(value: float) -> str:
