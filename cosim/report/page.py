@@ -141,7 +141,8 @@ def _environment(package: str) -> Environment:
     environment.filters["unit"] = unit_text
     environment.filters["g"] = "{:g}".format
     environment.globals["asset"] = lambda file: Markup(asset(file))
-    environment.globals["boxes"] = environment.get_template("parts.html.j2").module.boxes
+    parts: Any = environment.get_template("parts.html.j2").module
+    environment.globals["boxes"] = parts.boxes
     return environment
 
 
