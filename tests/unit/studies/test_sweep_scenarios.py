@@ -137,8 +137,8 @@ def test_the_command_leaves_a_page_and_a_table(tmp_path, capsys):
     """A block that never sticks has no frequency: neither a curve at 0 Hz nor a number."""
     file, out = tmp_path / "short.toml", tmp_path / "out"
     file.write_text(SHORT.changed({"run.duration": 3.0}).to_toml())
-    words = [str(file), "--vary", "surface.speed=0.15,5", "--jobs", "1", "-o", str(out), "--json"]
-    assert executed(sweep_command, *words) == 0
+    asked = [str(file), "--vary", "surface.speed=0.15,5", "--jobs", "1", "-o", str(out), "--json"]
+    assert executed(sweep_command, *asked) == 0
     rows = json.loads(capsys.readouterr().out)["runs"]
     assert [row["surface.speed"] for row in rows] == [0.15, 5.0]
     assert rows[1]["frequency"] == 0.0 and rows[1]["slip_time"] is None

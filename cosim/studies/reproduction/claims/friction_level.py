@@ -73,17 +73,13 @@ def variants() -> dict[str, tuple[str, Array]]:
     """Everything that is laid beside the measurements: key -> name, what it shows."""
     found = {}
     for key, one in WRITTEN["C6"]["variant"].items():
-        case, mended, pretension = (
-            DATASETS[one["dataset"]],
-            one.get("mended"),
-            one.get("pretension"),
-        )
+        case, pretension = DATASETS[one["dataset"]], one.get("pretension")
         if pretension == "fitted":
             pretension = min(PRETENSIONS, key=lambda m: misfit(of_exact(case, m)))
-        if mended is None:
-            values = of_exact(case, pretension)
-        else:
+        if (mended := one.get("mended")) is not None:
             values = of_scheme(case, MENDED if mended == "all" else PRINTED.without(*mended))
+        else:
+            values = of_exact(case, pretension)
         found[key] = str(one["name"]).format(mm=1e3 * (pretension or 0.0)), values
     return found
 
