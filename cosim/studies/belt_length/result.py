@@ -150,7 +150,8 @@ class Study(Result):
     def _write(self, folder: Path) -> None:
         page = import_module(PAGE)
         page.write_numbers(self, folder)
-        write_page(*page.page(self), folder)
+        text, pictures = page.page(self)
+        write_page(text, pictures, folder)
 
     def table(self) -> pd.DataFrame:
         """One row a case; NaN where nothing is known."""

@@ -19,16 +19,8 @@ from cosim.report.page import Picture, number, render, write_page
 from cosim.result import Result
 from cosim.scenario import Scenario
 
-from .maps import (
-    MAPPED,
-    Case,
-    NotAMotion,
-    PretensionMap,
-    RegimeMap,
-    case_of,
-    pretension_map,
-    regime_map,
-)
+from . import maps
+from .maps import MAPPED, Case, NotAMotion, PretensionMap, RegimeMap
 from .stick_slip_range import range_sentence, stick_slip_range
 
 RESULT, PAGE = "stability.json", "report.html"
@@ -70,8 +62,8 @@ class Stability(Result):
         speeds = abs(surface.speed) * np.linspace(*SPEEDS, grid)
         if rig.degrees_of_freedom != ("x",):
             stretched = rig.spring_length * np.linspace(*PRETENSIONS, grid)
-            self.pretension = pretension_map(self.case, stretched, speeds, done)
-        self.regimes = regime_map(self.case, np.linspace(*RATIOS, grid), speeds, done)
+            self.pretension = maps.pretension_map(self.case, stretched, speeds, done)
+        self.regimes = maps.regime_map(self.case, np.linspace(*RATIOS, grid), speeds, done)
 
     def summary(self) -> dict[str, Any]:
         """What `stability.json` holds."""
@@ -91,8 +83,8 @@ class Stability(Result):
         """Of the maps."""
         from .figures import draw_pretension_map, draw_regime_map
 
-        maps = ((draw_pretension_map, self.pretension), (draw_regime_map, self.regimes))
-        return [draw(found, self.case) for draw, found in maps if found is not None]
+        pairs = ((draw_pretension_map, self.pretension), (draw_regime_map, self.regimes))
+        return [draw(found, self.case) for draw, found in pairs if found is not None]
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
         return self.sentences[0], tiles(self.summary())
@@ -122,7 +114,7 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
     """
     if grid < 0 or grid == 1:
         raise NotAMotion(f"grid = {grid}: must be at least 2, or 0 for none")
-    found = Stability(case_of(scenario))
+    found = Stability(maps.case_of(scenario))
     if border:
         found.find_range(border)
     if grid:

@@ -25,15 +25,7 @@ from cosim.report.files import provenance
 from cosim.scenario import Scenario
 
 from .axis import SweepError
-from .combination import (
-    COMPLETE,
-    ERROR,
-    STATUS_MEANINGS,
-    Row,
-    SweepStopped,
-    Work,
-    model_version,
-)
+from .combination import COMPLETE, ERROR, STATUS_MEANINGS, Row, SweepStopped, Work, model_version
 from .grid import Grid, product_grid
 from .result import Sweep
 from .workers import computed

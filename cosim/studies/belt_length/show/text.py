@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator
 from functools import cache
+from operator import attrgetter
 from typing import Any
 
 from cosim.report.material import of_material
@@ -13,8 +14,7 @@ from thermal import Belt
 
 from ..changes import NO_HELP
 from ..drift import CAMERA as CAMERA
-from ..lengths import LONGEST, metres, rounded_up
-from ..lengths import length_text as length_text
+from ..lengths import LONGEST, length_text, metres, rounded_up
 from ..required_length import NOT_ASKED as NOT_ASKED
 from ..required_length import Answer, Question
 from ..result import PRINTED, Row, Study
@@ -79,8 +79,7 @@ def percent(share: float) -> str:
 
 def over(rows: Iterable[Row], name: str) -> str:
     """Some rows' figures of a name, such as `drift.run`."""
-    first, last = name.split(".")
-    return span(getattr(getattr(row, first), last) for row in rows)
+    return span(map(attrgetter(name), rows))
 
 
 def enough(rows: Iterable[Row], limit: float) -> str:
@@ -101,7 +100,7 @@ def outermost(rows: Iterable[Row], low: str, high: str) -> tuple[float, float] |
     doubts = [row.uncertainty for row in rows if row.uncertainty is not None]
     if not doubts:
         return None
-    return min(getattr(one, low) for one in doubts), max(getattr(one, high) for one in doubts)
+    return min(map(attrgetter(low), doubts)), max(map(attrgetter(high), doubts))
 
 
 def lengths(rows: list[Row], name: str, longest: str = f"more than {LONGEST:g} m") -> str:
