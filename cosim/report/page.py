@@ -1,7 +1,8 @@
 """Pages: one self-contained HTML file, its pictures inside, its look that of all the others.
 
 A page is a Jinja template that extends `page.html.j2` and fills its blocks title, style and
-content. Beside its own values it has ``figure(picture)`` and the filters ``number`` and ``unit``.
+content. Beside its own values it has ``figure(picture)``, ``boxes(tiles)`` and the filters
+``number``, ``unit`` and ``g``.
 
 A picture with ``live`` is drawn by the scripts in `templates/`, to hover over, to zoom or to play;
 others are PNGs. The scripts are in the page, plain and readable, and so is uPlot (MIT licence, in
@@ -16,14 +17,17 @@ import base64
 import json
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from importlib import resources
+from pathlib import Path
 from typing import Any
 
-from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined
+from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined, select_autoescape
 from markupsafe import Markup
+
+from cosim.files import write_bytes, write_text
 
 #: Pixels of an inch: on a page, and of the pictures.
 CSS_DPI, DPI = 96, 150
@@ -79,6 +83,33 @@ def render(template: str, package: str, **values: Any) -> str:
     return found.render(**values, figure=drawn, scripts=lambda: _scripts(kinds))
 
 
+def write_page(text: str, pictures: Iterable[Picture], folder: Path) -> None:
+    """Pictures as files beside the page that has them, then the page."""
+    for picture in pictures:
+        write_bytes(picture.png, folder / f"{picture.name}.png")
+    write_text(text, folder / "report.html")
+
+
+def texts(template: str, package: str, known: Mapping[str, Any]) -> Any:
+    """The macros of a text template that lies in a package, as functions of what they are told.
+
+    known: names that the template uses, such as those of a module.
+    """
+    return _environment(package).get_template(template, globals=dict(known)).module
+
+
+def sentences(text: str) -> list[str]:
+    """The paragraphs of a text, which blank lines part, each as one line."""
+    parts = re.split(r"\n *\n", text)
+    return [re.sub(r"[ \n]+", " ", part).strip() for part in parts if part.strip()]
+
+
+def tiles_of(text: str) -> list[tuple[str, str]]:
+    """Names and values of figures, of a text whose paragraphs are "name | value"."""
+    parts = [line.partition("|") for line in sentences(text)]
+    return [(name.strip(), value.strip()) for name, _, value in parts]
+
+
 def _scripts(kinds: set[str]) -> Markup:
     """The scripts that these kinds of live pictures need, each once."""
     files = dict.fromkeys(file for kind in SCRIPTS if kind in kinds for file in SCRIPTS[kind])
@@ -101,14 +132,17 @@ def asset(file: str) -> str:
 def _environment(package: str) -> Environment:
     environment = Environment(
         loader=ChoiceLoader([PackageLoader("cosim.report"), PackageLoader(package, ".")]),
-        autoescape=True,
+        autoescape=select_autoescape(["html.j2"]),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
     environment.filters["number"] = number
     environment.filters["unit"] = unit_text
+    environment.filters["g"] = "{:g}".format
     environment.globals["asset"] = lambda file: Markup(asset(file))
+    parts: Any = environment.get_template("parts.html.j2").module
+    environment.globals["boxes"] = parts.boxes
     return environment
 
 

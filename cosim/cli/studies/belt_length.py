@@ -6,11 +6,10 @@ import json
 import sys
 import time
 from argparse import Namespace
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from cosim.cli import DONE, FAILED, BadInput
 from cosim.cli.bar import Bar
@@ -18,53 +17,26 @@ from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
+from cosim.report.page import write_page
 from cosim.scenario import Scenario
-from cosim.studies.belt_length import (
-    Case,
-    Options,
-    Protocol,
-    Study,
-    StudyError,
+from cosim.studies.belt_length import scenario_priors
+from cosim.studies.belt_length.case import Case, Protocol, StudyError
+from cosim.studies.belt_length.lengths import empty_map, fill_map
+from cosim.studies.belt_length.result import Options, Study
+from cosim.studies.belt_length.show import page
+from cosim.studies.belt_length.show.text import printed
+from cosim.studies.belt_length.study import (
+    BOUNDS,
     answer_all,
     cases,
-    check_slides,
-    empty_map,
-    fill_map,
-    ignored_keys,
-    remarks,
-    scenario_case,
-    verdict,
-    with_ranges,
+    check_case,
+    check_options,
+    steps,
     work_off,
 )
-from cosim.studies.belt_length.lengths import length_text
-from cosim.studies.belt_length.result import PRINTED
-from cosim.studies.belt_length.show.page import (
-    CHANGES,
-    DOUBT,
-    PAGE,
-    RESULT,
-    TABLE,
-    write_numbers,
-    write_page,
-)
-from cosim.studies.belt_length.show.wording import two_digits
-from cosim.studies.belt_length.study import BOUNDS, check_case, check_options, steps
 
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
 STUDY = Case(1.0, 0.82)
-
-#: The printed columns in words.
-LEGEND = (
-    "study: its single pass; drift: rise of the belt over the air where it enters the contact, at"
-    " the end of the runs; low, high: 5 and 95 % of the doubt; steady: for ever; interface drift:"
-    " what the interface warms by at constant speed; endless belt: on one that never comes round;"
-    " ice: rise of its face; belt share: of the friction heat; wait: until belt and ice are within"
-    " the limit again; mu change: of the kinetic friction by the interface's rise, relative."
-)
-
-#: The two questions, as tables have them.
-COLD, STEADY = "comes round cold", "interface steady"
 
 #: Choice -> the study's values; of the others it has the default case's.
 STUDIED = {"length": (1.0, 2.0, 3.0, 4.0), "speed": (0.15, 0.5, 0.82)}
@@ -75,7 +47,7 @@ def execute(arguments: Namespace) -> int:
     began = time.perf_counter()
     scenario, wanted, options = _asked(arguments)
     numbers = numbers_asked(arguments, ("limit", "cases", "verdict"))
-    own_files = (RESULT, TABLE, PAGE, CHANGES, DOUBT)
+    own_files = (page.RESULT, page.TABLE, page.PAGE, page.CHANGES, page.DOUBT)
     folder = own_folder(arguments.output, own_files, arguments.force)
     if scenario is not None:
         _note(scenario)
@@ -97,9 +69,9 @@ def execute(arguments: Namespace) -> int:
         status = FAILED
     made = made_by(scenario=study.scenario or None)
     with results_in(folder, made, force=arguments.force) as results:
-        write_numbers(study, folder)
+        page.write_numbers(study, folder)
         if status == DONE:
-            write_page(study, folder, made["command"])
+            write_page(*page.page(study, made["command"]), folder)
             results.complete = True
     _print(study, numbers, folder, time.perf_counter() - began)
     return status
@@ -112,10 +84,12 @@ def _asked(arguments: Namespace) -> tuple[Scenario | None, list[Case], Options]:
     if source is not None:
         scenario = given_scenario(source, arguments.changes)
         with _of_file(source):
-            base = scenario_case(scenario)
+            base = scenario_priors.scenario_case(scenario)
     elif arguments.changes:
         raise BadInput("--set: changes keys of a scenario, so a SCENARIO is needed with it")
-    base = with_ranges(replace(base, protocol=_protocol(base, arguments)), arguments.doubt)
+    base = scenario_priors.with_ranges(
+        replace(base, protocol=_protocol(base, arguments)), arguments.doubt
+    )
     given = scenario is not None
     if arguments.map is None:
         arguments.map = 12 if given else 30
@@ -130,7 +104,7 @@ def _asked(arguments: Namespace) -> tuple[Scenario | None, list[Case], Options]:
         check_case(case, arguments)
         with _of_file(source):
             if scenario is not None:
-                check_slides(scenario, case)
+                scenario_priors.check_slides(scenario, case)
     options = Options(arguments.limit, arguments.sensitivity, arguments.samples)
     return scenario, wanted, options
 
@@ -147,9 +121,9 @@ def _of_file(source: str) -> Iterator[None]:
 def _note(scenario: Scenario) -> None:
     """What was taken, and what is computed otherwise."""
     note_taken(scenario)
-    for remark in remarks(scenario):
+    for remark in scenario_priors.remarks(scenario):
         note(remark)
-    if keys := ignored_keys(scenario):
+    if keys := scenario_priors.ignored_keys(scenario):
         note(
             f"{', '.join(keys)}: ignored, belt-length has a resolution of its own;"
             " `stickslip run` heeds them"
@@ -169,71 +143,6 @@ def _protocol(base: Case, arguments: Namespace) -> Protocol:
 def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None:
     if asked.give(json.dumps(study.summary(), indent=1)):
         return
-    if study.answers:
-        _print_answers(study)
-    elif study.rows:
-        shown = study.table()[PRINTED]
-        # what is asked for is printed as it is, what is found with as much as it is worth
-        exact = {name: "{:g}".format for name in ("length [m]", "speed [m/s]")}
-        print(shown.to_string(index=False, formatters=exact, float_format=two_digits))
-        print(LEGEND)
-        _print_shortest(study)
-    if not study.answers:
-        for sentence in verdict(study):
-            print(sentence)
-    if study.rows:
-        _print_changes(study)
+    print(printed(study), end="")
     cases = f"{len(study.rows)} case{'s' * (len(study.rows) != 1)}"
-    print(f"{cases} in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
-
-
-def _print_answers(study: Study) -> None:
-    """Of an own rig: the answer, then its numbers."""
-    for sentence in verdict(study):
-        print(sentence)
-    print("Lengths are rounded up to two digits.")
-    belts = []
-    for answer in study.answers:
-        for name, question, ever in (
-            (COLD, answer.run, length_text(answer.run.for_ever)),
-            (STEADY, answer.interface, "-"),
-        ):
-            levels = [level.says if level else "-" for level in question.levels]
-            belts.append((name, answer.case.speed, length_text(question.shortest), *levels, ever))
-    _print_belts("shortest belt [m]", ("as said", "5 %", "median", "95 %", "for ever"), belts)
-
-
-def _print_shortest(study: Study) -> None:
-    """The shortest belts of the nominal rig, and at the levels of its doubt."""
-    print(
-        "Shortest belt [m], rounded up to two digits: as the rig is given; in half and in 95 % of"
-        " the sampled rigs; for ever"
-    )
-    doubted, belts = study.shortest_in_doubt(), []
-    for case, row in {row.case.with_length(1.0): row for row in study.rows}.items():
-        for name, rise, said, ever in (
-            (COLD, "run", row.shortest_run, length_text(row.shortest_steady)),
-            (STEADY, "interface", row.shortest_interface, "-"),
-        ):
-            levels = [doubted[case][rise][level].says or "-" for level in ("median", "high")]
-            belts.append((name, case.speed, length_text(said), *levels, ever))
-    _print_belts("question", ("as said", "median", "95 %", "for ever"), belts)
-
-
-def _print_belts(what: str, headings: Sequence[str], belts: Iterable[tuple[Any, ...]]) -> None:
-    """Lengths of belts by question and speed."""
-    print(f"{what:<22} {'speed [m/s]':>11} " + " ".join(f"{one:>8}" for one in headings))
-    for name, speed, *lengths in belts:
-        print(f"{name:<22} {speed:11g} " + " ".join(f"{one:>8}" for one in lengths))
-
-
-def _print_changes(study: Study) -> None:
-    """What would help, in the case that drifts most."""
-    row = study.worst
-    print(
-        f"One change alone, {row.case.length:g} m at {row.case.speed:g} m/s: belt at entry,"
-        " interface at constant speed, K"
-    )
-    for one in row.changes:
-        rises = (two_digits(rise) for rise in (one.run, one.interface_drift))
-        print(f"  {one.what:60} {' '.join(f'{rise:>9}' for rise in rises)}")
+    print(f"{cases} in {wall_time:.1f} s; {folder / page.PAGE}, {folder / page.RESULT}")

@@ -16,7 +16,7 @@ from .scenario_priors import ignored_keys as ignored_keys
 from .scenario_priors import remarks as remarks
 from .scenario_priors import scenario_case as scenario_case
 from .scenario_priors import with_ranges as with_ranges
-from .show.verdict import verdict as verdict
+from .show.text import verdict as verdict
 from .study import answer_all as answer_all
 from .study import cases as cases
 from .study import work_off as work_off

@@ -12,6 +12,7 @@ import pandas as pd
 
 from cosim.packaged import packaged_tables
 from cosim.report.files import without_nan
+from cosim.report.page import write_page
 from cosim.result import Result
 
 from .case import Case
@@ -22,7 +23,7 @@ from .required_length import Answer
 from .uncertainty import Uncertainty
 
 #: What speaks, draws and writes; loaded when asked for.
-HEADLINE, VERDICT, PAGE = (f"{__package__}.show.{n}" for n in ("headline", "verdict", "page"))
+TEXT, PAGE = f"{__package__}.show.text", f"{__package__}.show.page"
 #: Column of the table -> place in a case's JSON.
 _TABLE = packaged_tables(__package__, "columns.toml")
 _COLUMNS, PRINTED = _TABLE["columns"], _TABLE["printed"]
@@ -131,7 +132,7 @@ class Study(Result):
             **shared,
             "answers": [one.as_dict() for one in self.answers],
             "cases": self._cases(),
-            "verdict": import_module(VERDICT).verdict(self),
+            "verdict": import_module(TEXT).verdict(self),
         }
         if self.grid is not None:
             # where a stopped map did not come is null
@@ -140,17 +141,17 @@ class Study(Result):
         return numbers
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        headline = import_module(HEADLINE)
-        return headline.headline(self), headline.tiles(self)
+        text = import_module(TEXT)
+        return text.headline(self), text.tiles(self)
 
     def _page(self) -> str:
-        text: str = import_module(PAGE).page(self)[0]
-        return text
+        return str(import_module(PAGE).page(self)[0])
 
     def _write(self, folder: Path) -> None:
         page = import_module(PAGE)
         page.write_numbers(self, folder)
-        page.write_page(self, folder)
+        text, pictures = page.page(self)
+        write_page(text, pictures, folder)
 
     def table(self) -> pd.DataFrame:
         """One row a case; NaN where nothing is known."""

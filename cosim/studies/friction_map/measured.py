@@ -1,14 +1,16 @@
 """Measured friction of ice beside a map: the rig's own point, and published values.
 
-Published values are what the papers' abstracts state; nothing is read off a figure.
+Published values stand in `measured.toml`.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from stickslip import friction_coefficient
 
+from cosim.packaged import packaged_tables
 from cosim.scenario import packaged_scenarios, read_scenario
 
 from .map import FrictionMap
@@ -28,46 +30,13 @@ class Measured:
     what: str
     conditions: str
     source: str
-    speeds: tuple[float, ...]
-    friction: tuple[float, ...]
+    speeds: Sequence[float]
+    friction: Sequence[float]
     is_range: bool = False
     ambient_degC: float | None = None
 
 
-PUBLISHED = (
-    Measured(
-        "ice on ice",
-        "−12 °C, 2.9 kPa; the ends of a curve that falls as the speed grows",
-        "Yasutome, Arakawa & Maeno, Seppyo 61 (1999), 437–443",
-        (1e-4, 1e-1),
-        (0.15, 0.01),
-        ambient_degC=-12.0,
-    ),
-    Measured(
-        "smooth ice on ice",
-        "−175 to −10 °C, up to 98 kPa",
-        "Schulson & Fortt, Friction of ice on ice, J. Geophys. Res. (2012)",
-        (5e-8, 1e-3),
-        (0.15, 0.76),
-        is_range=True,
-    ),
-    Measured(
-        "ice on rock",
-        "−20 °C (0.52) to melting (0.02), 100 kPa",
-        "McCarthy, Savage & Nettles, Phil. Trans. R. Soc. A (2017), doi:10.1098/rsta.2015.0348",
-        (5e-7, 1e-4),
-        (0.02, 0.52),
-        is_range=True,
-    ),
-    Measured(
-        "sea ice on sea ice",
-        "−20 to −2 °C, 300 to 2000 N; natural (0.48) to polished by sliding (0.05)",
-        "Sukhorukov & Løset, Cold Reg. Sci. Technol. (2013), doi:10.1016/j.coldregions.2013.06.005",
-        (6e-3, 0.105),
-        (0.05, 0.48),
-        is_range=True,
-    ),
-)
+PUBLISHED = [Measured(**one) for one in packaged_tables(__package__, "measured.toml")["published"]]
 
 
 def own_point(found: FrictionMap) -> Measured | None:

@@ -14,9 +14,9 @@ from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke
 from stickslip import friction_coefficient
 
-from cosim.files import write_bytes, write_text
+from cosim.files import write_text
 from cosim.report.files import write_table
-from cosim.report.page import Picture, number, render
+from cosim.report.page import Picture, number, render, write_page
 from cosim.report.palette import GREY, INK, PALE_GREY, SERIES
 from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
 
@@ -202,19 +202,22 @@ def tiles(found: FrictionMap) -> list[tuple[str, str]]:
     regimes = [found.regimes(ambient) for ambient in found.ambients]
     falls = [row["steepest_fall"]["slope"] for row in regimes if row["steepest_fall"]]
     if falls:
-        told.append(("steepest slope over a decade", _slope(min(falls), 2)))
+        told.append(("steepest slope over a decade", slope_in_words(min(falls), 2)))
     warmest = max(point.interface_degC for point in found.points)
     return [*told, ("warmest contact", f"{warmest:z.2f} °C".replace("-", "−"))]
 
 
-def _row(found: FrictionMap, ambient: float) -> dict[str, Any]:
-    """The regimes of a temperature, and what stands where there is none."""
-    row = found.regimes(ambient)
-    end = "the same at all speeds" if found.is_flat(ambient) else "at an end of the speeds"
-    return row | {"no_slope": found.no_slope(ambient), "no_minimum": end}
+def regimes_of(found: FrictionMap) -> list[dict[str, Any]]:
+    """The regimes of each temperature, and what stands where there is none."""
+    ends = {True: "the same at all speeds", False: "at an end of the speeds"}
+    return [
+        found.regimes(one)
+        | {"no_slope": found.no_slope(one), "no_minimum": ends[found.is_flat(one)]}
+        for one in found.ambients
+    ]
 
 
-def _slope(slope: float, digits: int = 3) -> str:
+def slope_in_words(slope: float, digits: int = 3) -> str:
     """With its sign, unless it is 0."""
     told = f"{slope:+z.{digits}f}".replace("-", "−")
     return "0" if not told.strip("+0.") else told
@@ -225,23 +228,11 @@ def write(found: FrictionMap, folder: Path, command: str = "") -> None:
     write_text(json.dumps(found.summary(), indent=1), folder / "friction_map.json")
     write_table(pd.DataFrame(found.points), folder / "friction_map.csv", index=False)
     drawn = draw_map(found)
-    write_bytes(drawn.png, folder / "friction_map.png")
-    write_text(page(found, drawn, command), folder / "report.html")
+    write_page(page(found, drawn, command), [drawn], folder)
 
 
-def page(found: FrictionMap, picture: Picture, command: str) -> str:
+def page(found: FrictionMap, drawn: Picture, command: str) -> str:
     """HTML of a map, its figure, and the command line that made it."""
-    return render(
-        "friction_map.html.j2",
-        "cosim.studies.friction_map",
-        found=found,
-        sentence=sentence(found),
-        tiles=tiles(found),
-        regimes=[_row(found, ambient) for ambient in found.ambients],
-        laws=laws_of(found),
-        measured=measured_beside(found),
-        differences=differences(found),
-        picture=picture,
-        slope_text=_slope,
-        command=command,
-    )
+    # the template calls what this module knows
+    told = {"found": found, "drawn": drawn, "differences": differences(found), "command": command}
+    return render("friction_map.html.j2", "cosim.studies.friction_map", **globals() | told)

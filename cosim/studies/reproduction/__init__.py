@@ -22,10 +22,10 @@ def reproduce(
 
     ``progress`` is called with each id when its claim is judged. Raises `UnknownClaim`.
     """
-    from . import claims as claims  # matplotlib and the thermal model: only when there is work
+    from .claims import JUDGES  # matplotlib and the thermal model: only when there is work
 
     found = Reproduction()
     for one in claim_ids(ids):
-        found.append(judged(one))
+        found.append(judged(one, JUDGES[one]))
         progress(one)
     return found

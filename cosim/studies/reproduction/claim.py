@@ -329,24 +329,12 @@ class Claim:
 
 #: What computes the numbers of a claim, and returns what its texts leave open.
 Judge = Callable[[Claim], Mapping[str, Any]]
-#: By the claim's id, of the modules that have been imported.
-JUDGES: dict[str, Judge] = {}
 
 
-def judges(claim: str) -> Callable[[Judge], Judge]:
-    """Of a function that fills a claim: it is the one that judges it."""
-
-    def named(fill: Judge) -> Judge:
-        JUDGES[claim] = fill
-        return fill
-
-    return named
-
-
-def judged(claim: str) -> Claim:
+def judged(claim: str, judge: Judge) -> Claim:
     """A claim with its numbers, its checks and its texts."""
     written, found = WRITTEN[claim], Claim(claim)
-    said = JUDGES[claim](found)
+    said = judge(found)
     assumed = [WRITTEN["assumed"].get(one, one) for one in written.get("assumed", ())]
     texts = {
         name: written[name].format(**said)

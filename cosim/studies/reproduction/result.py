@@ -11,9 +11,9 @@ from typing import Any
 
 from stickslip.reference.scheme_errors import DESCRIPTIONS
 
-from cosim.files import write_bytes, write_text
+from cosim.files import write_text
 from cosim.report.files import json_text, without_nan
-from cosim.report.page import render
+from cosim.report.page import render, write_page
 from cosim.result import Result
 
 from .claim import Claim
@@ -70,10 +70,7 @@ class Reproduction(list[Claim], Result):
     def _write(self, folder: Path) -> None:
         """Numbers first, then figures, then the page."""
         write_text(json_text(self.summary()), folder / RESULT)
-        for claim in self:
-            for picture in claim.pictures:
-                write_bytes(picture.png, folder / f"{picture.name}.png")
-        write_text(self._page(), folder / PAGE)
+        write_page(self._page(), [one for claim in self for one in claim.pictures], folder)
 
 
 def _named(claim: Claim, words: str) -> dict[str, Any]:

@@ -7,10 +7,8 @@ is known in closed form.
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from stickslip import Parameters
@@ -22,10 +20,8 @@ from stickslip.steady_motion import Assessment, Interface, RunEnded, assess, wit
 from stickslip.steady_motion.numbers import at_speed, with_ratio
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP, regime_of
 from stickslip.steady_motion.stability import cycle_stability, guided
-from stickslip.steady_motion.starts import OWN, RAMP, REST, RIDING, STARTS, other_starts
+from stickslip.steady_motion.starts import RAMP, REST, RIDING, other_starts
 
-from cosim.report.files import without_nan
-from cosim.report.page import Picture, number, render
 from cosim.scenario import Scenario
 
 #: Length of a run after the surface has its speed, s, and in natural periods.
@@ -257,58 +253,3 @@ def _borders(
                 one, other = (middle, other) if sticks(middle) == here else (one, middle)
             found.append(0.5 * (one + other))
     return np.reshape(found, (-1, 2))
-
-
-def as_json(
-    case: Case, stretched: PretensionMap | None, regimes: RegimeMap | None
-) -> dict[str, Any]:
-    """Case and maps with plain numbers, SI; what was not computed is None."""
-    return {
-        "name": case.name,
-        **case.assessment.as_dict(),
-        "starts": STARTS,
-        "pretension_map": stretched
-        and {key: without_nan(values.tolist()) for key, values in vars(stretched).items()},
-        "regime_map": regimes
-        and {
-            "ratios": regimes.ratios.tolist(),
-            "speeds": regimes.speeds.tolist(),
-            "simulated": _by_start(regimes.simulated),
-            "closed_form": None if regimes.closed_form is None else _by_start(regimes.closed_form),
-            "cells_that_differ": regimes.wrong,
-            "fastest_from_rest": regimes.fastest_from_rest,
-            "closed_form_borders": _by_start(regimes.borders),
-        },
-    }
-
-
-def _by_start(tables: Iterable[np.ndarray]) -> dict[str, Any]:
-    return {start: table.tolist() for start, table in zip(MAPPED, tables, strict=False)}
-
-
-def page(numbers: dict[str, Any], sentences: Sequence[str], pictures: Sequence[Picture]) -> str:
-    """HTML of the numbers of `as_json`, what they say, the first of it first, and the maps."""
-    # the heading is one sentence, and what it goes on with stands below
-    sentence, *rest = re.split(r"(?<=\.) (?=[A-Z])", sentences[0], maxsplit=1)
-    return render(
-        "stability.html.j2",
-        "cosim.studies.stability",
-        numbers=numbers,
-        sentence=sentence,
-        sentences=[*rest, *sentences[1:]],
-        tiles=tiles(numbers),
-        pictures=pictures,
-    )
-
-
-def tiles(numbers: dict[str, Any]) -> list[tuple[str, str]]:
-    """Four figures: how fast disturbances grow, what would help, and what the run does."""
-    found, own = numbers["stability"], numbers["regimes"][OWN]
-    growth, least = found.get("growth"), found.get("least_pretension")
-    there = [
-        ("growth of a disturbance in a cycle", growth and f"{number(growth, 3)} times"),
-        ("least pretension for stability", least and f"{number(1e3 * least, 3)} mm"),
-        ("break-aways", own["frequency"] and f"{number(own['frequency'], 3)} Hz"),
-        ("of the time in slip", f"{number(100.0 * own['slip_share'], 3)} %"),
-    ]
-    return [(words, value) for words, value in there if value]

@@ -3,31 +3,24 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from stickslip.steady_motion.starts import OWN, STARTS
 
-from cosim.files import write_bytes, write_text
+from cosim.files import write_text
+from cosim.report.files import without_nan
 from cosim.report.motion_text import border_sentence, regime_sentence, stability_sentence
-from cosim.report.page import Picture
+from cosim.report.page import Picture, number, render, write_page
 from cosim.result import Result
 from cosim.scenario import Scenario
 
-from .maps import (
-    Case,
-    NotAMotion,
-    PretensionMap,
-    RegimeMap,
-    as_json,
-    case_of,
-    page,
-    pretension_map,
-    regime_map,
-    tiles,
-)
+from . import maps
+from .maps import MAPPED, Case, NotAMotion, PretensionMap, RegimeMap
 from .stick_slip_range import range_sentence, stick_slip_range
 
 RESULT, PAGE = "stability.json", "report.html"
@@ -69,8 +62,8 @@ class Stability(Result):
         speeds = abs(surface.speed) * np.linspace(*SPEEDS, grid)
         if rig.degrees_of_freedom != ("x",):
             stretched = rig.spring_length * np.linspace(*PRETENSIONS, grid)
-            self.pretension = pretension_map(self.case, stretched, speeds, done)
-        self.regimes = regime_map(self.case, np.linspace(*RATIOS, grid), speeds, done)
+            self.pretension = maps.pretension_map(self.case, stretched, speeds, done)
+        self.regimes = maps.regime_map(self.case, np.linspace(*RATIOS, grid), speeds, done)
 
     def summary(self) -> dict[str, Any]:
         """What `stability.json` holds."""
@@ -90,8 +83,8 @@ class Stability(Result):
         """Of the maps."""
         from .figures import draw_pretension_map, draw_regime_map
 
-        maps = ((draw_pretension_map, self.pretension), (draw_regime_map, self.regimes))
-        return [draw(found, self.case) for draw, found in maps if found is not None]
+        pairs = ((draw_pretension_map, self.pretension), (draw_regime_map, self.regimes))
+        return [draw(found, self.case) for draw, found in pairs if found is not None]
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
         return self.sentences[0], tiles(self.summary())
@@ -102,9 +95,7 @@ class Stability(Result):
     def _write(self, folder: Path) -> None:
         pictures = self.pictures
         write_text(json.dumps(self.summary(), indent=1), folder / RESULT)
-        for picture in pictures:
-            write_bytes(picture.png, folder / f"{picture.name}.png")
-        write_text(page(self.summary(), self.sentences, pictures), folder / PAGE)
+        write_page(page(self.summary(), self.sentences, pictures), pictures, folder)
 
 
 def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stability:
@@ -123,9 +114,64 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
     """
     if grid < 0 or grid == 1:
         raise NotAMotion(f"grid = {grid}: must be at least 2, or 0 for none")
-    found = Stability(case_of(scenario))
+    found = Stability(maps.case_of(scenario))
     if border:
         found.find_range(border)
     if grid:
         found.fill_maps(grid)
     return found
+
+
+def as_json(
+    case: Case, stretched: PretensionMap | None, regimes: RegimeMap | None
+) -> dict[str, Any]:
+    """Case and maps with plain numbers, SI; what was not computed is None."""
+    return {
+        "name": case.name,
+        **case.assessment.as_dict(),
+        "starts": STARTS,
+        "pretension_map": stretched
+        and {key: without_nan(values.tolist()) for key, values in vars(stretched).items()},
+        "regime_map": regimes
+        and {
+            "ratios": regimes.ratios.tolist(),
+            "speeds": regimes.speeds.tolist(),
+            "simulated": _by_start(regimes.simulated),
+            "closed_form": None if regimes.closed_form is None else _by_start(regimes.closed_form),
+            "cells_that_differ": regimes.wrong,
+            "fastest_from_rest": regimes.fastest_from_rest,
+            "closed_form_borders": _by_start(regimes.borders),
+        },
+    }
+
+
+def _by_start(tables: Iterable[np.ndarray]) -> dict[str, Any]:
+    return {start: table.tolist() for start, table in zip(MAPPED, tables, strict=False)}
+
+
+def page(numbers: dict[str, Any], sentences: Sequence[str], pictures: Sequence[Picture]) -> str:
+    """HTML of the numbers of `as_json`, what they say, the first of it first, and the maps."""
+    # the heading is one sentence, and what it goes on with stands below
+    sentence, *rest = re.split(r"(?<=\.) (?=[A-Z])", sentences[0], maxsplit=1)
+    return render(
+        "stability.html.j2",
+        "cosim.studies.stability",
+        numbers=numbers,
+        sentence=sentence,
+        sentences=[*rest, *sentences[1:]],
+        tiles=tiles(numbers),
+        pictures=pictures,
+    )
+
+
+def tiles(numbers: dict[str, Any]) -> list[tuple[str, str]]:
+    """Four figures: how fast disturbances grow, what would help, and what the run does."""
+    found, own = numbers["stability"], numbers["regimes"][OWN]
+    growth, least = found.get("growth"), found.get("least_pretension")
+    there = [
+        ("growth of a disturbance in a cycle", growth and f"{number(growth, 3)} times"),
+        ("least pretension for stability", least and f"{number(1e3 * least, 3)} mm"),
+        ("break-aways", own["frequency"] and f"{number(own['frequency'], 3)} Hz"),
+        ("of the time in slip", f"{number(100.0 * own['slip_share'], 3)} %"),
+    ]
+    return [(words, value) for words, value in there if value]

@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline
 from stickslip import Trajectory
 from stickslip.packing import GRAVITY
 from stickslip.trajectory import break_away_frequency, slip_share
@@ -102,29 +103,16 @@ def _coefficients(run: Trajectory, late: NDArray[np.bool_]) -> dict[str, float]:
     }
 
 
+def _extremes(time: Array, value: Array, slope: Array) -> tuple[float, float]:
+    """Smallest and largest value of the cubics through values and slopes (n,)."""
+    cubic = CubicHermiteSpline(time, value, slope)
+    turns = cubic.derivative().roots(discontinuity=False, extrapolate=False)
+    # NaN stands for a flat stretch, whose value is that of its rows
+    every = np.append(value, cubic(turns[np.isfinite(turns)]))
+    return float(every.min()), float(every.max())
+
+
 def _mean(time: Array, value: Array, slope: Array) -> float:
     """Mean over time (n,) of the cubics through values and slopes (n,)."""
-    step = np.diff(time)
-    area = 0.5 * step * (value[1:] + value[:-1]) + step**2 / 12.0 * (slope[:-1] - slope[1:])
-    return float(area.sum() / (time[-1] - time[0]))
-
-
-def _extremes(time: Array, value: Array, slope: Array) -> tuple[float, float]:
-    """Smallest and largest value of the cubics through values and slopes (n,).
-
-    Between two rows the cubic turns where its derivative, a quadratic in s = 0 ... 1, is zero.
-    """
-    step = np.diff(time)
-    d0, d1 = step * slope[:-1], step * slope[1:]
-    rise = np.diff(value)
-    a, b = 3.0 * (d0 + d1 - 2.0 * rise), 2.0 * (3.0 * rise - 2.0 * d0 - d1)
-    root = np.sqrt(np.maximum(b * b - 4.0 * a * d0, 0.0))
-    q = -0.5 * (b + np.copysign(root, b))
-    candidates = [value]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        turns = (q / a, d0 / q)
-    for s in turns:
-        s = np.where((s > 0.0) & (s < 1.0), s, 0.0)  # NaN too: the row itself
-        candidates.append(value[:-1] + s * (d0 + s * (0.5 * b + s * a / 3.0)))
-    every = np.concatenate(candidates)
-    return float(every.min()), float(every.max())
+    cubic = CubicHermiteSpline(time, value, slope)
+    return float(cubic.integrate(time[0], time[-1]) / (time[-1] - time[0]))

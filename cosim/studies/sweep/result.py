@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 import xarray as xr
 
-from cosim.files import write_bytes, write_text
 from cosim.report.files import without_nan, write_netcdf, write_table
-from cosim.report.page import render
+from cosim.report.page import render, write_page
 from cosim.result import Result
 
+from . import words
 from .features import ALL
-from .words import records, regime, sentence, shown_features, still_sentence, tiles, titled, unit_of
+from .words import records, shown_features, still_sentence, unit_of
 
 if TYPE_CHECKING:
     from cosim.report.page import Picture
@@ -70,8 +70,7 @@ def write(
     write_netcdf(datasets, folder / RESULT)
     write_table(pd.DataFrame(records(datasets[""])), folder / TABLE, index=False)
     text, picture = _drawn(datasets[""], asked, command)
-    write_bytes(picture.png, folder / FIGURE)
-    write_text(text, folder / PAGE)
+    write_page(text, [picture], folder)
 
 
 def _drawn(
@@ -84,25 +83,21 @@ def _drawn(
     picture = draw_sweep(dataset, drawn)
     scenario = str(dataset.attrs.get("scenario", ""))
     dims = {str(dim): unit_of(dataset[dim]) for dim in dataset["status"].dims}
-    rows = records(dataset)
     text = render(
         "sweep.html.j2",
         "cosim.studies.sweep",
+        **vars(words),
         name=tomllib.loads(scenario).get("name", "Mechanics"),
+        dataset=dataset,
+        dims=dims,
         coordinates=[dataset[dim] for dim in dims],
-        coupled=bool(dataset.attrs["coupled"]),
-        sentence=sentence(rows, dims),
-        tiles=tiles(rows, dims),
         still=still_sentence(dataset, still),
-        figure_of=picture,
+        picture=picture,
         drawn={name: ALL[name] for name in drawn},
-        rows=rows,
+        rows=records(dataset),
         most=MOST_ROWS,
-        failed=[row for row in rows if row["reason"]],
         files=FILES,
         command=command,
         scenario=scenario,
-        titled=titled,
-        regime=regime,
     )
     return text, picture

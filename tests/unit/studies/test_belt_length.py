@@ -155,18 +155,6 @@ def test_files_and_words(coarse, tmp_path, capsys):
     assert {path.name for path in tmp_path.glob("*.png")} == {"drift_over_length.png"}
 
 
-@pytest.mark.slow
-def test_json_on_the_terminal_and_the_map(tmp_path, capsys):
-    drawn = ("--samples", 32, "--map", 3, "--jobs", 1)
-    assert call("--length", 1, "--speed", 0.15, "--json", "-o", tmp_path, *drawn) == 0
-    printed = json.loads(capsys.readouterr().out)
-    assert printed["cases"][0]["uncertainty"]["evaluations"] == 32 + 8 + 2 * 15
-    assert (tmp_path / "map.png").exists() and (tmp_path / "doubt.png").exists()
-    assert len(pd.read_csv(tmp_path / "doubt.csv")) == 15
-    numbers = json.loads((tmp_path / "belt_length.json").read_text())
-    assert np.shape(numbers["map"]["drift"]) == (3, 3)
-
-
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [

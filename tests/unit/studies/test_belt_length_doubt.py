@@ -10,7 +10,7 @@ import cosim.studies.belt_length.case as case_module
 from cosim.studies.belt_length import Case, Protocol
 from cosim.studies.belt_length.drift import interface_drift, run_drift
 from cosim.studies.belt_length.lengths import shortest_in_doubt
-from cosim.studies.belt_length.polynomial import fitted
+from cosim.studies.belt_length.rigs import fitted
 from cosim.studies.belt_length.uncertainty import uncertainty
 from cosim.studies.belt_length.unknowns import (
     ENTRY,

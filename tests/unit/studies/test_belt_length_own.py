@@ -4,6 +4,8 @@ import json
 import re
 from dataclasses import replace
 
+import numpy as np
+import pandas as pd
 import pytest
 from command_line import executed
 
@@ -25,43 +27,27 @@ from cosim.studies.belt_length import (
 )
 from cosim.studies.belt_length.drift import interface_drift, run_drift
 from cosim.studies.belt_length.lengths import rounded_up
-from cosim.studies.belt_length.show.answer import answered
+from cosim.studies.belt_length.show.text import answered
 from cosim.studies.belt_length.study import steps
 from cosim.studies.belt_length.unknowns import UNKNOWNS, unknowns_of
 
 STEEL = """
-[rig]
-mass = 1.0
-[friction]
-mu_s = 0.3
-mu_k = 0.2
-[surface]
-speed = 0.5
-[ambient]
-temperature_degC = -12.0
-[run]
-duration = 30.0
+rig.mass = 1.0
+friction = { mu_s = 0.3, mu_k = 0.2 }
+surface.speed = 0.5
+ambient.temperature_degC = -12.0
+run.duration = 30.0
 [belt]
 width = 0.09
 length = 2.0
 rollers = 2
 roller_arc = 0.15
 roller_rise = 0.05
-[[belt.layers]]
-thickness = 0.0003
-density = 2400.0
-heat_capacity = 800.0
-conductivity = 1.5
-[[belt.layers]]
-thickness = 0.0005
-density = 7850.0
-heat_capacity = 470.0
-conductivity = 45.0
-[[belt.layers]]
-thickness = 0.001
-density = 1200.0
-heat_capacity = 1900.0
-conductivity = 0.2
+layers = [
+  { thickness = 0.0003, density = 2400.0, heat_capacity = 800.0, conductivity = 1.5 },
+  { thickness = 0.0005, density = 7850.0, heat_capacity = 470.0, conductivity = 45.0 },
+  { thickness = 0.001, density = 1200.0, heat_capacity = 1900.0, conductivity = 0.2 },
+]
 """
 LIMIT = 0.05
 
@@ -84,7 +70,7 @@ def steel(tmp_path_factory):
 @pytest.fixture(scope="module")
 def results(steel):
     folder = steel.parent / "results"
-    words = (steel, "--camera", LIMIT, "--samples", 32, "--map", 0, "--jobs", 1, "-o", folder)
+    words = (steel, "--camera", LIMIT, "--samples", 32, "--map", 2, "--jobs", 1, "-o", folder)
     assert executed(belt_length_command, *words) == 0
     return folder
 
@@ -161,10 +147,15 @@ def test_the_page_says_the_answer_first_and_fetches_nothing(results, numbers):
     places = [text.index(each) for each in ("<h1>A belt of", "<img", 'class="tiles"', *said)]
     assert sorted(places[:3]) == places[:3] and max(places[:3]) < min(places[3:])
     assert text.count("<div><b>") <= 4
-    assert re.findall(r'<img[^>]* src="(.{5})', text) == ["data:"] * 2
+    assert re.findall(r'<img[^>]* src="(.{5})', text) == ["data:"] * 3
     assert not re.findall(r'<(?:link|script)[^>]* (?:src|href)="(?!data:)', text)
     for word in ("What would help", "How sure that is", "7850", "45", "roller_conductance"):
         assert word in text
+    drawn = {one.stem for one in results.glob("*.png")}
+    assert drawn == {"drift_over_length", "doubt", "map"}
+    assert len(pd.read_csv(results / "doubt.csv")) == 15
+    assert numbers["cases"][0]["uncertainty"]["evaluations"] == 32 + 8 + 2 * 15
+    assert np.shape(numbers["map"]["drift"]) == (2, 2)
     made = json.loads((results / "made_by.json").read_text())
     assert {"report.html", "belt_length.json"} <= set(made["files"])
 

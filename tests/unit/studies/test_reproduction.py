@@ -22,23 +22,7 @@ from cosim.studies.reproduction import (
     claim_ids,
     reproduce,
 )
-from cosim.studies.reproduction.claim import (
-    CANNOT_BE_CHECKED,
-    DOES_NOT_HOLD,
-    FAR,
-    HOLDS,
-    JUDGES,
-    ONLY_WITH_FAULT,
-    OPEN,
-    PUT_IN,
-    WRITTEN,
-    Margin,
-    Turn,
-    judged,
-    judges,
-    responsible,
-    responsible_pairs,
-)
+from cosim.studies.reproduction import claim as sheet
 from cosim.studies.reproduction.motion import Motion, figures
 
 
@@ -50,33 +34,33 @@ def claim_of(*checks: Check) -> Claim:
 @pytest.mark.parametrize("answers", list(product((True, False, None), repeat=3)))
 def test_a_part_is_decided_by_the_soundest_model_that_can_tell(answers):
     decides = next((one for one in reversed(answers) if one is not None), None)
-    fails = ONLY_WITH_FAULT if answers[0] else DOES_NOT_HOLD
-    expected = {None: CANNOT_BE_CHECKED, True: HOLDS, False: fails}[decides]
+    fails = sheet.ONLY_WITH_FAULT if answers[0] else sheet.DOES_NOT_HOLD
+    expected = {None: sheet.CANNOT_BE_CHECKED, True: sheet.HOLDS, False: fails}[decides]
     assert Check("it is so", *answers).verdict == expected
 
 
 @pytest.mark.parametrize(
     ("sound", "weight", "verdict"),
     [
-        (True, PUT_IN, "follows from the assumption"),
-        (True, OPEN, "undecided"),
-        (False, OPEN, "undecided"),
-        (False, PUT_IN, "does not hold"),
-        (True, FAR, "holds"),
+        (True, sheet.PUT_IN, "follows from the assumption"),
+        (True, sheet.OPEN, "undecided"),
+        (False, sheet.OPEN, "undecided"),
+        (False, sheet.PUT_IN, "does not hold"),
+        (True, sheet.FAR, "holds"),
     ],
 )
 def test_a_turn_softens_the_verdict(sound, weight, verdict):
-    turned = Turn("another law", "it is otherwise", not sound, weight)
-    kept = Turn("another start", "it is the same", sound, weight)
+    turned = sheet.Turn("another law", "it is otherwise", not sound, weight)
+    kept = sheet.Turn("another start", "it is the same", sound, weight)
     check = Check("it is so", False, None, sound, turns=[kept, turned])
     assert check.verdict == verdict and claim_of(check).turns == [turned]
     untouched = replace(check, turns=[kept])
-    assert untouched.verdict == (HOLDS if sound else DOES_NOT_HOLD)
+    assert untouched.verdict == (sheet.HOLDS if sound else sheet.DOES_NOT_HOLD)
     assert claim_of(untouched).steady and claim_of(untouched).turns == [kept]
 
 
 def test_a_claim_is_as_good_as_its_worst_part():
-    good = Check("good", True, True, True, margin=Margin("size", 0.5, 1.0, "mm"))
+    good = Check("good", True, True, True, margin=sheet.Margin("size", 0.5, 1.0, "mm"))
     faulty = Check("faulty", True, False, False, faults=("F12", "F2"))
     bad = Check("bad", False, False, False)
     open_ = Check("open", None, None, None)
@@ -86,15 +70,17 @@ def test_a_claim_is_as_good_as_its_worst_part():
     assert claim_of(good, faulty, bad).verdict == "does not hold"
     assert claim_of(open_).verdict == "cannot be checked"
     assert "(other parts: 1 holds, 1 holds only with fault)" in claim_of(good, faulty, bad).reason
-    undecided = Check("open", True, True, False, turns=[Turn("a change", "x", True, OPEN)])
+    undecided = Check(
+        "open", True, True, False, turns=[sheet.Turn("a change", "x", True, sheet.OPEN)]
+    )
     assert claim_of(faulty, undecided).verdict == "undecided"
     assert claim_of(good, bad).reason.startswith("bad (as printed: no")
 
 
 def test_faults_behind_a_part_are_found_alone_and_in_pairs():
-    assert responsible(lambda faults: faults.F2 and faults.F6) == ("F2", "F6")
-    assert responsible(lambda faults: False) == responsible(lambda faults: True) == ()
-    pairs = responsible_pairs(lambda faults: faults.F1 or faults.F2)
+    assert sheet.responsible(lambda faults: faults.F2 and faults.F6) == ("F2", "F6")
+    assert sheet.responsible(lambda faults: False) == sheet.responsible(lambda faults: True) == ()
+    pairs = sheet.responsible_pairs(lambda faults: faults.F1 or faults.F2)
     assert pairs == (("F1", "F2"),)
     both = Check("so", True, False, None, together=pairs)
     assert "ended by mending F1 and F2" in both.verdict_with_faults
@@ -111,24 +97,22 @@ def test_numbers_are_judged_by_the_written_limit(monkeypatch, size):
         "check": {"below": {"says": "below", "margin": "size", "so": "at most", "limit": 2.0}},
         "turn": {"wider": {"change": "wider", "figure": "size {value:.1f}", "weight": "open"}},
     }  # fmt: skip
-    monkeypatch.setitem(WRITTEN, "C0", written)
-    monkeypatch.setitem(JUDGES, "C0", None)
+    monkeypatch.setitem(sheet.WRITTEN, "C0", written)
 
-    @judges("C0")
     def judge(claim):
         claim.row("size", [size, None, math.nan], who="a block")
         claim.check("below", [None, 3.0, size])
         claim.turn("wider", 2.0 * size)
         return {"n": 7}
 
-    claim = judged("C0")
+    claim = sheet.judged("C0", judge)
     check, row = claim.checks[0], claim.rows[0]
     assert (check.printed, check.mended, check.exact) == (None, False, size <= 2.0)
-    assert check.margin == Margin("size", size, 2.0)
-    assert check.turns == [Turn("wider", f"size {2 * size:.1f}", size <= 1.0, OPEN)]
+    assert check.margin == sheet.Margin("size", size, 2.0)
+    assert check.turns == [sheet.Turn("wider", f"size {2 * size:.1f}", size <= 1.0, sheet.OPEN)]
     assert (row.quantity, row.place, row.printed) == ("size of a block", "§3.3.3, §6.1", size)
     assert (claim.rests, claim.scope, claim.remarks) == ("7 runs", "up to 7", ["7 of them"])
-    assert claim.assumed == [WRITTEN["assumed"]["masses"], "own"]
+    assert claim.assumed == [sheet.WRITTEN["assumed"]["masses"], "own"]
 
 
 def test_figures_of_a_known_motion():

@@ -8,7 +8,7 @@ from matplotlib.colors import to_rgb
 
 from cosim import read_scenario
 from cosim.report.style import shown
-from cosim.studies.stability import maps
+from cosim.studies.stability import maps, study
 from cosim.studies.stability.figures import draw_pretension_map, draw_regime_map
 from cosim.studies.stability.maps import PretensionMap
 from cosim.studies.stability.stick_slip_range import range_sentence
@@ -65,13 +65,13 @@ def test_one_sentence_then_a_picture_then_four_figures():
     }
     low = PretensionMap(np.array([0.0]), np.array([0.1]), np.ones((1, 1)), np.ones((1, 1)))
     drawn = draw_pretension_map(low, CASE)
-    page = maps.page(numbers, ["It is unstable. It is stable from 8.32 mm on.", "More."], [drawn])
+    page = study.page(numbers, ["It is unstable. It is stable from 8.32 mm on.", "More."], [drawn])
     assert "<h1>It is unstable.</h1>" in page
     places = [
         page.index(each) for each in ("<h1>", "<figure", 'class="tiles"', "8.32 mm on", "<h2")
     ]
     assert places == sorted(places)
-    assert maps.tiles(numbers)[0] == ("growth of a disturbance in a cycle", "1.42 times")
+    assert study.tiles(numbers)[0] == ("growth of a disturbance in a cycle", "1.42 times")
     assert '<td class="start">' in page and "td.start { min-width" in page
 
 

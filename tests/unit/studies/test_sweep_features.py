@@ -11,7 +11,6 @@ from stickslip.trajectory import break_away_frequency, counted_break_aways
 from cosim.report import trajectory_dataset
 from cosim.report.run_summary import after_ramp
 from cosim.studies.sweep import FEATURES, features
-from cosim.studies.sweep.features import _extremes, _mean
 
 MASS, STIFFNESS, SPEED = 0.67, 20.17, 0.15
 MU_S, MU_K = 0.2815, 0.2086
@@ -84,27 +83,6 @@ def test_a_block_that_rests_has_no_slip_time():
     numbers = features(simulate(held, 2.0, 0.1))
     assert numbers["frequency"] == numbers["slip_share"] == 0.0
     assert math.isnan(numbers["slip_time"]) and math.isnan(numbers["kinetic_coefficient"])
-
-
-def test_the_cubics_are_of_fourth_order():
-    """Mean of sin over a part of its period; its largest value between two rows.
-
-    The error at the largest value hangs on where it lies between the rows: at least the order.
-    """
-
-    def errors(count):
-        time = np.linspace(0.0, 2.0, count + 1)
-        mean = _mean(time, np.sin(time), np.cos(time)) - 0.5 * (1.0 - math.cos(2.0))
-        return abs(mean), abs(_extremes(time, np.sin(time), np.cos(time))[1] - 1.0)
-
-    for coarse, fine in zip(errors(40), errors(80), strict=True):
-        assert math.log2(coarse / fine) > 3.7
-
-
-def test_extremes_of_straight_and_flat_lines():
-    time = np.arange(4.0)
-    assert _extremes(time, 2.0 * time, np.full(4, 2.0)) == (0.0, 6.0)
-    assert _extremes(time, np.ones(4), np.zeros(4)) == (1.0, 1.0)
 
 
 def test_the_frequency_is_that_of_a_summary():

@@ -11,18 +11,10 @@ from stickslip.trajectory import counted_break_aways
 from cosim import Scenario, run_scenario
 from cosim.cli.studies import sweep as sweep_command
 from cosim.fmu.build import ensure_fmu
-from cosim.studies.sweep import SweepError, features, sweep
+from cosim.studies.sweep import SweepError, features, sweep, words
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import as_trajectory
 from cosim.studies.sweep.grid import product_grid
-from cosim.studies.sweep.words import (
-    check_shown,
-    records,
-    sentence,
-    shown_features,
-    still_sentence,
-    tiles,
-)
 
 LAYERS = [
     {"thickness": 1e-3, "density": 2400.0, "heat_capacity": 800.0, "conductivity": 1.5},
@@ -69,14 +61,14 @@ def test_the_unit_of_an_entry_of_a_list_is_told(coupled):
 
 
 def test_what_does_not_vary_is_told_and_not_drawn(coupled):
-    drawn, still = shown_features(coupled)
+    drawn, still = words.shown_features(coupled)
     assert "interface_rise" in drawn and "x_mean" in still and "phi_max" in still
-    assert "largest |φ| 0 °" in still_sentence(coupled, still)
+    assert "largest |φ| 0 °" in words.still_sentence(coupled, still)
     never = coupled[["frequency"]] * 0.0
-    assert still_sentence(never, ["frequency"]) == "The same in all runs: no stick-slip."
-    assert shown_features(coupled, ["x_mean", "heat"]) == (["x_mean", "heat"], [])
+    assert words.still_sentence(never, ["frequency"]) == "The same in all runs: no stick-slip."
+    assert words.shown_features(coupled, ["x_mean", "heat"]) == (["x_mean", "heat"], [])
     with pytest.raises(SweepError, match="--show x_men: is no feature .*nearest: x_mean"):
-        check_shown(["x_men"], coupled)
+        words.check_shown(["x_men"], coupled)
 
 
 def test_scenarios_are_an_axis_of_their_own():
@@ -145,8 +137,8 @@ def test_the_command_leaves_a_page_and_a_table(tmp_path, capsys):
     """A block that never sticks has no frequency: neither a curve at 0 Hz nor a number."""
     file, out = tmp_path / "short.toml", tmp_path / "out"
     file.write_text(SHORT.changed({"run.duration": 3.0}).to_toml())
-    words = [str(file), "--vary", "surface.speed=0.15,5", "--jobs", "1", "-o", str(out), "--json"]
-    assert executed(sweep_command, *words) == 0
+    asked = [str(file), "--vary", "surface.speed=0.15,5", "--jobs", "1", "-o", str(out), "--json"]
+    assert executed(sweep_command, *asked) == 0
     rows = json.loads(capsys.readouterr().out)["runs"]
     assert [row["surface.speed"] for row in rows] == [0.15, 5.0]
     assert rows[1]["frequency"] == 0.0 and rows[1]["slip_time"] is None
@@ -159,7 +151,7 @@ def test_the_command_leaves_a_page_and_a_table(tmp_path, capsys):
     assert text.count("<img") == 1 and 'src="data:image/png' in text
     assert len((out / "sweep.csv").read_text().splitlines()) == 3
     with xr.open_dataset(out / "sweep.nc") as done:
-        assert records(done.load())[0]["surface.speed"] == 0.15
+        assert words.records(done.load())[0]["surface.speed"] == 0.15
         assert np.all(done["status"].values == 0)
 
 
@@ -182,5 +174,5 @@ def run_row(mass, frequency, share=0.9, status="complete"):
     ],
 )  # fmt: skip
 def test_the_page_says_first_what_the_block_does_where(rows, told):
-    assert sentence(rows, {"rig.mass": " kg"}).removeprefix("The block ") == told
-    assert len(tiles(rows, {"rig.mass": " kg"})) <= 4
+    assert words.sentence(rows, {"rig.mass": " kg"}).removeprefix("The block ") == told
+    assert len(words.tiles(rows, {"rig.mass": " kg"})) <= 4

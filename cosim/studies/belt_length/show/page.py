@@ -14,17 +14,14 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
-from cosim.files import write_atomically, write_bytes, write_text
+from cosim.files import write_atomically, write_text
 from cosim.report.material import page_of_material
 from cosim.report.page import Picture, render
 
-from ..lengths import length_text
 from ..result import Row, Study
 from ..unknowns import unknowns_of
+from . import text
 from .figures import draw_doubt, draw_drift, draw_map
-from .headline import headline, tiles
-from .verdict import verdict
-from .wording import percent, two_digits
 
 RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
 CHANGES, DOUBT = "changes.csv", "doubt.csv"
@@ -47,48 +44,28 @@ def write_numbers(study: Study, folder: Path) -> None:
             write_atomically(folder / name, partial(table.to_csv, index=False))
 
 
-def write_page(study: Study, folder: Path, command: str = "") -> None:
-    """Of a study with rows."""
-    text, pictures = page(study, command)
-    for one in pictures:
-        write_bytes(one.png, folder / f"{one.name}.png")
-    write_text(text, folder / PAGE)
-
-
 def page(study: Study, command: str = "") -> tuple[str, list[Picture]]:
     """HTML of a study with rows; its pictures."""
-    answers, doubted, worst = study.answers, study.most_doubted, study.worst
+    doubted = study.most_doubted
     pictures = [draw_drift(study)]
     if doubted is not None and doubted.uncertainty is not None:
         pictures.append(draw_doubt(doubted, doubted.uncertainty))
     if study.grid is not None:
         pictures.append(draw_map(study.grid, study.rows[0].case, study.options.limit))
-    start, *rest = worst.changes
-    own = tomllib.loads(study.scenario)
+    start, *rest = study.worst.changes
     html = render(
         "belt_length.html.j2",
         "cosim.studies.belt_length.show",
-        name=own.get("name", "The source study's rig"),
-        headline=headline(study),
-        tiles=tiles(study),
-        sentences=[_on_page(sentence) for sentence in verdict(study)],
+        **vars(text),
+        study=study,
+        name=tomllib.loads(study.scenario).get("name", "The source study's rig"),
+        on_page=_on_page,
         most=MOST_SENTENCES,
-        answers=answers,
-        rows=study.rows,
-        layers=study.rows[0].case.thermal().belt.stack,
         changes=[start, *sorted(rest, key=lambda one: abs(one.run))],
-        worst=worst.case,
         doubts=[] if doubted is None else _doubts(doubted),
-        evaluations=max((one.evaluations for one in answers), default=0),
-        unexplained=max((max(one.unexplained) for one in answers), default=0.0),
-        reasons=list(dict.fromkeys(one.reason for one in answers if one.reason)),
         pictures={one.name: one for one in pictures},
-        scenario=study.scenario,
         command=command,
         files=FILES,
-        two_digits=lambda value: two_digits(value).replace("-", "−"),
-        percent=percent,
-        metres=length_text,
     )
     return page_of_material(html, study.material), pictures
 

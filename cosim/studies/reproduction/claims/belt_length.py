@@ -11,7 +11,7 @@ import numpy as np
 from cosim.studies.belt_length import Case, Protocol
 from thermal.belt.single_pass import FROM_FACTORS, PRINTED, SinglePass
 
-from ..claim import STUDY, Claim, judges
+from ..claim import STUDY, Claim
 from ..drawing import Panel, add_picture, by_model
 
 #: Lengths of belt, m, and the temperature after one pass that the study prints of each, degC.
@@ -61,7 +61,6 @@ def rises(length: float) -> tuple[float, float, float]:
     return printed, repeated(mended, length) - check.ambient_degC, rise
 
 
-@judges("C13")
 def judge_length(claim: Claim) -> dict[str, float]:
     """Whether the rise on a belt of 1 m goes unseen."""
     told = [round(printed - AMBIENT, 4) for printed in TABLE.values()]
@@ -89,7 +88,6 @@ def judge_length(claim: Claim) -> dict[str, float]:
     }
 
 
-@judges("C15")
 def judge_table(claim: Claim) -> dict[str, str]:
     """The printed table, from the printed force, from its factors, and accumulated."""
     checks = PRINTED, FROM_FACTORS

@@ -15,7 +15,7 @@ from cosim.studies.belt_length import Protocol
 
 from .. import cases
 from ..cases import DATASET_1, DATASET_2, GUIDED, SPEEDS, STIFFNESSES, WEAKENING, Case
-from ..claim import FAR, OPEN, STUDY, Claim, judges
+from ..claim import FAR, OPEN, STUDY, Claim
 from ..drawing import LABELS, Panel, add_picture, models_over_time
 from ..motion import WINDOW, figures
 from ..readings import Reading, standing, steady
@@ -46,7 +46,6 @@ def _face_degC(case: Case) -> float:
     return belt.ambient_degC + belt.follow(belt.sliding())[1].ice_face
 
 
-@judges("C16")
 def judge_dry_friction(claim: Claim) -> dict[str, float]:
     """No melting of the face by finite elements; sticking of a block whose asperities melt."""
     melting = cases.exact_figures(DATASET_1, **MELTING)
@@ -65,7 +64,6 @@ def judge_dry_friction(claim: Claim) -> dict[str, float]:
     return {"sticks": 100.0 * (1.0 - share), "part": 100.0 * part}
 
 
-@judges("C17")
 def judge_falling_friction(claim: Claim) -> dict[str, float]:
     """Mean slip times of the two approaches to friction, in three models."""
     both = DATASET_1.over("weakening", (0.0, WEAKENING))
@@ -95,7 +93,6 @@ SERIES = [
 ]
 
 
-@judges("C18")
 def judge_strengthening(claim: Claim) -> dict[str, float]:
     """Hold times of the series against the threshold, and what they would make of mu_s."""
     needed = THRESHOLD / SPEEDS[0]
@@ -138,7 +135,6 @@ def _counts_29(counts: Array) -> Array:
     return np.asarray(np.abs(counts[..., 2] - COUNTED) <= NEAR)
 
 
-@judges("C11")
 def judge_ratio(claim: Claim) -> dict[str, Any]:
     """Oscillations in 20 s by model, for mu_k/mu_s of 0.5, 0.77 and 1.0."""
     counts, ranges = (

@@ -20,7 +20,7 @@ from cosim.report.style import panels
 
 from .. import cases
 from ..cases import DATASET_1, DATASET_2, DATASETS, Case
-from ..claim import MODELS, STUDY, WRITTEN, Claim, judges, responsible
+from ..claim import MODELS, STUDY, WRITTEN, Claim, responsible
 from ..drawing import COLOURS, Panel, add_picture, over_time
 from ..motion import Motion
 
@@ -73,17 +73,13 @@ def variants() -> dict[str, tuple[str, Array]]:
     """Everything that is laid beside the measurements: key -> name, what it shows."""
     found = {}
     for key, one in WRITTEN["C6"]["variant"].items():
-        case, mended, pretension = (
-            DATASETS[one["dataset"]],
-            one.get("mended"),
-            one.get("pretension"),
-        )
+        case, pretension = DATASETS[one["dataset"]], one.get("pretension")
         if pretension == "fitted":
             pretension = min(PRETENSIONS, key=lambda m: misfit(of_exact(case, m)))
-        if mended is None:
-            values = of_exact(case, pretension)
-        else:
+        if (mended := one.get("mended")) is not None:
             values = of_scheme(case, MENDED if mended == "all" else PRINTED.without(*mended))
+        else:
+            values = of_exact(case, pretension)
         found[key] = str(one["name"]).format(mm=1e3 * (pretension or 0.0)), values
     return found
 
@@ -98,7 +94,6 @@ def _quarter_wins(faults: Faults) -> bool:
     return misfit(of_scheme(DATASET_2, PRINTED)) < misfit(of_scheme(DATASET_1, faults))
 
 
-@judges("C6")
 def judge(claim: Claim) -> dict[str, Any]:
     """All observations against every variant; the claim holds where a quarter of mu fits better."""
     of = {key: values for key, (_, values) in variants().items()}

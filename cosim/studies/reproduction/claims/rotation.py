@@ -12,7 +12,7 @@ from stickslip.reference.spring_angles import TREATMENTS
 from cosim.report.palette import SERIES
 
 from ..cases import DATASET_1, DATASETS, PRETENSION, Case, exact_motion, scheme, scheme_motion
-from ..claim import FAR, OPEN, STUDY, Claim, judges, responsible, responsible_pairs
+from ..claim import FAR, OPEN, STUDY, Claim, responsible, responsible_pairs
 from ..drawing import LABELS, Panel, add_picture, models_over_time, over_time
 from ..motion import Motion, figures
 from ..readings import AS_PRINTED, MARKS, READINGS, onset, outcome, reading_figures
@@ -65,7 +65,6 @@ def _apart(runs: dict[str, Motion]) -> float:
     return float(np.ptp([one[:count] for one in peaks], axis=0).max()) if count else 0.0
 
 
-@judges("C5")
 def judge_treatments(claim: Claim) -> dict[str, float]:
     """All four treatments, as printed and mended, beside the exact geometry."""
     printed, mended = schemes = treated(PRINTED), treated(MENDED)
@@ -137,7 +136,6 @@ def turns_far_and_near(first: Any, second: Any) -> Any:
     return (first > FAR_TURN / FACTOR) & (second < FACTOR * MEASURED)
 
 
-@judges("C7")
 def judge_datasets(claim: Claim) -> dict[str, Any]:
     """Largest rotation and angular speed over several seeds."""
     runs = {

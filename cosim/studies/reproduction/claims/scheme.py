@@ -20,7 +20,7 @@ from cosim.report.palette import INK
 
 from .. import cases
 from ..cases import CASE, DATASET_1, Case, scheme
-from ..claim import STUDY, Claim, judges, responsible
+from ..claim import STUDY, Claim, responsible
 from ..drawing import LINES, Curve, Panel, add_picture
 from ..motion import rate, upward_crossings
 
@@ -36,7 +36,6 @@ OFFSET, LARGE_OFFSET = 0.02, 0.05  # m
 HARDENING = 40.0  # 1/m2; §6.2 of the study: linear for the first couple of centimetres only
 
 
-@judges("C1")
 def judge_matrices(claim: Claim) -> dict[str, float]:
     """Every printed entry against K = k sum g gT; entries that are not listed are printed 0."""
     for treatment in ("zero", "constant", "opposed"):
@@ -80,7 +79,6 @@ def _growth(run: Run) -> float:
     return float(whole / half)
 
 
-@judges("C2")
 def judge_no_stiffness(claim: Claim) -> dict[str, float]:
     """k = 0 under constant friction; x = mu_k g t2 / 2 in slip, the belt's speed the limit."""
     case = DATASET_1.changed(stiffness=0.0)
@@ -93,7 +91,6 @@ def judge_no_stiffness(claim: Claim) -> dict[str, float]:
     return {"meets": meets, "speed": case.speed, "ridden": ends[-1]}
 
 
-@judges("C3")
 def judge_stiff(claim: Claim) -> dict[str, float]:
     """k = 9999 N/m; the displacement is below what the camera sees."""
     case = DATASET_1.changed(stiffness=STIFF)
@@ -105,7 +102,6 @@ def judge_stiff(claim: Claim) -> dict[str, float]:
     return {}
 
 
-@judges("C4")
 def judge_no_friction(claim: Claim) -> dict[str, float]:
     """No friction; free vibration at sqrt(4k/m)."""
     case, at_rest = DATASET_1.changed(mu_s=0.0, mu_k=0.0), {"vx": 0.0, "phi": 0.0}
@@ -137,7 +133,6 @@ def _seconds(call: Callable[[], object]) -> float:
     return median(timeit.repeat(call, number=1, repeat=3))
 
 
-@judges("C12")
 def judge_run_times(claim: Claim) -> dict[str, Any]:
     """What updating the spring angles costs: as a script, and compiled."""
     plain = [Scheme(scatter=0.0, treatment=kind) for kind in KINDS]
@@ -191,7 +186,6 @@ def _exact_jumps(case: Case) -> int:
     return int(np.sum(np.abs(steps) > _threshold(case)))
 
 
-@judges("C14")
 def judge_jumps(claim: Claim) -> dict[str, Any]:
     """Jumps in the three named runs and in all runs of the study's plan."""
     series = cases.plan()

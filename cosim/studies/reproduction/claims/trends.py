@@ -15,7 +15,7 @@ from cosim.report.palette import INK
 
 from .. import cases
 from ..cases import CASE, GUIDED, MASSES, SPEEDS, STIFFNESSES, Case
-from ..claim import Claim, judges
+from ..claim import Claim
 from ..drawing import Curve, Panel, add_picture, by_model, over_mass
 
 Array = np.ndarray
@@ -62,7 +62,6 @@ def over_speeds(figure: str, case: Case, speeds: Sequence[float] | Array = SPEED
     return cases.exact_table(figure, case.over("speed", speeds), rig=GUIDED)
 
 
-@judges("C8")
 def judge_mean(claim: Claim) -> dict[str, float]:
     """Means over the grid and along the finer line in mass."""
     line = cases.tabulated("mean_x", LINE.over("mass", LINE_MASSES))
@@ -101,7 +100,6 @@ def _closed_form(speed: float) -> float:
     return CoulombOscillator(CASE.mass, 4.0 * CASE.stiffness, speed, *limits).slip_time
 
 
-@judges("C9")
 def judge_slip_time(claim: Claim) -> dict[str, Any]:
     """Slip times over the study's range of speeds, at m 0.67 kg and k 20.17 N/m."""
     times = cases.tabulated("slip_duration", CASE.over("speed", FINE_SPEEDS))
@@ -123,7 +121,6 @@ def judge_slip_time(claim: Claim) -> dict[str, Any]:
     return {"n": sticks.sum(), "fastest": fastest, "never": never, "closed": closed}
 
 
-@judges("C10")
 def judge_kinetic_coefficient(claim: Claim) -> dict[str, float]:
     """Range of the mean mu_k, and how mass, speed and stiffness act on it."""
     series = cases.plan(ALL_STIFFNESSES)

@@ -1,0 +1,229 @@
+"""What is said of a study: `sentences.txt.j2` with the figures in words that it asks for."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from functools import cache
+from operator import attrgetter
+from typing import Any
+
+from cosim.report.material import of_material
+from cosim.report.page import sentences, texts, tiles_of
+from thermal import Belt
+
+from ..changes import NO_HELP
+from ..drift import CAMERA as CAMERA
+from ..lengths import LONGEST, length_text, metres, rounded_up
+from ..required_length import NOT_ASKED as NOT_ASKED
+from ..required_length import Answer, Question
+from ..result import PRINTED, Row, Study
+from ..uncertainty import Uncertainty
+
+#: K, s or m: less is not told from nothing.
+_NOTHING = 1e-4
+#: A change helps that leaves less than this part of a rise.
+_HELPS = 0.95
+
+
+def verdict(study: Study) -> list[str]:
+    """Some sentences; what is said holds for the cases that were computed."""
+    return [of_material(one, study.material) for one in sentences(macros().verdict(study))]
+
+
+def answered(answer: Answer) -> list[str]:
+    """The answer for one drive of an own rig, in the words of ice."""
+    return sentences(macros().answered(answer))
+
+
+def headline(study: Study) -> str:
+    """How long the belt must be: of an own rig, or whether the asked ones of the study's do."""
+    return " ".join(sentences(macros().headline(study)))
+
+
+def tiles(study: Study) -> list[tuple[str, str]]:
+    """The first answer's lengths, or the shortest belts of the study's rig by speed."""
+    return tiles_of(macros().tiles(study))
+
+
+def printed(study: Study) -> str:
+    """What the command prints of it."""
+    # what is asked for is printed as it is, what is found with as much as it is worth
+    exact = {name: "{:g}".format for name in ("length [m]", "speed [m/s]")}
+    style: Any = {"index": False, "formatters": exact, "float_format": two_digits}
+    table = study.table()[PRINTED].to_string(**style) if study.rows else ""
+    return str(macros().printed(study, verdict(study), table))
+
+
+@cache
+def macros() -> Any:
+    """The macros of `sentences.txt.j2`."""
+    return texts("sentences.txt.j2", __package__, globals())
+
+
+def two_digits(value: float) -> str:
+    """A figure whose doubt is a factor of 0.75 to 2; below 0.1 mK a rise is nothing."""
+    return "0" if abs(value) < _NOTHING else f"{float(f'{value:.2g}'):g}"
+
+
+def span(values: Iterable[float]) -> str:
+    """The smallest and the largest of some figures, one where they are the same."""
+    values = sorted(values)
+    return " to ".join(dict.fromkeys(map(two_digits, (values[0], values[-1]))))
+
+
+def percent(share: float) -> str:
+    """A share, as a whole number."""
+    return f"{100.0 * share:.0f} %"
+
+
+def over(rows: Iterable[Row], name: str) -> str:
+    """Some rows' figures of a name, such as `drift.run`."""
+    return span(map(attrgetter(name), rows))
+
+
+def enough(rows: Iterable[Row], limit: float) -> str:
+    """Whether a belt of some rows does."""
+    cold = [row.drift.run <= limit for row in rows]
+    if all(cold):
+        return "suffices"
+    return "suffices in some of the cases" if any(cold) else "does not suffice"
+
+
+def words_of(drives: Iterable[tuple[float, list[Row]]], limit: float) -> list[str]:
+    """The same of some speeds, each word once."""
+    return list(dict.fromkeys(enough(rows, limit) for _, rows in drives))
+
+
+def outermost(rows: Iterable[Row], low: str, high: str) -> tuple[float, float] | None:
+    """Ends of what the doubts of some rows reach over; None where there are none."""
+    doubts = [row.uncertainty for row in rows if row.uncertainty is not None]
+    if not doubts:
+        return None
+    return min(map(attrgetter(low), doubts)), max(map(attrgetter(high), doubts))
+
+
+def lengths(rows: list[Row], name: str, longest: str = f"more than {LONGEST:g} m") -> str:
+    """Shortest belts of some rows; longest: said where no belt does."""
+    found = [getattr(row, name) for row in rows]
+    known = [length for length in found if length is not None]
+    if not known:
+        return longest
+    if known == found and all(getattr(row, name) <= row.case.shortest for row in rows):
+        return "any belt"
+    low, high = (rounded_up(length)[0] for length in (min(known), max(known)))
+    belts = metres(min(known)) if low == high else f"{low} to {high} m (rounded up to two digits)"
+    return belts if known == found else f"{belts}, in some cases {longest},"
+
+
+def belts(question: Question, for_ever: str) -> list[str]:
+    """Shortest belts for a question, for a table."""
+    levels = [level.says if level else "-" for level in question.levels]
+    return [length_text(question.shortest), *levels, for_ever]
+
+
+def drives(study: Study) -> Iterator[tuple[Row, list[str], list[str]]]:
+    """A row of each drive; belts at levels of the doubt: round cold, with a steady interface."""
+    doubted = study.shortest_in_doubt()
+    for case, row in {row.case.with_length(1.0): row for row in study.rows}.items():
+        cold, steady = (
+            [doubted[case][rise][level].says or "-" for level in ("median", "high")]
+            for rise in ("run", "interface")
+        )
+        yield row, cold, steady
+
+
+def in_doubt(study: Study, rows: Iterable[Row]) -> list[dict[str, str]]:
+    """Shortest belts that come round cold, and with a steady interface, by level, in words."""
+    doubted = study.shortest_in_doubt()
+    found = [doubted[case] for case in dict.fromkeys(row.case.with_length(1.0) for row in rows)]
+    return [
+        {level: ", ".join(dict.fromkeys(one[rise][level].in_words or "?" for one in found))
+         for level in ("median", "high")}
+        for rise in ("run", "interface")
+    ]  # fmt: skip
+
+
+def waits(rows: list[Row]) -> tuple[list[str], list[str], str]:
+    """Speeds at which there is no need to wait; how long at others; why never."""
+    already, pauses = [], []
+    never = "; ".join(sorted({row.wait.reason for row in rows if row.wait.begin is None}))
+    for speed in sorted({row.case.speed for row in rows}):
+        of_speed = [row.wait.begin for row in rows if row.case.speed == speed]
+        known = [begin for begin in of_speed if begin is not None]
+        if known and max(known) == 0.0:
+            already.append(f"{speed:g}")
+        elif known:
+            pauses.append(f"{span(known)} s at {speed:g} m/s")
+    return already, pauses, never
+
+
+def helps(row: Row) -> Iterator[tuple[str, float, list[str]]]:
+    """Of entry and interface what the rise does, how much, and how much with changes that help."""
+    start, *rest = (one for one in row.changes if one.what not in NO_HELP)
+    for name, what in (
+        ("run", "the belt enters %.2g K warm"),
+        ("interface_drift", "the interface warms by %.2g K at constant speed"),
+    ):
+        rise = getattr(start, name)
+        left = sorted((abs(getattr(one, name)), one.what) for one in rest)
+        helping = [f"{kelvin:.2g} K with {one}" for kelvin, one in left if kelvin < _HELPS * rise]
+        yield what, rise, helping
+
+
+def too_small(rows: Iterable[Row]) -> list[float]:
+    """How many times the study's single pass is too small."""
+    return [row.drift.run / row.drift.study for row in rows]
+
+
+def shares(doubt: Uncertainty) -> list[str]:
+    """Unknowns with their shares of the variance, the largest first."""
+    words = {one.key: one.says for one in doubt.single_changes}
+    return [f"{words[one.key]} {one.total:.0%}" for one in doubt.influences]
+
+
+def lacking(belt: Belt) -> list[str]:
+    """What sampled rigs have that would warm a belt, and a rig as given has not."""
+    has = {
+        "rollers": belt.rollers,
+        "rollers up to 0.5 K warmer than the air": not belt.rollers or belt.roller_rise > 0.0,
+        "a railing that rubs": belt.railing_friction > 0.0,
+    }
+    return [what for what, there in has.items() if not there]
+
+
+def _outside(name: str, value: float, low: float, high: float, unit: str = "K") -> list[str]:
+    """A figure of the nominal rig that lies beyond its interval; nothing where it does not."""
+    if low <= value <= high:
+        return []
+    return [f"{name} ({two_digits(value)} {unit}, interval {span((low, high))} {unit})"]
+
+
+def rows_outside(rows: Iterable[Row]) -> list[str]:
+    """Nominal rises of rows that lie outside of their intervals."""
+    found = []
+    for row in rows:
+        if (u := row.uncertainty) is not None:
+            drift, where = row.drift, f"on {row.case.length:g} m at {row.case.speed:g} m/s"
+            ends = u.interface_low, u.interface_high
+            off = _outside("the rise at entry", drift.run, u.low, u.high)
+            off += _outside("the interface's rise", drift.interface_drift, *ends)
+            found += [f"{one} {where}" for one in off]
+    return found
+
+
+def answer_outside(answer: Answer) -> list[str]:
+    """Nominal figures of an answer that lie beyond their intervals."""
+    found = []
+    for question, rise, length in (
+        (answer.run, "the rise at entry", "the belt that comes round cold"),
+        (answer.interface, "the interface's rise", "the belt with a steady interface"),
+    ):
+        if question.rises is not None:
+            found += _outside(rise, question.rise, question.rises[0], question.rises[2])
+        low, high = question.low, question.high
+        if question.shortest is not None and low and high:
+            # beyond the belts looked at an interval is open
+            least = 0.0 if low.says.startswith("<") else low.length or 0.0
+            found += _outside(length, question.shortest, least, high.length or math.inf, "m")
+    return found
