@@ -20,12 +20,11 @@ def number(value: float | None) -> str:
 def truth_lines(row: Row) -> list[str]:
     """What is true, with its text and its size."""
     truth = row.truth
-    lines = []
-    for each in truth.hidden:
-        lines.append(
-            f"- hidden: **{each['name']}**, {each['shape']}; size {each['size']['size']:.1f} noise "
-            f"units, strength {each['strength']:.3g}; {each['law']}"
-        )
+    lines = [
+        f"- hidden: **{each['name']}**, {each['shape']}; size {each['size']['size']:.1f} noise "
+        f"units, strength {each['strength']:.3g}; {each['law']}"
+        for each in truth.hidden
+    ]
     if not truth.hidden:
         names = ", ".join(sorted(truth.effects or truth.members)) or truth.kind or "nothing"
         lines.append(f"- hidden: **{names}**")
@@ -56,9 +55,10 @@ def answer_lines(row: Row) -> list[str]:
             f"{number(each['held_out_gap'])}, fit {number(each['fit_gap'])}, "
             f"dBIC {number(each['delta_bic'])}; {numbers}"
         )
-    for name, at in places(row).items():
-        if at is None or at > FIRST:
-            lines.append(f"- {name}: {'not in the ranking' if at is None else f'place {at}'}")
+    ranked = [each["effect"] for each in row.found.get("ranking", [])]
+    for name in sorted(row.truth.effects - set(ranked[:FIRST])):
+        place = f"place {ranked.index(name) + 1}" if name in ranked else "not in the ranking"
+        lines.append(f"- {name}: {place}")
     if row.found.get("share") is not None:
         lines.append(f"- share of the misfit that is taken: {number(row.found['share'])}")
     lines += [f"- ladder: {json.dumps(step)}" for step in row.found.get("ladder") or ()]
@@ -67,15 +67,6 @@ def answer_lines(row: Row) -> list[str]:
     if row.found.get("remarks"):
         lines.append("- remarks: " + "; ".join(row.found["remarks"]))
     return lines
-
-
-def places(row: Row) -> dict[str, int | None]:
-    """Where each hidden effect stands in the ranking, from 1."""
-    ranked = [each["effect"] for each in (row.found or {}).get("ranking", [])]
-    return {
-        name: ranked.index(name) + 1 if name in ranked else None
-        for name in sorted(row.truth.effects)
-    }
 
 
 def is_listed(row: Row) -> bool:
