@@ -170,17 +170,13 @@ def _parse(rows: list[tuple[int, str]], separator: str, width: int) -> pd.DataFr
     if len(fields) < width or any(fields[width:]):
         many = f"has {len(fields)} fields, the header has {width}; allowed is the same number"
         raise CampaignError(f"line {rows[longest][0]} {many}")
-    decimal = "," if is_comma and separator != "," else "."
-    table = pd.read_csv(
-        io.StringIO("\n".join(text)), sep=separator, header=None, names=range(width),
-        decimal=decimal, usecols=range(width), index_col=False, skipinitialspace=True,
-        na_values=MISSING, skip_blank_lines=False,
+    table = "\n".join(text)
+    if is_comma and separator != ",":
+        table = table.replace(",", ".")
+    return pd.read_csv(
+        io.StringIO(table), sep=separator, header=None, names=range(width), usecols=range(width),
+        index_col=False, skipinitialspace=True, na_values=MISSING, skip_blank_lines=False,
     )  # fmt: skip
-    if decimal == ",":  # one strange cell leaves a column text, with its commas
-        for name in table.select_dtypes(exclude="number"):
-            points = table[name].astype(str).str.replace(",", ".", regex=False)
-            table[name] = points.where(table[name].notna())
-    return table
 
 
 def _numbers(name: str, column: pd.Series, lines: np.ndarray) -> np.ndarray:

@@ -17,7 +17,14 @@ from cosim.gap import Campaign, CampaignError, MeasuredRun, Track, read_campaign
 from cosim.gap.checks import LEVEL, doubts_of
 from cosim.gap.checks import motion as checks_of_motion
 from cosim.gap.checks.level import far
-from cosim.gap.checks.motion import CREEPS, doubts_of_direction, stick_speed, stiffness_ratio
+from cosim.gap.checks.motion import (
+    CREEPS,
+    SHORT_CYCLE,
+    doubts_of_direction,
+    doubts_of_units,
+    stick_speed,
+    stiffness_ratio,
+)
 from cosim.gap.checks.tracker import (
     BARTLETT,
     SMOOTHED,
@@ -28,7 +35,6 @@ from cosim.gap.checks.tracker import (
     lattice,
     with_rounding,
 )
-from cosim.gap.checks.units import SHORT_CYCLE, doubts_of_units
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.data.units import COARSEST, MOST_FRICTION, check_units, cycle_of, friction_of, swing
 

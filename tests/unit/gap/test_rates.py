@@ -12,7 +12,7 @@ from cosim.gap.rates import (
     NONE,
     Decision,
     Offers,
-    Truth,
+    added_rows,
     confirmed,
     counted,
     drawn,
@@ -58,7 +58,8 @@ def test_the_decision_is_that_of_the_ladder(searched):
     system = ladder.system
     rung = system.rung()
     options = {name: options_of(some, len(system.fitted)) for name, some in unknowns.items()}
-    offers = Decision(rung, options).offers(system.rows[:, None])
+    decision = Decision(rung, options)
+    offers = decision.decided(decision.projected(system.rows[:, None]))
     for name, evidence, gain in zip(offers.names, offers.evidence, offers.gain, strict=True):
         total, added = rung.offered(unknowns[name])
         assert evidence[0] == pytest.approx(total - rung.evidence, abs=1e-6)
@@ -111,12 +112,11 @@ def test_what_is_drawn_is_as_large_as_stated(searched):
 def test_a_truth_is_as_large_as_the_rows_have_it(searched):
     """What it adds is what a rung's posterior mean adds."""
     ladder = searched[0]
-    truth = Truth.of("it", ladder.rung)
     mean = ladder.rung.posterior[0]
     columns = [ladder.system.columns(one.unknown) for one in ladder.rung.added]
     parts = [mean[ladder.rung.part_of(one)] for one in ladder.rung.added]
     expected = sum(c @ p for c, p in zip(columns, parts, strict=True))
-    assert truth.rows(ladder.system) == pytest.approx(expected)
+    assert added_rows(ladder.rung) == pytest.approx(expected)
 
 
 def test_a_name_takes_six_nats_and_a_class_three():

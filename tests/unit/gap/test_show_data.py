@@ -16,7 +16,7 @@ from cosim.cli import main
 from cosim.gap import read_campaign
 from cosim.gap.data import Track
 from cosim.gap.quantities import digits, fitted_quantities, quantity, with_digits
-from cosim.gap.show.corrected import write_corrected
+from cosim.gap.show.files import write_corrected
 from cosim.gap.show.model_file import model_text, safe_name, scenario_of, shown_run
 from cosim.gap.show.numbers import DIGITS, as_data, as_json
 from cosim.gap.show.tracks import residuals, starts
