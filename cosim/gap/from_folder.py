@@ -166,7 +166,7 @@ def _of_deeplabcut(file: Path, text: str, frames: float | None, pixel: float | N
             f"{file}: DeepLabCut's pixels, frame by frame; needed are --frames RATE, pictures a "
             'second, and --pixel LENGTH, as "0.2 mm"'
         )
-    read = pd.read_csv(io.StringIO(text), header=[1, 2], index_col=0, float_precision="round_trip")
+    read = pd.read_csv(io.StringIO(text), header=[1, 2], index_col=0)
     places = []
     for name in dict.fromkeys(read.columns.get_level_values(0)):
         point = read[name].astype(float)
