@@ -114,8 +114,7 @@ def said(doubts, check):
 
 
 @pytest.mark.parametrize(
-    ("log", "doubted"),
-    [(0.9, False), (1.2, True), (-0.9, False), (-1.15, True)],
+    ("log", "doubted"), [(0.9, False), (1.2, True), (-0.9, False), (-1.15, True)]
 )
 def test_the_speed_in_sticks_is_that_of_the_surface(log, doubted, sound):
     """In parts of the limit; to the lower side a contact may creep."""

@@ -18,10 +18,7 @@ def written(folder, csv=CSV, **tables):
     (folder / "mu_v.csv").write_text(csv, encoding="utf-8")
     time = np.arange(40) * 0.01
     runs = [
-        {
-            "surface_speed": speed,
-            "columns": {"t": time, "x": noisy(0.0 * time, number)},
-        }
+        {"surface_speed": speed, "columns": {"t": time, "x": noisy(0.0 * time, number)}}
         for number, speed in enumerate(SPEEDS)
     ]
     more = {"friction": {"table": "mu_v.csv"}, "noise": {"x": NOISE}} | tables
