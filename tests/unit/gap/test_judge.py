@@ -8,19 +8,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from stickslip.catalogue import CATALOGUE
+from stickslip.effects.candidate import Scales
+from stickslip.effects.contact.static_strengthening import EFFECT
 
+from cosim.gap import models
 from cosim.gap.extended import Part
 from cosim.gap.judge import (
     Verdict,
     halves,
     judge,
-    leaves,
     may_be_spurious,
     rivals_of,
-    runs_ask,
     with_steps,
 )
 from cosim.gap.judge import judged as judged_gap
+from cosim.gap.laws import Context, FreeCurve, laws_of
+from cosim.gap.models import Models
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import VERDICTS, Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
@@ -100,23 +103,12 @@ def test_fitted_runs_judge_where_none_is_held_out():
     assert judge([finding("run_in")], ["run_in"], ladder, PHYSICS).verdict == "named"
 
 
-@pytest.mark.parametrize(("gained", "ask"), [(4.5, False), (5.9, False), (6.1, True)])
-def test_simulated_runs_ask_for_a_finding_by_as_much_as_the_rows(gained, ask):
-    assert runs_ask(gained) is ask
-
-
 @pytest.mark.parametrize(("left", "halved"), [(1.48, True), (1.6, False)])
 @pytest.mark.parametrize("of_fitted", [True, False])
 def test_a_lesser_finding_halves_what_the_contact_alone_leaves(left, halved, of_fitted):
     """2^2 - 1 without it, half of which is (1.58)^2 - 1; of fitted runs and of held-out ones."""
     after = Score(left, 1.0) if of_fitted else Score(1.0, left)
     assert halves(after, Score(2.0, 2.0)) is halved
-
-
-@pytest.mark.parametrize("of_fitted", [True, False])
-@pytest.mark.parametrize(("gap", "missing"), [(1.09, False), (1.11, True)])
-def test_what_has_no_law_may_be_what_is_missing_where_something_is(gap, missing, of_fitted):
-    assert leaves(Score(gap, 1.0) if of_fitted else Score(1.0, gap)) is missing
 
 
 def test_faint_findings_along_x_may_be_a_contact_s_and_further_ones_what_the_first_leaves():
@@ -316,3 +308,27 @@ def test_data_in_doubt_are_said_to_be_the_reason():
 def test_coarse_steps_are_named_where_nothing_else_is_unknown(verdict, effects, told):
     answer = with_steps(Verdict(verdict, effects, ()), "steps")
     assert (answer.verdict, answer.effects) == told
+
+
+# --- laws of the catalogue beside the curves that the runs have drawn ---
+
+
+def test_a_law_and_what_the_curve_has_beside_it():
+    """Ageing is drawn from the shortest hold on: by then mu_s has grown already."""
+    at = np.log([0.2, 0.4, 0.8, 1.6, 3.2])
+    grown = 0.08 * np.log10(1.0 + np.exp(at) / 0.01) / 0.25
+    curve = FreeCurve(at, grown - grown[0], 1e-6 * np.eye(at.size))
+    scales = Scales(0.05, 1.0, 1.0, 20.0, 50.0, 0.02, 0.9, 9.0)
+    campaign = SimpleNamespace(catalogue=SimpleNamespace(effects=[EFFECT]))
+    best = laws_of(EFFECT.id, curve, Context(campaign, scales, {"mu_s": 0.25}))[0]
+    assert best.candidate.form == "logarithmic"
+    assert best.values["static_strengthening.rate"] == pytest.approx(0.08, rel=1e-3)
+    assert best.level == pytest.approx(-grown[0], rel=1e-3)
+
+
+def test_a_fit_sets_out_from_what_the_rows_have_beside_the_laws(monkeypatch):
+    known = {"friction.mu_s": 0.4, "friction.mu_k": 0.2}
+    monkeypatch.setattr(models, "started_from", lambda campaign, rows: dict(known))
+    aged = Part(Finding(EFFECT.id, (), 30.0), None, (), (), {}, shifts={"friction.mu_s": -0.1})
+    assert Models(None, None, {}, [aged], 1)._by_rows(None) == {**known, "friction.mu_s": 0.4 - 0.1}
+    assert Models(None, None, {}, [], 1)._by_rows(None) == known
