@@ -297,7 +297,8 @@ def _wave(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
         Number(f"{name}.amplitude", amplitude, None, 0.0, 1.0),
         Number(f"{name}.phase_deg", 0.0, None, -360.0, 360.0, "run"),
     ]
-    settings, starts = {}, {}
+    settings: dict[str, float] = {}
+    starts: dict[str, float] = {}
     if pattern:
         numbers.append(Number(f"{name}.wavelength", length, None, 0.9 * length, 1.1 * length))
         # a set-point that is off by a percent gets ahead by whole waves in a run
