@@ -5,26 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
+from cosim.gap import judge
 from cosim.gap.data import Campaign
 from cosim.gap.extended import Part, as_points, part_of, rounding_of
-from cosim.gap.judge import (
-    EXPLAINED,
-    MUCH_MORE,
-    NOTHING_MISSING,
-    SURE,
-    TURNED,
-    explains,
-    findings_by_rounds,
-    halves,
-    is_asked_for_ageing,
-    judged,
-    leaves,
-    may_be_spurious,
-    much_more,
-    rivals_of,
-    runs_ask,
-    told_by_both,
-)
 from cosim.gap.laws import LawFit
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
@@ -65,7 +48,7 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
     naming = Naming.of(campaign)
     fitting.step()
     rejected: list[Rejected] = []
-    rounds = iter(findings_by_rounds())
+    rounds = iter(judge.findings_by_rounds())
     while True:
         named = naming.named([one.effect for one in rejected], next(rounds, 0))
         if unsure := fitting.unsure(named):
@@ -75,7 +58,7 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
         parts = [fitting.part(named, finding) for finding in named.findings]
         most = max((part.finding.gain for part in parts), default=0.0)
         faint = {part.finding.name for part in parts
-                 if may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
+                 if judge.may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
         if outdone := fitting.outdone(parts, named, faint):
             rejected += outdone
             continue
@@ -84,7 +67,7 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
             if not parts:
                 parts, named = fitting.aged(named)
             found, models = fitting.best_of(parts, named)
-            if not (explains(models.ladder) and models.is_felt):
+            if not (judge.explains(models.ladder) and models.is_felt):
                 along = {part.finding.name for part in parts if part.finding.added}
                 doubted = fitting.rejected(parts, named, along - faint)
         if doubted is None:
@@ -126,12 +109,12 @@ class Fitting:
         (finding,), rows = named.findings, named.ladder.system.rung()
         offers = likeliest_filters(rows, named.unknowns[SMOOTHING])
         forms = [_with_alone(named, replace(finding, gain=gain, added=(added,)))
-                 for gain, added in offers if gain > finding.gain - TURNED]  # fmt: skip
+                 for gain, added in offers if gain > finding.gain - judge.TURNED]  # fmt: skip
 
         def missed(form: Named) -> float:
             parts = [self.part(form, form.findings[0])]
             left = self._fitted(form, parts, is_shown=False, scatters=False).unscattered
-            return max(left.fit, judged(left))
+            return max(left.fit, judge.judged(left))
 
         chosen = min(forms, key=missed)
         rung = named.ladder.system.rung(chosen.findings[0].added)
@@ -142,7 +125,7 @@ class Fitting:
         if rounding_of(self.campaign) is None:
             return []
         return [Rejected(one.name, one.gain, None)
-                for one in named.findings if one.added and one.gain < SURE]  # fmt: skip
+                for one in named.findings if one.added and one.gain < judge.SURE]  # fmt: skip
 
     def aged(self, named: Named) -> tuple[list[Part], Named]:
         """Static friction over the hold time, where a contact would have to let go very soon.
@@ -151,12 +134,14 @@ class Fitting:
         """
         without = self._fitted(named, [])
         offered = named.ladder.first_offers.get(AGEING)
-        if offered is None or not is_asked_for_ageing(without.fits[-1].values.get(LOADING, 0.0)):
+        if offered is None or not judge.is_asked_for_ageing(
+            without.fits[-1].values.get(LOADING, 0.0)
+        ):
             return [], named
         finding = Finding(AGEING, offered[1], 0.0)
         aged = _with_alone(named, finding)
-        gained = self._gained(self.part(aged, finding), without, aged, MUCH_MORE)
-        if not much_more(gained):
+        gained = self._gained(self.part(aged, finding), without, aged, judge.MUCH_MORE)
+        if not judge.much_more(gained):
             return [], named
         aged = _with_alone(named, replace(finding, gain=gained))
         return [self.part(aged, aged.findings[0])], aged
@@ -174,7 +159,7 @@ class Fitting:
             for law in part.rivals(self.campaign):
                 if law.effect == part.effect:
                     gained = without.gained(self.part(named, part.finding, law))
-                    if much_more(gained):
+                    if judge.much_more(gained):
                         return gained
         return first
 
@@ -187,18 +172,18 @@ class Fitting:
         models = self._fitted(named, parts)
         for part in parts:
             for law in part.rivals(self.campaign):
-                if law.effect == part.effect and explains(models.ladder):
+                if law.effect == part.effect and judge.explains(models.ladder):
                     continue  # another form of it hardly tells
                 other = self.part(named, part.finding, law)
                 swapped = [other if one.finding is part.finding else one for one in parts]
                 others = self._fitted(named, swapped)
-                if judged(others.ladder[-1].gap) < judged(models.ladder[-1].gap):
+                if judge.judged(others.ladder[-1].gap) < judge.judged(models.ladder[-1].gap):
                     parts, models = swapped, others
-        if not explains(models.ladder):  # a law may be near its curve, and not near enough
+        if not judge.explains(models.ladder):  # a law may be near its curve, and not near enough
             points = [as_points(self.campaign, named.system, part) for part in parts]
             if points != parts:
                 others = self._fitted(named, points)
-                if judged(others.ladder[-1].gap) < judged(models.ladder[-1].gap):
+                if judge.judged(others.ladder[-1].gap) < judge.judged(models.ladder[-1].gap):
                     return points, others
         return parts, models
 
@@ -230,14 +215,14 @@ class Fitting:
         """
         greatest = _greatest(parts)
         lesser = [part for part in parts if part is not greatest and part.finding.name in asked]
-        if greatest is None or len(lesser) < 2 or any(p.finding.gain >= SURE for p in lesser):
+        if greatest is None or len(lesser) < 2 or any(p.finding.gain >= judge.SURE for p in lesser):
             return []
         alone = self._fitted(named, [greatest], is_shown=False, scatters=False)
-        if judged(alone.unscattered) > EXPLAINED:
+        if judge.judged(alone.unscattered) > judge.EXPLAINED:
             return []
         alone.let_scatter()
         gained = [alone.gained(part) if part.in_kernel else None for part in lesser]
-        if any(gain is not None and gain >= SURE for gain in gained):
+        if any(gain is not None and gain >= judge.SURE for gain in gained):
             return []
         return [Rejected(part.finding.name, part.finding.gain, gain)
                 for part, gain in zip(lesser, gained, strict=True)]  # fmt: skip
@@ -254,7 +239,7 @@ class Fitting:
             return None
         without.let_scatter()
         gained = self._gained(greatest, without, named)
-        if much_more(gained - price_of(greatest.finding.name)):
+        if judge.much_more(gained - price_of(greatest.finding.name)):
             return None
         return Rejected(greatest.finding.name, greatest.finding.gain, gained)
 
@@ -270,12 +255,14 @@ class Fitting:
         without = self._without(part, parts, named)
         is_lesser = part.finding.gain < max(other.finding.gain for other in parts)
         gained = self._gained(part, without, named) if part.in_kernel else 0.0
-        is_sure = max(part.finding.gain, gained) >= SURE
-        if is_lesser and not is_sure and judged(without.unscattered) <= EXPLAINED:
+        is_sure = max(part.finding.gain, gained) >= judge.SURE
+        if is_lesser and not is_sure and judge.judged(without.unscattered) <= judge.EXPLAINED:
             return False
         if not part.in_kernel:
-            return leaves(without.ladder[-1].gap, EXPLAINED if is_lesser else NOTHING_MISSING)
-        return runs_ask(gained - price_of(part.finding.name))
+            return judge.leaves(
+                without.ladder[-1].gap, judge.EXPLAINED if is_lesser else judge.NOTHING_MISSING
+            )
+        return judge.runs_ask(gained - price_of(part.finding.name))
 
     def _makes_up(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
         """Whether it takes what is missing without it, or half of that; or half before scatter.
@@ -284,23 +271,23 @@ class Fitting:
         contact or a friction that may scatter from run to run have taken it up.
         """
         without = self._without(part, parts, named)
-        is_missed = leaves(before := without.ladder[-1].gap)
+        is_missed = judge.leaves(before := without.ladder[-1].gap)
         if not part.in_kernel:
             return True
         found = self._fitted(named, parts)
         if found.is_lost:
             return False
-        if without.gained(part) > SURE or (len(parts) == 1 and not is_missed):
+        if without.gained(part) > judge.SURE or (len(parts) == 1 and not is_missed):
             return True
         after = found.ladder[-1].gap
-        if is_missed and (not leaves(after) or halves(after, before)):
+        if is_missed and (not judge.leaves(after) or judge.halves(after, before)):
             return True
         left = without.unscattered
-        return leaves(left) and halves(found.unscattered, left)
+        return judge.leaves(left) and judge.halves(found.unscattered, left)
 
     def left_without(self, parts: Sequence[Part], models: Models, named: Named) -> Score | None:
         """What the runs miss without any finding; None where the model with them is near enough."""
-        if not parts or explains(models.ladder):
+        if not parts or judge.explains(models.ladder):
             return None
         return self._fitted(named, [], is_shown=False).ladder[-1].gap
 
@@ -313,7 +300,7 @@ class Fitting:
         if lone is None:
             return {}
         finding = lone.finding
-        near = rivals_of(finding, explains(models.ladder))
+        near = judge.rivals_of(finding, judge.explains(models.ladder))
         rivals = {name: self._in_place(named, name) for name in near}
         if not rivals:
             return {}
@@ -345,12 +332,12 @@ class Fitting:
         if lone is None:
             return None
         for rival, more in rivals.values():
-            if more > SURE:
+            if more > judge.SURE:
                 in_place = [rival if part is lone else part for part in parts]
                 with_it, own = (self._fitted(named, some) for some in (in_place, parts))
-                is_better = judged(with_it.ladder[-1].gap) < judged(own.ladder[-1].gap)
-                stays = lone.in_model and explains(own.ladder)
-                if is_better and not stays and (lone.in_kernel or explains(with_it.ladder)):
+                is_better = judge.judged(with_it.ladder[-1].gap) < judge.judged(own.ladder[-1].gap)
+                stays = lone.in_model and judge.explains(own.ladder)
+                if is_better and not stays and (lone.in_kernel or judge.explains(with_it.ladder)):
                     without = self._without(lone, parts, named)
                     gained = without.gained(lone) if lone.in_kernel else None
                     return Rejected(lone.finding.name, lone.finding.gain, gained)
@@ -367,7 +354,7 @@ class Fitting:
         *across, finding = named.findings
         others = dict(finding.others)
         for name, (_, more) in rivals.items():
-            others[name] = told_by_both(finding, name, more)
+            others[name] = judge.told_by_both(finding, name, more)
         return replace(named, findings=(*across, replace(finding, others=others)))
 
     def _in_place(self, named: Named, name: str) -> Part:

@@ -18,10 +18,8 @@ RIG, FRICTION = {"spring_natural_length": 0.17}, {"mu_s": 0.30, "mu_k": 0.22}
 SPEEDS = (0.06, 0.10, 0.15, 0.25)
 #: Two of them: with one load a coefficient cannot be told from a force.
 MASSES = (0.87, 1.4, 1.4, 0.87)
-RUNS = [
-    {"mass": mass, "stiffness": 38.5, "surface_speed": speed}
-    for mass, speed in zip(MASSES, SPEEDS, strict=True)
-]
+RUNS = [{"mass": mass, "stiffness": 38.5, "surface_speed": speed}
+        for mass, speed in zip(MASSES, SPEEDS, strict=True)]  # fmt: skip
 #: s
 DURATION, INTERVAL = 10.0, 0.01
 HIDDEN = {"velocity_weakening": {"linear": 0.8}}
@@ -49,10 +47,8 @@ def write_example(folder: Path, seed: int = 0, force: bool = False) -> Path:
         x = moved["x"] + NOISE * random.standard_normal(moved.time.size)
         rows = [f"{t:.6g},{value:.7f}" for t, value in zip(moved.time, x, strict=True)]
         tracks[name] = "\n".join(["t,x", *rows]) + "\n"
-    made = [
-        {"file": name, **run, "hold_out": name == names[-1]}
-        for name, run in zip(names, RUNS, strict=True)
-    ]
+    made = [{"file": name, **run, "hold_out": name == names[-1]}
+            for name, run in zip(names, RUNS, strict=True)]  # fmt: skip
     write_unless_owned({CAMPAIGN: _campaign("example", made), **tracks}, folder, force)
     return folder / CAMPAIGN
 

@@ -16,19 +16,10 @@ from stickslip.plugins.load import file_of
 
 from cosim.gap.data import Campaign
 from cosim.gap.laws import Context, FreeCurve, LawFit, free_curve, laws_of, scales_of
+from cosim.gap.weak_form import rig_unknowns as rig
 from cosim.gap.weak_form.camera_faults import SMOOTHING
 from cosim.gap.weak_form.constants import ALIKE, CONTACT_DELAY, FAULT_SIZES, HARMONICS
 from cosim.gap.weak_form.ladder import BY_SPEED, FALLS, Finding
-from cosim.gap.weak_form.rig_unknowns import (
-    CONTACT,
-    MU_K,
-    MU_S,
-    SCATTER,
-    SPEED,
-    SPRINGS,
-    ZERO_NAME,
-    setup_of,
-)
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.windows.numbers import Number
 from cosim.gap.windows.run_model import FORCE_PART, LOADING, PER_WEIGHT, TABLE_PART, WITH_WEIGHT
@@ -61,10 +52,10 @@ class Part:
     """
 
     finding: Finding
-    curve: FreeCurve | None
-    fits: tuple[LawFit, ...]
-    numbers: tuple[Number, ...]
-    settings: dict[str, float]
+    curve: FreeCurve | None = None
+    fits: tuple[LawFit, ...] = ()
+    numbers: tuple[Number, ...] = ()
+    settings: dict[str, float] = field(default_factory=dict)
     starts: dict[str, float] = field(default_factory=dict)
     shifts: dict[str, float] = field(default_factory=dict)
 
@@ -109,7 +100,7 @@ def rounding_of(campaign: Campaign) -> Part | None:
     some = len(steps) < sum(run.track is not None for run in campaign.runs)
     settings = {f"in@{name}": 1.0 for name in steps} if some else {}
     coarsest = max(step for of_run in steps.values() for step, _ in of_run.values())
-    return Part(Finding(ROUNDING, (), 0.0, settings=settings), None, (), (), {ROUNDING: coarsest})
+    return Part(Finding(ROUNDING, (), 0.0, settings=settings), settings={ROUNDING: coarsest})
 
 
 def part_of(
@@ -130,29 +121,26 @@ def part_of(
         return _fault(campaign, rung, finding)
     if finding.name == "load_dependence":
         return _load(rung, finding, scales.force)
-    units = {
-        "film_drag": level.kinetic * scales.force,
-        "structural_damping": level.kinetic * scales.force,
-        "spring_hardening": scales.travel * 4.0 * scales.stiffness,
-    }
+    units = dict.fromkeys(("film_drag", "structural_damping"), level.kinetic * scales.force)
+    units["spring_hardening"] = scales.travel * 4.0 * scales.stiffness
     at_rest = unknown.curve is not None and unknown.curve.per == "mu_k"
-    kinetic = started_from(campaign, rung)[f"friction.{MU_K}"]
+    kinetic = started_from(campaign, rung)[f"friction.{rig.MU_K}"]
     of_level = level.kinetic / kinetic if at_rest and kinetic > 0.0 else 1.0
     curve = free_curve(rung, finding, units.get(finding.name, of_level))
     if curve is None:
-        return Part(finding, None, (), (), {})
-    context = Context(
-        campaign, scales, {**unknown.settings, "mu_s": level.static}, own_effects(campaign)
-    )
-    fits = laws_of(finding.name, curve, context)
+        return Part(finding)
+    known = {**unknown.settings, "mu_s": level.static}
+    fits = laws_of(finding.name, curve, Context(campaign, scales, known, own_effects(campaign)))
     if not fits:
-        return Part(finding, curve, (), (), {})
+        return Part(finding, curve)
     if law is not None:
         fits.sort(key=lambda fit: fit.law != law.law)
     best = fits[0]
     if not (law or best.follows) and (points := _points(campaign, finding, curve, scales)):
         return Part(finding, curve, tuple(fits), (), points)
-    numbers, settings = _numbers(best)
+    settings = dict(best.candidate.settings)
+    numbers = [_number(free, best.values.get(free.key, free.start))
+               for free in best.candidate.free_parameters]  # fmt: skip
     if finding.name in BY_SPEED:
         settings |= _of_load(finding, numbers, scales.force)
     settings |= _shares(best.effect, unknown.settings)
@@ -165,7 +153,7 @@ def part_of(
             settings[f"per_weight.{best.effect}.per_joule"] = scales.force
     shifts = {}
     if finding.name == "static_strengthening":  # the rows' mu_s is that of the shortest hold
-        shifts[f"friction.{MU_S}"] = level.static * best.level
+        shifts[f"friction.{rig.MU_S}"] = level.static * best.level
     return Part(finding, curve, tuple(fits), tuple(numbers), settings, shifts=shifts)
 
 
@@ -229,16 +217,8 @@ def own_effects(campaign: Campaign) -> frozenset[str]:
     return frozenset(effect.id for effect in campaign.catalogue.effects if file_of(effect))
 
 
-def _numbers(fit: LawFit) -> tuple[list[Number], dict[str, float]]:
-    """Free parameters of a law, from where the curve puts them."""
-    numbers = []
-    for free in fit.candidate.free_parameters:
-        value = fit.values.get(free.key, free.start)
-        numbers.append(_number(free, value))
-    return numbers, dict(fit.candidate.settings)
-
-
 def _number(free: FreeParameter, value: float) -> Number:
+    """A free parameter of a law, from where the curve puts it."""
     inside = min(max(value, free.low), free.high)
     if free.log:
         inside = max(inside, 1e-12)
@@ -248,36 +228,29 @@ def _number(free: FreeParameter, value: float) -> Number:
     return Number(free.key, inside, None, free.low, free.high, scope, free.log)  # type: ignore[arg-type]
 
 
-#: Bounds of what moves the block across: 1/m, degrees, m, friction across in parts of that along.
+#: What moves the block across, as y has it -> the model's number, its unit, and its bound either
+#: way: 1/m, degrees, m, rad.
 _ACROSS = {
-    "turning_surface.curvature": (-20.0, 20.0),
-    "spring_misalignment.angle_deg": (-60.0, 60.0),
-    "spring_misalignment.frame_angle_deg": (-60.0, 60.0),
-    "spring_misalignment.lateral_offset": (-1.0, 1.0),
-    "spring_misalignment.diagonal_offset": (-1.0, 1.0),
-    "measurement.rotation": (-0.5, 0.5),
+    "curvature": ("turning_surface.curvature", 1.0, 20.0),
+    "turn": ("spring_misalignment.angle_deg", 180.0 / math.pi, 60.0),
+    "frame": ("spring_misalignment.frame_angle_deg", 180.0 / math.pi, 60.0),
+    "shift": ("spring_misalignment.lateral_offset", 1.0, 1.0),
+    "diagonal": ("spring_misalignment.diagonal_offset", 1.0, 1.0),
+    "rotation": ("measurement.rotation", 1.0, 0.5),
 }
 
 
 def _across(finding: Finding) -> Part:
     """What moves the block across: its numbers as y has them; friction across as it is or not."""
-    keys = {
-        "curvature": ("turning_surface.curvature", 1.0),
-        "turn": ("spring_misalignment.angle_deg", 180.0 / math.pi),
-        "frame": ("spring_misalignment.frame_angle_deg", 180.0 / math.pi),
-        "shift": ("spring_misalignment.lateral_offset", 1.0),
-        "diagonal": ("spring_misalignment.diagonal_offset", 1.0),
-        "rotation": ("measurement.rotation", 1.0),
-    }
     numbers = []
     settings = {f"{finding.name}_{name}": value for name, value in finding.settings.items()}
     for name, (value, _) in finding.numbers.items():
-        key, unit = keys.get(name.rpartition(".")[2], ("", 1.0))
-        if key:
-            numbers.append(Number(key, unit * value, None, *_ACROSS[key]))
+        if what := _ACROSS.get(name.rpartition(".")[2]):
+            key, unit, most = what
+            numbers.append(Number(key, unit * value, None, -most, most))
         elif name == "ratio":
             settings["lateral_friction.ratio"] = 1.0
-    return Part(finding, None, (), tuple(numbers), settings)
+    return Part(finding, numbers=tuple(numbers), settings=settings)
 
 
 def _fault(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
@@ -286,7 +259,7 @@ def _fault(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
     if key == "measurement.zero":  # in place of what is stated of it
         sd = FAULT_SIZES["zero"]
         zero = Number("offset.x", 0.0, sd, -MOST_FAULT * sd, MOST_FAULT * sd, "run")
-        return Part(finding, None, (), (zero,), {})
+        return Part(finding, numbers=(zero,))
     size = float(rung.posterior[0][rung.part_of(finding.main)][0])
     most = MOST_FAULT * FAULT_SIZES[key.partition(".")[2]]
     least = -most
@@ -297,7 +270,7 @@ def _fault(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
     numbers = [Number(key, size, None, least, most)]
     if key == "measurement.drift" and moves_across(campaign):
         numbers.append(Number(f"{key}_y", 0.0, None, least, most))
-    return Part(finding, None, (), tuple(numbers), settings)
+    return Part(finding, numbers=tuple(numbers), settings=settings)
 
 
 def _load(rung: Rung, finding: Finding, weight: float) -> Part:
@@ -305,7 +278,8 @@ def _load(rung: Rung, finding: Finding, weight: float) -> Part:
     unknown = finding.main.unknown
     slope = float(rung.posterior[0][rung.part_of(finding.main)][0]) / unknown.settings["span"]
     number = Number("load_dependence.exponent", -slope, None, -2.0, 2.0)
-    return Part(finding, None, (), (number,), {"load_dependence.reference_force": weight})
+    settings = {"load_dependence.reference_force": weight}
+    return Part(finding, numbers=(number,), settings=settings)
 
 
 def _wave(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
@@ -318,7 +292,7 @@ def _wave(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
     # the model's pattern is a cosine of x less the surface's travel, its ripple a sine of the time
     pattern = name == "surface_pattern"
     if name == "other.shaking":
-        return Part(finding, None, (), (), {})
+        return Part(finding)
     numbers = [
         Number(f"{name}.amplitude", amplitude, None, 0.0, 1.0),
         Number(f"{name}.phase_deg", 0.0, None, -360.0, 360.0, "run"),
@@ -393,20 +367,20 @@ def started_from(campaign: Campaign, rows: Rung) -> dict[str, float]:
 
     for each in rows.base:
         name, values = each.unknown.name, rows.posterior[0][rows.part_of(each)]
-        if name == MU_K or (name == MU_S and any(run.events for run in rows.system.fitted)):
+        if name == rig.MU_K or (name == rig.MU_S and any(run.events for run in rows.system.fitted)):
             starts[f"friction.{name}"] = float(values[0])
-        elif name == SPRINGS:
+        elif name == rig.SPRINGS:
             factor = math.log1p(max(float(values[0]), -0.5))
             setups = {
-                campaign.setup_of(run) for run in own if setup_of(run) == each.unknown.variant
+                campaign.setup_of(run) for run in own if rig.setup_of(run) == each.unknown.variant
             }
             starts |= {f"offset.stiffness@setup {setup}": factor for setup in setups}
-        elif name == ZERO_NAME:
+        elif name == rig.ZERO_NAME:
             of_runs("offset.x", values * [campaign.zero_sd(run) for run in own])
-        elif name == SPEED:
+        elif name == rig.SPEED:
             of_runs("offset.speed", values)
-        elif name == SCATTER and each.unknown.variant == "both":
+        elif name == rig.SCATTER and each.unknown.variant == "both":
             of_runs("offset.friction", values)
-        elif name == CONTACT and each.unknown.variant == "loading":
+        elif name == rig.CONTACT and each.unknown.variant == "loading":
             starts[LOADING] = -float(values[0])
     return starts

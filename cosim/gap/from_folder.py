@@ -6,15 +6,16 @@ themselves, as ``NAME_track.csv`` with one header row, which is what a campaign 
 
 from __future__ import annotations
 
+import io
 import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import zip_longest
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import tomli_w
 from stickslip.units import in_unit
 
@@ -22,10 +23,7 @@ from cosim.files import OutputRefused, write_text
 from cosim.gap.data.campaign_file import FILE_NAME
 from cosim.gap.data.columns import SI, Reading, channel_of, header_parts, unit_in_name
 from cosim.gap.data.errors import CampaignError
-from cosim.gap.data.track_file import read_track
-
-if TYPE_CHECKING:
-    import pandas as pd
+from cosim.gap.data.track_file import fields_of, read_track, separator_of
 
 TEXTS, EXCEL = (".csv", ".tsv", ".txt", ".dat"), (".xlsx", ".xlsm")
 #: Ends of what is written beside a file that no campaign can name.
@@ -40,13 +38,11 @@ NUMBER = r"(-?\d+(?:[.,p]\d+)?)"
 SETTINGS: dict[str, tuple[str, str, dict[str, str]]] = {
     "mass": ("kg", "m|mass", {"kg": "kg", "g": "g"}),
     "stiffness": ("N/m", "k|stiffness", {r"N(?:_?per_?|[-_ ])?m": "N/m"}),
-    "surface_speed": (
-        "m/s",
-        "v|speed",
-        {rf"{unit}(?:_?per_?|[-_ p])?s": f"{unit}/s" for unit in ("mm", "cm", "m")},
-    ),
+    "surface_speed": ("m/s", "v|speed", {
+        rf"{unit}(?:_?per_?|[-_ p])?s": f"{unit}/s" for unit in ("mm", "cm", "m")
+    }),
     "ambient_degC": ("degC", "T|temp", {"degC": "degC", "C": "degC"}),
-}
+}  # fmt: skip
 #: What a column is called in other words.
 OTHER_NAMES = {
     "t": ("time", "seconds", "sec"),
@@ -61,26 +57,21 @@ OTHER_NAMES = {
 class Found:
     """A file as a run.
 
-    file : that the campaign names; settings : key -> value that its name says; columns, units :
-    channel -> name, unit that the header does not say by itself; rows, seconds : of the record
+    file : that the campaign names; settings : key -> value that its name says; reading : names of
+    columns and units that the header does not say by itself; rows, seconds : of the record
     """
 
     file: str
     settings: Mapping[str, float]
-    columns: Mapping[str, str]
-    units: Mapping[str, str]
+    reading: Reading
     rows: int
     seconds: float
 
 
 def campaign_of(
-    folder: Path,
-    known: Mapping[str, float] | None = None,
-    *,
-    frames: float | None = None,
-    pixel: float | None = None,
-    force: bool = False,
-) -> tuple[Path, list[Found]]:
+    folder: Path, known: Mapping[str, float] | None = None, *, frames: float | None = None,
+    pixel: float | None = None, force: bool = False,
+) -> tuple[Path, list[Found]]:  # fmt: skip
     """Write ``campaign.toml`` into a folder of tracker files; its path, and what was found.
 
     known : settings that all runs have; frames : a second, and pixel : m, of tracks in pixels.
@@ -118,15 +109,12 @@ def _readable(folder: Path, frames: float | None, pixel: float | None) -> Iterat
     for file in sorted(folder.iterdir()):
         if file.name.endswith(MADE) or file.suffix.lower() not in (*TEXTS, *EXCEL):
             continue
-        text = _of_excel(file) if file.suffix.lower() in EXCEL else _text(file)
+        is_sheet = file.suffix.lower() in EXCEL
+        text = _of_excel(file) if is_sheet else _text(file)
         rewritten = _of_deeplabcut(file, text, frames, pixel) or _of_tracker(text)
-        if rewritten is None and file.suffix.lower() in EXCEL:
-            rewritten = text
-        yield file if rewritten is None else write_text(rewritten, _made(file))
-
-
-def _made(file: Path) -> Path:
-    return file.with_name(file.stem + MADE)
+        rewritten = rewritten or (text if is_sheet else None)
+        made = file.with_name(file.stem + MADE)
+        yield file if rewritten is None else write_text(rewritten, made)
 
 
 def _text(file: Path) -> str:
@@ -135,8 +123,6 @@ def _text(file: Path) -> str:
 
 def _of_excel(file: Path) -> str:
     """The first sheet as CSV."""
-    import pandas as pd
-
     try:
         return str(pd.read_excel(file, header=None).to_csv(header=False, index=False))
     except ImportError:
@@ -146,8 +132,7 @@ def _of_excel(file: Path) -> str:
 
 
 def _cells(line: str) -> list[str]:
-    mark = next((mark for mark in (";", "\t", ",") if mark in line), ",")
-    return [cell.strip().strip('"') for cell in line.split(mark)]
+    return fields_of(line, separator_of(line, ","))
 
 
 def _of_tracker(text: str) -> str | None:
@@ -159,7 +144,7 @@ def _of_tracker(text: str) -> str | None:
     if {"t", "x"} & set(map(channel_of, points)) or any(map(_is_number, points)):
         return None
     again = next((place for place, name in enumerate(header) if place and name == "t"), len(header))
-    mark = next((mark for mark in (";", "\t", ",") if mark in lines[1]), ",")
+    mark = separator_of(lines[1], ",")
     return "\n".join(mark.join(line.split(mark)[:again]) for line in lines[1:]) + "\n"
 
 
@@ -181,41 +166,22 @@ def _of_deeplabcut(file: Path, text: str, frames: float | None, pixel: float | N
             f"{file}: DeepLabCut's pixels, frame by frame; needed are --frames RATE, pictures a "
             'second, and --pixel LENGTH, as "0.2 mm"'
         )
-    import pandas as pd
-
-    parts, kinds = (_cells(line)[1:] for line in lines[1:3])
-    numbers = np.array([[*map(_number, _cells(line))] for line in lines[3:] if line.strip()])
-    places = {name: _points(numbers[:, 1:], parts, kinds, name) for name in dict.fromkeys(parts)}
-    centre = np.mean([*places.values()], axis=0) * pixel
-    table = {"t": numbers[:, 0] / frames, "x": centre[:, 0], "y": -centre[:, 1]}
+    read = pd.read_csv(io.StringIO(text), header=[1, 2], index_col=0)
+    places = []
+    for name in dict.fromkeys(read.columns.get_level_values(0)):
+        point = read[name].astype(float)
+        if "likelihood" in point:
+            point[point["likelihood"] < LEAST_LIKELY] = np.nan
+        places.append(point[["x", "y"]].to_numpy())
+    centre = np.mean(places, axis=0) * pixel
+    table = {"t": read.index.astype(float) / frames, "x": centre[:, 0], "y": -centre[:, 1]}
     if len(places) > 1:
-        first, *_, last = places.values()
-        along = (last - first) * (1.0, -1.0)
+        along = (places[-1] - places[0]) * (1.0, -1.0)
         turned = np.arctan2(along[:, 1], along[:, 0])
         seen = np.isfinite(turned)
         turned[seen] = np.unwrap(turned[seen])
         table["phi"] = turned - turned[seen][:1]
-    return _csv(pd.DataFrame(table))
-
-
-def _points(
-    numbers: np.ndarray, parts: Sequence[str], kinds: Sequence[str], name: str
-) -> np.ndarray:
-    """Places of a point, (n, 2); NaN where it was lost."""
-    of = {kind: numbers[:, n] for n, (part, kind) in enumerate(zip(parts, kinds, strict=True))
-          if part == name}  # fmt: skip
-    places: np.ndarray = np.column_stack([of["x"], of["y"]])
-    if "likelihood" in of:
-        places[of["likelihood"] < LEAST_LIKELY] = np.nan
-    return places
-
-
-def _number(cell: str) -> float:
-    return float(cell) if cell else np.nan
-
-
-def _csv(table: pd.DataFrame) -> str:
-    return str(table.to_csv(index=False, float_format="%.9g"))
+    return str(pd.DataFrame(table).to_csv(index=False, float_format="%.9g"))
 
 
 def settings_of(name: str) -> dict[str, float]:
@@ -262,18 +228,18 @@ def _found(file: Path, said: Reading) -> Found:
             if ending and not unit:
                 units[channel] = ending
             break
-    track, _, _ = read_track(file, Reading(columns, units))
-    stem = file.name.removesuffix(MADE) if file.name.endswith(MADE) else file.stem
-    seconds = float(track.time[-1])
-    return Found(file.name, settings_of(stem), columns, units, track.time.size, seconds)
+    reading = Reading(columns, units)
+    track, _, _ = read_track(file, reading)
+    stem = file.name.removesuffix(MADE).removesuffix(file.suffix)
+    return Found(file.name, settings_of(stem), reading, track.time.size, float(track.time[-1]))
 
 
 def _toml(name: str, found: Sequence[Found], known: Mapping[str, float]) -> str:
     """The campaign, of which every guess says where it is from."""
-    shared = all((each.columns, each.units) == (found[0].columns, found[0].units) for each in found)
+    shared = all(each.reading == found[0].reading for each in found)
     tables: dict[str, Any] = {"name": name}
     if shared:
-        tables |= {key: value for key, value in _reading(found[0]).items() if value}
+        tables |= {key: names for key, names in found[0].reading._asdict().items() if names}
     parts = [
         "# What the names and headers of the files say. Correct it, then: stickslip gap",
         tomli_w.dumps(tables),
@@ -281,18 +247,12 @@ def _toml(name: str, found: Sequence[Found], known: Mapping[str, float]) -> str:
         "# spring_natural_length = 0.17  # m\n",
     ]
     for number, each in enumerate(found, 1):
-        last = number == len(found) >= ENOUGH
-        parts.append("\n".join(_run(each, known, {} if shared else _reading(each), last)))
+        reading, last = Reading() if shared else each.reading, number == len(found) >= ENOUGH
+        parts.append("\n".join(_run(each, known, reading, last)))
     return "\n".join(parts)
 
 
-def _reading(found: Found) -> dict[str, Any]:
-    return {"columns": dict(found.columns), "units": dict(found.units)}
-
-
-def _run(
-    found: Found, known: Mapping[str, float], reading: Mapping[str, Any], last: bool
-) -> Iterator[str]:
+def _run(found: Found, known: Mapping[str, float], reading: Reading, last: bool) -> Iterator[str]:
     yield f"[[run]]  # {found.rows} rows, {found.seconds:.3g} s"
     yield tomli_w.dumps({"file": found.file}).rstrip()
     for key, (unit, _, _) in SETTINGS.items():
@@ -304,7 +264,7 @@ def _run(
             yield f"# {key} =   # {unit}: must be given, the file's name does not say it"
     if last:
         yield "hold_out = true  # predicted, never fitted"
-    for table, names in reading.items():
+    for table, names in reading._asdict().items():
         if names:
             inline = ", ".join(f'{key} = "{value}"' for key, value in names.items())
             yield f"{table} = {{ {inline} }}"
@@ -316,17 +276,10 @@ def shown(found: Sequence[Found]) -> list[str]:
     rows = [("file", "rows", "s", *SETTINGS, "columns")]
     for each in found:
         told = [f"{each.settings[key]:g}" if key in each.settings else "?" for key in SETTINGS]
-        named = [f"{key} = {name}" for key, name in each.columns.items()]
-        rows.append(
-            (
-                each.file,
-                str(each.rows),
-                f"{each.seconds:.3g}",
-                *told,
-                ", ".join(named) or "as named",
-            )
-        )
-    widths = [max(map(len, column)) for column in zip_longest(*rows, fillvalue="")]
+        named = ", ".join(f"{key} = {name}" for key, name in each.reading.columns.items())
+        record = each.file, str(each.rows), f"{each.seconds:.3g}"
+        rows.append((*record, *told, named or "as named"))
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     return [
         "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
         for row in rows

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -137,10 +138,14 @@ def _call(
     **known: float,
 ) -> np.ndarray:  # fmt: skip
     """A term of the kernel along its argument."""
-    names = term.__code__.co_varnames[: term.__code__.co_argcount]
-    given = {name: values[name] for name in names if name in values}
-    given.update({name: value for name, value in known.items() if name in names})
+    given = _given(term, {**values, **known})
     return np.array([term(**{**given, axis: float(one)}) for one in at])
+
+
+def _given(term: Callable[..., float], values: Mapping[str, float]) -> dict[str, float]:
+    """Those of the values that a term asks for."""
+    names = term.__code__.co_varnames[: term.__code__.co_argcount]
+    return {name: values[name] for name in names if name in values}
 
 
 def _over_speed(effect: Effect, context: Context) -> _Law | None:
@@ -162,8 +167,7 @@ def _film(effect: Effect, context: Context) -> _Law | None:
         if film is not None:
             force += weight * _call(film, "speed", at, values, normal_force=weight)
         if drag is not None:
-            names = drag.__code__.co_varnames[: drag.__code__.co_argcount]
-            force += at * drag(**{name: values[name] for name in names})
+            force += at * drag(**_given(drag, values))
         return force
 
     return law
@@ -196,15 +200,12 @@ def _hardening(effect: Effect, context: Context) -> _Law | None:
     return law
 
 
-def _over(quantity: str, names: tuple[str, ...]) -> Callable[[Effect, Context], _Law | None]:
-    def shape(effect: Effect, context: Context) -> _Law | None:
-        term = _terms(effect).get("kinetic_factor")
-        if term is None or quantity not in term.__code__.co_varnames:
-            return None
-        known = dict.fromkeys(names, 0.0)
-        return lambda at, values: _call(term, quantity, at, {**values, "diffusion": 0.0}, **known)
-
-    return shape
+def _over(quantity: str, effect: Effect, context: Context) -> _Law | None:
+    term = _terms(effect).get("kinetic_factor")
+    if term is None or quantity not in term.__code__.co_varnames:
+        return None
+    known = dict.fromkeys({"diffusion", "fast_heat", "slow_heat"} - {quantity}, 0.0)
+    return lambda at, values: _call(term, quantity, at, values, **known)
 
 
 def _hold(effect: Effect, context: Context) -> _Law | None:
@@ -220,8 +221,8 @@ SHAPES: dict[str, Callable[[Effect, Context], _Law | None]] = {
     "film_drag": _film,
     "structural_damping": _damping,
     "spring_hardening": _hardening,
-    "run_in": _over("slid", ()),
-    "thermal_weakening": _over("recent_heat", ("fast_heat", "slow_heat")),
+    "run_in": partial(_over, "slid"),
+    "thermal_weakening": partial(_over, "recent_heat"),
     "static_strengthening": _hold,
 }
 #: Laws beside which no coefficient is free that would take up a constant.
@@ -255,10 +256,9 @@ def _fitted(
     def residuals(scaled: np.ndarray) -> np.ndarray:
         return np.asarray(np.nan_to_num(beside(scaled)[0], nan=1e6, posinf=1e6, neginf=-1e6))
 
-    start = np.array([each.scaled(each.start) for each in free])
     low = np.array([each.scaled(each.low) for each in free])
     high = np.array([each.scaled(each.high) for each in free])
-    start = np.clip(start, low, high)
+    start = np.clip([each.scaled(each.start) for each in free], low, high)
     solved = least_squares(residuals, start, bounds=(low - 1e-12, high + 1e-12))
     own = {each.key.removeprefix(prefix) for each in free} | set(set_values)
     chosen = {f"{prefix}{name}": value for name, value in values(solved.x).items() if name in own}

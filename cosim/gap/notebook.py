@@ -42,11 +42,10 @@ def gap_dataset(gap: Gap) -> xr.Dataset:
 
     for channel in channels(gap):
         unit, meaning = CHANNELS[channel]
-        seen = [getattr(run.motion, channel) for run in runs]
         none = [np.full(run.motion.time.size, np.nan) for run in runs]
-        add(
-            channel, [n if s is None else s for s, n in zip(seen, none, strict=True)], unit, meaning
-        )
+        seen = [getattr(run.motion, channel) for run in runs]
+        seen = [n if s is None else s for s, n in zip(seen, none, strict=True)]
+        add(channel, seen, unit, meaning)
         for label, model in (("plain", gap.plain), ("extended", gap.extended)):
             pairs = [(run, model.run(run.name)) for run in runs]
             moved = [modelled(*pair, channel) for pair in pairs]

@@ -4,38 +4,20 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from stickslip.catalogue import CATALOGUE, Catalogue
 
 from cosim.gap.result import NINETY, Gap
+from cosim.packaged import packaged_tables
 from cosim.report.page import unit_text
 from cosim.scenario import Scenario
 from cosim.scenario.validation import known_keys, unit_of
 
+WORDS = packaged_tables(__package__, "words.toml")
 #: Numbers of tracker and drive: factor from SI, unit shown, meaning.
-BESIDE_THE_MODEL = {
-    "offset.x": (1e3, "mm", "tracker's zero along x"),
-    "offset.y": (1e3, "mm", "tracker's zero along y"),
-    "offset.speed": (1e2, "%", "surface faster than stated"),
-    "offset.friction": (1e2, "%", "friction higher than in the other runs"),
-    "offset.stiffness": (1e2, "%", "springs stiffer than stated"),
-    "offset.loading": (
-        1e3,
-        "ms",
-        "time by which the contact breaks away sooner than an ideal one",
-    ),
-    "scatter.break_away": (1e2, "%", "standard deviation of what a stick holds to what others do"),
-    "springs.stiffness": (1.0, "", "stiffness over what is stated"),
-    "measurement.scale": (1e2, "%", "x and y written too large by the camera"),
-    "measurement.clock": (1e2, "%", "times written too long by the camera"),
-    "measurement.rotation": (180.0 / math.pi, "°", "turn of the camera's axes"),
-    "measurement.drift": (1e3, "mm", "creep of the camera's zero along x by the end of a run"),
-    "measurement.drift_y": (1e3, "mm", "creep of the camera's zero along y by the end of a run"),
-    "measurement.latency": (1e3, "ms", "how much later a place 0.1 m further along x is seen"),
-    "measurement.smoothing": (1e3, "ms", "standard deviation of the tracker's filter"),
-    "measurement.quantisation": (1e3, "mm", "step of the numbers that the tracker writes"),
-}
+BESIDE_THE_MODEL: dict[str, list[Any]] = WORDS["beside_the_model"]
 #: Points of a curve that stands in a figure.
 TABLES = "friction.table_"
 

@@ -57,8 +57,7 @@ def options_of(variants: Sequence[Unknown], runs: int) -> list[Option]:
     for unknown in variants:
         factors = tuple(factors_of(unknown, runs))
         price = float(np.log(len(variants) * len(factors) * len(SCALES_ASKED)))
-        price += price_of(unknown.name)
-        found.append(Option((unknown,), factors, SCALES_ASKED, price))
+        found.append(Option((unknown,), factors, SCALES_ASKED, price + price_of(unknown.name)))
     return found
 
 
@@ -109,17 +108,13 @@ class Decision:
             for name, some in options.items()
         }
 
-    def offers(self, rows: np.ndarray) -> Offers:
-        """Of the rows of c campaigns (rows, c)."""
-        return self.decided(self.projected(rows))
-
     def projected(self, rows: np.ndarray) -> list[np.ndarray]:
         """X'z (q, c) of the base and of every option; all that a decision needs to know of z."""
         options = [one.unknowns for some in self.options.values() for one, _ in some]
-        return [self._right(unknowns, rows) for unknowns in (self.base, *options)]
-
-    def _right(self, unknowns: Sequence[Unknown], rows: np.ndarray) -> np.ndarray:
-        return np.concatenate([self.system.columns(each).T @ rows for each in unknowns])
+        return [
+            np.concatenate([self.system.columns(each).T @ rows for each in unknowns])
+            for unknowns in (self.base, *options)
+        ]
 
     def decided(self, projected: Sequence[np.ndarray]) -> Offers:
         """Of what `projected` makes of rows; it is linear in them."""
@@ -139,27 +134,12 @@ class Decision:
         return Offers(tuple(self.options), np.array(evidence), np.array(gain))
 
 
-@dataclass(frozen=True)
-class Truth:
-    """What is there: unknowns and their sizes (q,) each."""
-
-    name: str
-    unknowns: tuple[Unknown, ...] = ()
-    sizes: tuple[np.ndarray, ...] = ()
-
-    @classmethod
-    def of(cls, name: str, rung: Rung) -> Truth:
-        """What is added on a rung, as large as its rows have it."""
-        mean = rung.posterior[0]
-        parts = tuple(mean[rung.part_of(each)] for each in rung.added)
-        return cls(name, tuple(each.unknown for each in rung.added), parts)
-
-    def rows(self, system: System) -> np.ndarray:
-        """(rows,)"""
-        rows = np.zeros(system.rows.size)
-        for unknown, sizes in zip(self.unknowns, self.sizes, strict=True):
-            rows += system.columns(unknown) @ sizes
-        return rows
+def added_rows(rung: Rung) -> np.ndarray:
+    """(rows,) of what is added on a rung, as large as its rows have it."""
+    rows, mean = np.zeros(rung.system.rows.size), rung.posterior[0]
+    for each in rung.added:
+        rows += rung.system.columns(each.unknown) @ mean[rung.part_of(each)]
+    return rows
 
 
 def drawn(
@@ -196,29 +176,28 @@ def rates_of(
         decision = Decision(rung, _asked(ladder, unknowns, finding))
         scatter, zeros = Scatter.of(ladder.rung).expected[0], rung.settings[0][rung.best][1]
         rows = drawn(rung, each * len(truths), random, scatter, zeros)
-        for place, truth in enumerate(truths):
-            rows[:, place * each : (place + 1) * each] += truth.rows(rung.system)[:, None]
-        answers = decision.offers(rows).answers()
-        for place, truth in enumerate(truths):
-            row = counted(answers[place * each : (place + 1) * each])
-            table.setdefault(truth.name, row)
+        for place, (_, there) in enumerate(truths):
+            rows[:, place * each : (place + 1) * each] += there[:, None]
+        answers = decision.decided(decision.projected(rows)).answers()
+        for place, (truth, _) in enumerate(truths):
+            table.setdefault(truth, counted(answers[place * each : (place + 1) * each]))
     return Rates(each, table)
 
 
 def _truths(
     ladder: Ladder, unknowns: Mapping[str, Sequence[Unknown]], finding: Finding | None, rung: Rung
-) -> list[Truth]:
-    """The finding, what might stand in its place, and neither."""
-    nothing = Truth.of(NONE, rung)
+) -> list[tuple[str, np.ndarray]]:
+    """The finding, what might stand in its place, and neither: names, and rows (rows,) of each."""
+    nothing = (NONE, added_rows(rung))
     if finding is None:
         return [nothing]
-    found = [Truth.of(finding.name, rung.system.rung([*finding.added, *rung.added]))]
+    found = [(finding.name, added_rows(rung.system.rung([*finding.added, *rung.added])))]
     # a wave that offered nothing at first is not asked, and has no place to stand at
     near = [name for name in finding.others if name in unknowns or name in ladder.first_offers]
     for name in sorted(near, key=lambda name: -finding.others[name])[:RUNNERS_UP]:
         offer = unknowns.get(name)
         added = [rung.offered(offer)[1]] if offer else ladder.first_offers[name][1]
-        found.append(Truth.of(name, rung.system.rung([*added, *rung.added])))
+        found.append((name, added_rows(rung.system.rung([*added, *rung.added]))))
     return [*found, nothing]
 
 
@@ -254,8 +233,7 @@ def by_direction(rates: Rates, known: Collection[str]) -> Rates:
 
     It is named by its direction (`ladder.Search`), and a draw of noise may turn that.
     """
-    grows, falls = BY_SPEED
-    pairs = ((grows, falls), (falls, grows))
+    pairs = zip(BY_SPEED, reversed(BY_SPEED), strict=True)
     names = {one: other for one, other in pairs if one not in known and other in known}
     table = {}
     for truth, row in rates.table.items():

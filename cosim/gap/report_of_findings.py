@@ -12,7 +12,7 @@ from scipy.special import logsumexp
 from cosim.gap.data import Campaign
 from cosim.gap.extended import ROUNDING, Part
 from cosim.gap.judge import NOTHING_MISSING
-from cosim.gap.quantities import digits, percent, quantity, with_digits
+from cosim.gap.quantities import WORDS, digits, percent, quantity, with_digits
 from cosim.gap.result import NINETY, Exponent, Gap, Law, Ranked, RigNumber, Score, Where
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
@@ -24,44 +24,14 @@ from cosim.gap.windows import Fitted
 
 #: Whether a piece of a finding's setting is a figure.
 _FIGURE = re.compile(r"\d").search
-_SAYS = {
-    "velocity_weakening": "Friction changes with the sliding speed, in proportion to the load",
-    "film_drag": "Friction grows with the sliding speed, independent of the load",
-    "structural_damping": "A damping force against the frame grows with the block's own velocity",
-    "spring_hardening": "The spring force is not linear in the displacement",
-    "run_in": "Friction drifts with the distance slid",
-    "thermal_weakening": "Friction follows the friction heat of the last seconds",
-    "load_dependence": "Friction coefficients depend on the load",
-    "static_strengthening": "Static friction grows with the time at rest",
-    "surface_pattern": "Friction varies periodically along the surface",
-    "speed_ripple": "The surface speed varies periodically in time",
-    "lateral_friction": "Friction acts across the surface's motion too",
-    "turning_surface": "The surface turns about a centre",
-    "spring_misalignment": "The springs are not aligned with the axis",
-    "measurement.scale": "The camera's scale is off",
-    "measurement.clock": "The camera's clock is off",
-    "measurement.drift": "The camera drifts",
-    "measurement.latency": "The camera reads a frame out while the block moves",
-    "measurement.smoothing": "The tracker smooths the motion",
-    "measurement.rotation": "The camera is turned",
-    "measurement.quantisation": "The tracker writes in steps that are coarse beside its noise",
-    "measurement.zero": "The tracker's zero is off by more than stated",
-    "other.time": "Friction drifts with the time of the run, whatever was slid",
-    "other.hysteresis": "Springs or guides show hysteresis",
-    "other.resonator": "Something on the block vibrates on a spring of its own",
-    "other.release": "Friction changes in the first moments after a break-away",
-    "other.springs": "All springs are stiffer, or softer, than stated",
-    "other.room": "Friction follows the room's temperature from run to run",
-    "other.order": "Friction drifts from run to run, in their order",
-    "other.shaking": "A force on the block is periodic in time",
-}
+_SAYS: dict[str, str] = WORDS["findings"]
 
 
 def text_of(part: Part) -> str:
     """A finding in words; one of the user's own effects by its id."""
-    words = f"{_SAYS.get(part.finding.name, f'{part.finding.name} is missing')}: {part.effect}"
+    words = _SAYS.get(part.finding.name, f"{part.finding.name} is missing")
     variant = _variant(part)
-    return f"{words} ({variant})" if variant else words
+    return f"{words}: {part.effect}" + (f" ({variant})" if variant else "")
 
 
 def _variant(part: Part) -> str:
@@ -133,10 +103,8 @@ def _first_number(part: Part, gap: Gap) -> str:
     """The first that the runs determine, with its 90 % interval."""
     parameters, intervals, _ = _numbers_of(part, gap.extended)
     for key in (number.key for number in part.numbers if number.key in intervals):
-        shown = quantity(
-            key, parameters[key], intervals[key], catalogue=gap.campaign.catalogue
-        ).text
-        return f", {shown.removeprefix(f'{part.effect}.')}"
+        number = quantity(key, parameters[key], intervals[key], "", gap.campaign.catalogue)
+        return f", {number.text.removeprefix(f'{part.effect}.')}"
     if part.finding.name == ROUNDING:
         step = quantity(ROUNDING, part.settings[ROUNDING], None)
         return f", {step.value} {step.unit}"
@@ -223,10 +191,9 @@ def ranking_of(
 ) -> tuple[Ranked, ...]:
     """Every effect in the place of what was found first, or on the rig's own unknowns."""
     if parts:
-        along = [part for part in parts if part.finding.added]
-        first = (along or list(parts))[0]
-        evidence = {first.finding.name: first.finding.gain}
-        evidence |= {name: first.finding.gain + more for name, more in first.finding.others.items()}
+        first = next((part.finding for part in parts if part.finding.added), parts[0].finding)
+        evidence = {first.name: first.gain}
+        evidence |= {name: first.gain + more for name, more in first.others.items()}
     else:
         rung = ladder.system.rung().evidence  # of the rows that the offers are of
         evidence = {name: offer[0] - rung for name, offer in ladder.first_offers.items()}
@@ -269,16 +236,16 @@ def rig_numbers(campaign: Campaign, fitted: Fitted) -> tuple[RigNumber, ...]:
     found, runs = [], {run.name: run for run in campaign.runs}
     for label, value in fitted.values.items():
         key, _, owner = label.partition("@")
-        sd = fitted.sd.get(label, float("inf"))
         if key == "offset.stiffness":
-            error = campaign.errors.stiffness
-            setup = f"set-up {int(owner.removeprefix('setup ')) + 1}"
-            found.append(
-                RigNumber(f"springs stiffer than stated, {setup}", "1", 0.0, error, value, sd)
-            )
+            setup = int(owner.removeprefix("setup ")) + 1
+            name = f"springs stiffer than stated, set-up {setup}"
+            unit, error = "1", campaign.errors.stiffness
         elif key == "offset.x" and owner in runs:
-            error = campaign.zero_sd(runs[owner])
-            found.append(RigNumber(f"zero of x, {owner}", "m", 0.0, error, value, sd))
+            name, unit, error = f"zero of x, {owner}", "m", campaign.zero_sd(runs[owner])
+        else:
+            continue
+        sd = fitted.sd.get(label, float("inf"))
+        found.append(RigNumber(name, unit, 0.0, error, value, sd))
     return tuple(found)
 
 
@@ -293,8 +260,6 @@ def where_of(campaign: Campaign, ladder: Ladder, plain: Fitted) -> Where:
                if np.any(kinds == kind)}  # fmt: skip
     regime = _REGIMES[max(squares, key=lambda kind: squares[kind])]
     runs = sorted(plain.runs, key=lambda run: -run.gap)[:3]
-    text = (
-        f"{runs[0].name}, {digits(runs[0].gap)} noise units; the balance of forces is off most in "
-        f"{regime}"
-    )
+    most = f"{runs[0].name}, {digits(runs[0].gap)} noise units"
+    text = f"{most}; the balance of forces is off most in {regime}"
     return Where("x", regime, tuple(run.name for run in runs), text)

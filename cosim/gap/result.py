@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
@@ -254,33 +254,29 @@ class Gap(Result):
     def to_xarray(self) -> xarray.Dataset:
         """Every run as measured and as the models have it over ``sample`` (n,), with units, and
         figures of each run over ``run`` (r,); all of `gap.json` as the attribute `gap`."""
-        dataset: xarray.Dataset = import_module(NOTEBOOK).gap_dataset(self)
-        return dataset
+        return cast("xarray.Dataset", import_module(NOTEBOOK).gap_dataset(self))
 
     def plot(self, figure: str = "ladder") -> Figure:
         """One of the figures of the page: ladder, curve, run, residuals, overlay_x, ...
 
         Raises ValueError for a name that is none, with the nearest that there is.
         """
-        drawn: Figure = import_module(NOTEBOOK).figure_of(self, figure)
-        return drawn
+        return cast("Figure", import_module(NOTEBOOK).figure_of(self, figure))
 
     def summary(self) -> dict[str, Any]:
         """What `gap.json` holds."""
-        numbers: dict[str, Any] = import_module(NUMBERS).as_data(self, "")
-        return numbers
+        return dict(import_module(NUMBERS).as_data(self, ""))
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        fit = [f"{self.before.fit:.3g}", f"{self.after.fit:.3g}"]
-        figures = [("verdict", self.verdict), ("gap, 1 is noise", " → ".join(fit))]
+        fit = f"{self.before.fit:.3g} → {self.after.fit:.3g}"
+        figures = [("verdict", self.verdict), ("gap, 1 is noise", fit)]
         if self.before.held_out is not None and self.after.held_out is not None:
-            held_out = [f"{self.before.held_out:.3g}", f"{self.after.held_out:.3g}"]
-            figures.append(("of runs held out", " → ".join(held_out)))
+            held_out = f"{self.before.held_out:.3g} → {self.after.held_out:.3g}"
+            figures.append(("of runs held out", held_out))
         return self.sentence, figures
 
     def _page(self) -> str:
-        text: str = import_module(FILES).page_text(self)
-        return text
+        return str(import_module(FILES).page_text(self))
 
     def _write(self, folder: Path) -> None:
         files = import_module(FILES)

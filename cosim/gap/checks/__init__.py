@@ -15,10 +15,9 @@ from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.result import Doubt
 from cosim.gap.windows.windows import cycle
 
+from . import motion
 from .level import LEVEL
-from .motion import doubts_of_direction, doubts_of_force, doubts_of_speed, doubts_of_springs
 from .tracker import digits_evidence, doubts_of_noise, doubts_of_sampling, with_rounding
-from .units import doubts_of_units
 
 __all__ = ["ANSWERABLE", "LEVEL", "blocking", "digits_evidence", "doubts_of", "with_rounding"]
 
@@ -38,14 +37,14 @@ def doubts_of(campaign: Campaign) -> tuple[Doubt, ...]:
     takes them as they are.
     """
     every = [run for run in campaign.runs if run.track is not None]
-    doubts = doubts_of_units(every)
+    doubts = motion.doubts_of_units(every)
     runs = _but(every, doubts)
     doubts += _of_record(runs)
-    for check in (doubts_of_sampling, doubts_of_direction, doubts_of_speed):
+    for check in (doubts_of_sampling, motion.doubts_of_direction, motion.doubts_of_speed):
         found = check(campaign, runs)
         runs = _but(runs, [doubt for doubt in found if not doubt.text.startswith("all runs")])
         doubts += found
-    for check in (doubts_of_springs, doubts_of_force, doubts_of_noise):
+    for check in (motion.doubts_of_springs, motion.doubts_of_force, doubts_of_noise):
         doubts += check(campaign, runs) if runs else []
     return tuple(doubts)
 

@@ -1,4 +1,8 @@
-"""Whether the block moves as its surface, springs and mass are stated."""
+"""Whether the block moves as its surface, springs and mass are stated.
+
+Whether these are in SI units at all is seen before anything is smoothed; times and places that
+cannot be are refused when they are read (`data.units`).
+"""
 
 from __future__ import annotations
 
@@ -11,13 +15,21 @@ from scipy import stats
 from scipy.signal import savgol_filter
 
 from cosim.gap.data import Campaign, MeasuredRun
-from cosim.gap.data.units import cycle_of, swing
+from cosim.gap.data.units import cycle_of, friction_of, swing, velocity_of
 from cosim.gap.result import Doubt
 from cosim.gap.weak_form.constants import CUBIC_REACH
 from cosim.gap.weak_form.rows import Response, rows_of
 from cosim.gap.windows.sticks import smoothed, sticks_of
 
 from .level import LEVEL, far
+
+# Units.
+#: Sticks only make cycles longer than free vibrations, hardening springs shorter by a factor of
+#: two: cycles that are shorter than this part of one are of another mass, or of other springs.
+SHORT_CYCLE = 1.0 / 3.0
+#: A surface that is so many times faster than x ever moves, while the springs' force swings by this
+#: part of the weight: x would have to move at 0.005 g / omega, a few mm/s, at least.
+UNIT_SPEED, SWINGS = 300.0, 0.01
 
 # Speed in stick.
 #: Part of the speed by which a contact that is sheared has the block swing past the surface.
@@ -51,6 +63,24 @@ FEWEST_ROWS = 30
 SOFTEST = 0.7
 #: Standard deviation of what springs that are not linear, or not along x, make of a measured force.
 SHAPE = 0.02
+
+
+def doubts_of_units(runs: Sequence[MeasuredRun]) -> list[Doubt]:
+    """One for each run whose mass and springs, or surface speed, cannot be in SI units."""
+    found = [(run.name, _wrong(run)) for run in runs]
+    return [Doubt("units", f"{name}: {text}", (name,), True) for name, text in found if text]
+
+
+def _wrong(run: MeasuredRun) -> str:
+    """What is in another unit, and in which; "" for nothing."""
+    period, cycle = 2.0 * math.pi / run.natural_frequency, cycle_of(run)
+    if cycle < SHORT_CYCLE * period:
+        free = f"the free block of {run.mass:g} kg on springs of {run.stiffness:g} N/m swings in"
+        return f"x swings in {cycle:.3g} s, but {free} {period:.3g} s: mass in g, springs in N/mm?"
+    fastest = float(np.nanquantile(np.abs(velocity_of(run)[0]), 0.99))
+    if friction_of(run) > SWINGS and abs(run.surface_speed) > UNIT_SPEED * fastest:
+        return f"surface_speed = {run.surface_speed:g} m/s, but x moves at {fastest:.2g} m/s: mm/s?"
+    return ""
 
 
 def doubts_of_direction(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:

@@ -107,7 +107,7 @@ class Measured(Named):
 
     @model_validator(mode="after")
     def _check(self) -> Self:
-        for key, (value, deviation) in self._named.items():
+        for key, (value, deviation) in self.pairs.items():
             if not deviation > 0.0 or deviation < LEAST_DEVIATION * abs(value):
                 raise ValueError(
                     f"{key} = [{value:g}, {deviation:g}], allowed is [value, standard deviation > "
@@ -117,8 +117,10 @@ class Measured(Named):
         return self
 
     @property
-    def _named(self) -> dict[str, tuple[float, float]]:
-        return self.given
+    def pairs(self) -> dict[str, tuple[float, float]]:
+        """key -> (value, standard deviation), of all that the file names."""
+        named = sorted(self.model_fields_set)
+        return {key: pair for key in named if isinstance(pair := getattr(self, key), tuple)}
 
     def _check_value(self, key: str, value: float) -> None:
         """ValueError for a value that this quantity cannot have."""
@@ -160,16 +162,12 @@ class Friction(Measured):
     @property
     def given(self) -> dict[str, tuple[float, float]]:
         """coefficient -> (value, standard deviation), of those that were measured."""
-        return {key: pair for key, pair in self._named.items() if math.isfinite(pair[1])}
+        return {key: pair for key, pair in self.pairs.items() if math.isfinite(pair[1])}
 
     @property
     def expected(self) -> dict[str, float]:
         """coefficient -> value, of those that the file names, measured or not."""
-        return {key: pair[0] for key, pair in self._named.items()}
-
-    @property
-    def _named(self) -> dict[str, tuple[float, float]]:
-        return {key: getattr(self, key) for key in sorted(self.model_fields_set - {"table"})}
+        return {key: pair[0] for key, pair in self.pairs.items()}
 
     def _check_value(self, key: str, value: float) -> None:
         if not 0.0 < value <= MOST_FRICTION:

@@ -13,15 +13,14 @@ from cosim.names import nearest
 #: Channel -> what it is in inside.
 SI = {"t": "s", "x": "m", "y": "m", "phi": "rad", "force": "N"}
 _WHAT = {"s": "time", "m": "length", "rad": "angle", "N": "force"}
-_PREFIXES = {"n": 1e-9, "u": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3}
 _SPELLED = {"n": "nano", "u": "micro", "m": "milli", "c": "centi", "k": "kilo"}
 #: SI unit -> name of a unit that somebody measures in -> factor.
 FACTORS = {
-    unit: {unit: 1.0} | {prefix + unit: _PREFIXES[prefix] for prefix in prefixes}
-    for unit, prefixes in {"s": "num", "m": "numck", "rad": "um", "N": "umk"}.items()
+    "s": {"s": 1.0, "ns": 1e-9, "us": 1e-6, "ms": 1e-3, "min": 60.0},
+    "m": {"m": 1.0, "nm": 1e-9, "um": 1e-6, "mm": 1e-3, "cm": 1e-2, "km": 1e3},
+    "rad": {"rad": 1.0, "urad": 1e-6, "mrad": 1e-3, "deg": math.pi / 180.0},
+    "N": {"N": 1.0, "uN": 1e-6, "mN": 1e-3, "kN": 1e3},
 }
-FACTORS["s"]["min"] = 60.0
-FACTORS["rad"]["deg"] = math.pi / 180.0
 #: Other words -> the unit.
 _WORDS = {
     "°": "deg", "degree": "deg", "degrees": "deg", "sec": "s", "second": "s", "seconds": "s",
@@ -39,13 +38,10 @@ def to_si(channel: str, unit: str) -> float:
     units = FACTORS[SI[channel]]
     if (name := _name(unit)) in units:
         return units[name]
-    allowed = f"allowed is a {_WHAT[SI[channel]]}: {', '.join(units)}"
-    if is_unit(unit):
-        raise ValueError(f"{unit} is of another kind, {allowed}")
     near = nearest(unit.lower(), words := _words(SI[channel]))
-    raise ValueError(
-        f"{unit} is no unit that is known, {allowed}{f' (nearest: {words[near]})' if near else ''}"
-    )
+    fault = "is of another kind" if is_unit(unit) else "is no unit that is known"
+    hint = f" (nearest: {words[near]})" if near and not is_unit(unit) else ""
+    raise ValueError(f"{unit} {fault}, allowed is a {_WHAT[SI[channel]]}: {', '.join(units)}{hint}")
 
 
 def is_unit(text: str) -> bool:
@@ -146,12 +142,9 @@ def find_columns(cells: Sequence[str], reading: Reading) -> dict[str, Column]:
             cell = cells[places[0]]
             found[channel] = _column(channel, places[0], cell, reading.units.get(channel, ""))
         elif name:
-            near, none = (
-                nearest(name, cells),
-                f"columns.{channel}: {name} is no column of this file",
-            )
-            hint = f" (nearest: {near})" if near else ""
+            hint = f" (nearest: {near})" if (near := nearest(name, cells)) else ""
             there = ", ".join(filter(None, cells))
+            none = f"columns.{channel}: {name} is no column of this file"
             raise CampaignError(f"{none}, allowed is one of {there}{hint}")
         elif channel in ("t", "x"):
             raise CampaignError(_missing(channel, cells))

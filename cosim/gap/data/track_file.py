@@ -41,8 +41,8 @@ def read_track(file: Path, reading: Reading | None = None) -> tuple[Track, list[
 
 def _track_of(file: Path, reading: Reading) -> tuple[Track, list[str], str]:
     header, rows = _split_header(_lines(file), reading)
-    separator = _separator(header)
-    cells = _fields(header, separator)
+    separator = separator_of(header)
+    cells = fields_of(header, separator)
     found = find_columns(cells, reading)
     table, lines = _parse(rows, separator, len(cells)), np.array([number for number, _ in rows])
     columns = {
@@ -137,7 +137,7 @@ def _split_header(
     else:
         comments = [line.lstrip().lstrip("#") for number, line in lines if number < first]
         header = comments[-1] if comments else ""
-        if not places_of("t", _fields(header, _separator(header)), reading):
+        if not places_of("t", fields_of(header, separator_of(header)), reading):
             row = "a first row t,x[,y][,phi][,force]"
             holds = f"line {first} holds numbers where the header row is expected"
             raise CampaignError(f"{holds}, allowed is {row}")
@@ -146,11 +146,13 @@ def _split_header(
     return header, rows
 
 
-def _separator(header: str) -> str:
-    return next((mark for mark in (";", "\t", ",") if mark in header), r"\s+")
+def separator_of(header: str, without: str = r"\s+") -> str:
+    """What stands between the columns; without: where none of the usual marks does."""
+    return next((mark for mark in (";", "\t", ",") if mark in header), without)
 
 
-def _fields(line: str, separator: str) -> list[str]:
+def fields_of(line: str, separator: str) -> list[str]:
+    """Cells of a line, without the quotes around them."""
     line = line.strip() if separator == r"\s+" else line.rstrip("\r\n")
     return [field.strip().strip("\"'") for field in re.split(separator, line)]
 
@@ -164,21 +166,17 @@ def _parse(rows: list[tuple[int, str]], separator: str, width: int) -> pd.DataFr
             "point, or decimal commas with semicolons between the columns"
         )
     longest = max(range(len(text)), key=lambda row: text[row].count(separator))
-    fields = _fields(text[longest], separator)
+    fields = fields_of(text[longest], separator)
     if len(fields) < width or any(fields[width:]):
         many = f"has {len(fields)} fields, the header has {width}; allowed is the same number"
         raise CampaignError(f"line {rows[longest][0]} {many}")
-    decimal = "," if is_comma and separator != "," else "."
-    table = pd.read_csv(
-        io.StringIO("\n".join(text)), sep=separator, header=None, names=range(width),
-        decimal=decimal, usecols=range(width), index_col=False, skipinitialspace=True,
-        na_values=MISSING, skip_blank_lines=False,
+    table = "\n".join(text)
+    if is_comma and separator != ",":
+        table = table.replace(",", ".")
+    return pd.read_csv(
+        io.StringIO(table), sep=separator, header=None, names=range(width), usecols=range(width),
+        index_col=False, skipinitialspace=True, na_values=MISSING, skip_blank_lines=False,
     )  # fmt: skip
-    if decimal == ",":  # one strange cell leaves a column text, with its commas
-        for name in table.select_dtypes(exclude="number"):
-            points = table[name].astype(str).str.replace(",", ".", regex=False)
-            table[name] = points.where(table[name].notna())
-    return table
 
 
 def _numbers(name: str, column: pd.Series, lines: np.ndarray) -> np.ndarray:

@@ -40,23 +40,18 @@ def _of(size: Size) -> dict[str, Any]:
     starts = {free.key: free.start for free in size.law.candidate.free_parameters[1:]}
     return {
         "effect": size.law.candidate.effect, "law": size.law.candidate.form,
-        "parameter": size.law.key, "unit": unit_of(size) or "1", "smallest": size.value,
+        "parameter": size.law.key, "unit": size.law.unit, "smallest": size.value,
         "smallest_alone": size.alone, "percent_of_friction": size.percent,
         "at": {**starts, **size.law.unknown.settings},
         "answers": {answer: count / DRAWS for answer, count in size.answers.items()},
     }  # fmt: skip
 
 
-def unit_of(size: Size) -> str:
-    """Of the parameter; "" where it has none."""
-    return "" if size.law.unit == "1" else size.law.unit
-
-
 def value_text(value: float | None, size: Size, never: str = "not seen") -> str:
     """A size with its unit."""
     if value is None:
         return never
-    return f"{value:.3g} {unit_text(unit_of(size))}".rstrip()
+    return f"{value:.3g} {unit_text(size.law.unit)}".removesuffix(" 1")
 
 
 def percent_text(size: Size) -> str:
@@ -89,9 +84,8 @@ def closing_lines(plan: Plan) -> list[str]:
             alone = value_text(size.alone, size)
             said += ", never by itself" if size.alone is None else f", by itself from {alone}"
         lines.append(f"  {size.law.key:{width}}  {value_text(size.value, size):>16}  {said}")
-    lines += [
-        f"  {effect:{width}}  {'not tried':>16}  {why}" for effect, why in plan.silent.items()
-    ]
+    for effect, why in plan.silent.items():
+        lines.append(f"  {effect:{width}}  {'not tried':>16}  {why}")
     for truth, other, share in plan.pairs[:3]:
         times = f"{100 * share:.0f} times in 100"
         lines.append(f"  pair  {truth} is named as {other}, or in a class with it, {times}")

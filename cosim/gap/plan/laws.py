@@ -17,6 +17,7 @@ from stickslip.effects.effect import Effect, no_candidates
 from stickslip.quantity import details
 
 from cosim.gap.laws import SHAPES, Context, scales_of
+from cosim.gap.quantities import WORDS
 from cosim.gap.rates import Option, option_of_wave
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.added import Added
@@ -27,15 +28,7 @@ from cosim.gap.weak_form.unknowns import Unknown
 #: Turn of a wave's phase from one run to the next, rad: by the golden angle no two are alike.
 GOLDEN = np.pi * (3.0 - np.sqrt(5.0))
 #: Why an effect cannot be seen, where it is not the runs.
-WHY = {
-    "load_dependence": "all runs have the same load",
-    "static_strengthening": "hold times hardly differ, or nothing sticks",
-    "stick_stiffness": "along x the same as another mu_s",
-    **dict.fromkeys(
-        ("lateral_friction", "turning_surface", "spring_misalignment"),
-        "told by y and phi, which are not planned",
-    ),
-}
+WHY: dict[str, str] = WORDS["not_planned"]
 HEAT = "thermal_weakening.relaxation_time"
 
 
@@ -101,16 +94,14 @@ class Law:
 
 def laws_of(system: System, unknowns: Mapping[str, Sequence[Unknown]]) -> list[Law]:
     """The simplest law of each effect in each direction, of those that the runs can show."""
-    context = Context(
-        system.campaign, scales_of(system.campaign, system.runs, system.level.kinetic),
-        {"mu_s": system.level.static},
-    )  # fmt: skip
+    scales = scales_of(system.campaign, system.runs, system.level.kinetic)
+    context = Context(system.campaign, scales, {"mu_s": system.level.static})
     found: dict[tuple[str, float], Law] = {}
     for effect in system.campaign.catalogue.effects:
-        for candidate in effect.candidates(context.scales) if effect.offered else ():
+        for candidate in effect.candidates(scales) if effect.offered else ():
             if not candidate.free_parameters:
-                continue
-            if candidate.periodic:
+                laws: Iterator[Law] = iter(())
+            elif candidate.periodic:
                 laws = _waves(system, effect, candidate)
             elif candidate.form == "power law":
                 laws = _of_load(unknowns, effect, candidate)
@@ -136,14 +127,10 @@ def _starts(candidate: Candidate) -> dict[str, float]:
     return {**free, **candidate.settings}
 
 
-def _own_name(candidate: Candidate) -> str:
-    """The parameter that is its size, without its block."""
-    return candidate.free_parameters[0].key.rpartition(".")[2]
-
-
 def _range(effect: Effect, candidate: Candidate) -> dict[str, Any]:
     """Of the size: where it is nothing, what the catalogue has as its most, and its unit."""
-    free, field = candidate.free_parameters[0], effect.table.model_fields[_own_name(candidate)]
+    free = candidate.free_parameters[0]
+    field = effect.table.model_fields[free.key.rpartition(".")[2]]
     most = free.high if free.start > field.default else free.low
     return {"neutral": field.default, "most": most, "unit": details(field)["unit"]}
 
@@ -153,9 +140,8 @@ def _of_load(
 ) -> Iterator[Law]:
     """A power of the normal force is a trend with its logarithm."""
     for unknown in unknowns.get("load_dependence", ()):
-        span = np.array([-unknown.settings["span"]])
-        size = _range(effect, candidate)
-        yield Law("load_dependence", candidate, unknown, partial(np.multiply, span), **size)
+        sizes = partial(np.multiply, np.array([-unknown.settings["span"]]))
+        yield Law("load_dependence", candidate, unknown, sizes, **_range(effect, candidate))
 
 
 def _along_curves(
@@ -181,9 +167,8 @@ def _along_curves(
         known = {key: field.default for key, field in effect.table.model_fields.items()}
         known |= {key.rpartition(".")[2]: value for key, value in starts.items()}
         known["relaxation_time"] = unknown.settings.get("memory", memory)
-        size = _range(effect, candidate)
-
-        sizes = partial(_curve, law, nodes, known, _own_name(candidate), size["neutral"], unit)
+        size, own = _range(effect, candidate), candidate.free_parameters[0].key.rpartition(".")[2]
+        sizes = partial(_curve, law, nodes, known, own, size["neutral"], unit)
         part = unit / force if unknown.curve.per == "N" else 1.0
         yield Law(name, candidate, unknown, sizes, part=part, **size)
 
@@ -204,15 +189,12 @@ def _waves(system: System, effect: Effect, candidate: Candidate) -> Iterator[Law
     phases = {run.track.run.name: GOLDEN * n for n, run in enumerate(system.runs)}
     for kind in periodic.kinds(system.level.kinetic):
         wavenumbers = periodic.wavenumbers_of(system.fitted, kind)
-        if kind.name != effect.id or (kind.unit == "s") != in_time:
+        if kind.name != effect.id or (kind.unit == "s") != in_time or not wavenumbers.size:
             continue
-        if wavenumbers.size:
-            wavenumber = float(np.clip(start if in_time else 1.0 / start, *wavenumbers[[0, -1]]))
-            wave = periodic.Wave(kind, wavenumber, phases)
-            first, speeds = np.eye(2 * HARMONICS)[0], periodic.speeds_of(system.rung(), kind)
-            parts = [
-                Added(one) for one in (wave.shape(), *wave.moves(first, system.fitted, speeds))
-            ]
-            option = option_of_wave(parts, system, SCALES_ASKED)
-            size, sizes = _range(effect, candidate), partial(np.multiply, first)
-            yield Law(effect.id, candidate, parts[0].unknown, sizes, wave=option, **size)
+        wavenumber = float(np.clip(start if in_time else 1.0 / start, *wavenumbers[[0, -1]]))
+        wave = periodic.Wave(kind, wavenumber, phases)
+        first, speeds = np.eye(2 * HARMONICS)[0], periodic.speeds_of(system.rung(), kind)
+        parts = [Added(one) for one in (wave.shape(), *wave.moves(first, system.fitted, speeds))]
+        option, sizes = option_of_wave(parts, system, SCALES_ASKED), partial(np.multiply, first)
+        size = _range(effect, candidate)
+        yield Law(effect.id, candidate, parts[0].unknown, sizes, wave=option, **size)

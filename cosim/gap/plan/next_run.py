@@ -77,9 +77,8 @@ def next_experiment(
     system, level = ladder.system, ladder.system.level
     asked = {name: unknowns[name] for name in members if name in unknowns}
     every = laws_of(system, asked)
-    laws = [_as_found(system, [law for law in every if law.argument == name]) for name in asked]
-    sized = [pair for pair in laws if pair is not None]
-    if len(sized) < 2:
+    laws = (_as_found(system, [law for law in every if law.argument == name]) for name in asked)
+    if len(sized := [pair for pair in laws if pair is not None]) < 2:
         return None
     friction = {"mu_s": max(level.static, level.kinetic), "mu_k": level.kinetic}
     found = best_next_run(system, sized, friction, scatter)
@@ -122,10 +121,9 @@ def best_next_run(
         return None
     near = [pair for pair in found if pair[0] >= NEARLY * best]
     separation, option = min(near, key=lambda pair: _changed(campaign, pair[1]))
-    setting = {key: getattr(option.setting, key) for key in SETTINGS}
-    names = tuple(law.argument for law, _ in laws)
-    return NextRun(**setting, duration=option.duration, effects=names,
-                   separation=separation, separation_before=before)  # fmt: skip
+    setting, names = option.setting, tuple(law.argument for law, _ in laws)
+    return NextRun(setting.surface_speed, setting.mass, setting.stiffness, option.duration, names,
+                   separation, before)  # fmt: skip
 
 
 def options(campaign: Campaign) -> list[PlannedRun]:
@@ -135,13 +133,8 @@ def options(campaign: Campaign) -> list[PlannedRun]:
     """
     runs = [run for run in campaign.runs if run.track is not None]
     used = {key: sorted(abs(getattr(run, key)) for run in runs) for key in SETTINGS}
-    ends = {
-        key: campaign.limits.get(key, (values[0] / BEYOND, values[-1] * BEYOND))
-        for key, values in used.items()
-    }
-    middle = {
-        key: float(np.clip(values[len(values) // 2], *ends[key])) for key, values in used.items()
-    }
+    ends = {k: campaign.limits.get(k, (v[0] / BEYOND, v[-1] * BEYOND)) for k, v in used.items()}
+    middle = {k: float(np.clip(v[len(v) // 2], *ends[k])) for k, v in used.items()}
     slow, fast = ends["surface_speed"]
     settings = [middle | {"surface_speed": v} for v in (slow, float(np.sqrt(slow * fast)), fast)]
     settings += [

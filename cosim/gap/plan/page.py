@@ -105,8 +105,7 @@ def draw_sizes(plan: Plan) -> Figure:
         axis.barh(place, size.percent - left, left=left, height=0.36, color=BLUE)
         if MORE * size.percent < alone < math.inf:
             axis.barh(place + 0.3, alone - left, left=left, height=0.2, color=ORANGE)
-            text = _value(size.alone, size)
-            axis.text(1.05 * alone, place + 0.32, text, color=INK, **label)
+            axis.text(1.05 * alone, place + 0.32, _value(size.alone, size), color=INK, **label)
         never = "" if math.isfinite(alone) else "  (never by itself)"
         text = _value(size.value, size) + never
         axis.text(1.05 * size.percent, place - 0.02, text, **label)

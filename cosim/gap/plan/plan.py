@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import import_module
+from itertools import count
 from pathlib import Path
 from typing import Any
 
@@ -55,15 +56,13 @@ class Plan(Result):
 
     def summary(self) -> dict[str, Any]:
         """What `plan.json` holds."""
-        numbers: dict[str, Any] = import_module(DATA).as_data(self)
-        return numbers
+        return dict(import_module(DATA).as_data(self))
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
         return import_module(DATA).sentence(self), import_module(PAGE).tiles(self)
 
     def _page(self) -> str:
-        text: str = import_module(PAGE).page_text(self)
-        return text
+        return str(import_module(PAGE).page_text(self))
 
     def _write(self, folder: Path) -> None:
         json_text = import_module("cosim.report.files").json_text
@@ -90,17 +89,14 @@ def make_plan(
 
     progress : called with the steps done and all
     """
-    done, total = 0, 1 + TRIED
-
-    def step() -> None:
-        nonlocal done
-        done = min(done + 1, total - 1)
-        progress(done, total)
-
     campaign = as_measured(planned, seed)
     system, unknowns = asked_as_planned(campaign)
-    laws = laws_of(system, unknowns)
-    scatter, total = campaign.errors.friction, total + 2 * len(laws)
+    laws, scatter = laws_of(system, unknowns), campaign.errors.friction
+    total, steps = 1 + TRIED + 2 * len(laws), count(1)
+
+    def step() -> None:
+        progress(min(next(steps), total - 1), total)
+
     step()
     sizes = sizes_of(design := Design(system, unknowns, laws, scatter, seed=seed), wanted, step)
     pair = _worst_pair(sizes)

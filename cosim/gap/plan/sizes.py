@@ -87,15 +87,17 @@ class Design:
         return step * float(np.sqrt(2.0 * LEAST_GAIN / max(left, 1e-300)))
 
     def smallest(
-        self, number: int, low: float, high: float, wanted: float,
-        is_told: Callable[[Law, Offers], np.ndarray],
-    ) -> float:  # fmt: skip
-        """How far from nothing a law is told in a part of the campaigns; infinite: never."""
+        self, number: int, low: float, high: float, wanted: float, alone: bool = False
+    ) -> float:
+        """How far from nothing a law is named in a part of the campaigns; infinite: never.
+
+        alone : by itself, not in a class
+        """
         law = self.laws[number]
         low, high = min(low, law.range), min(high, law.range)
 
         def told(at: float) -> bool:
-            return float(np.mean(is_told(law, self.offers(number, at)))) >= wanted
+            return float(np.mean(is_named(law, self.offers(number, at), alone))) >= wanted
 
         if not told(high):
             return np.inf
@@ -118,14 +120,11 @@ class Design:
         )  # fmt: skip
 
 
-def is_named(law: Law, offers: Offers) -> np.ndarray:
-    """(c,) by itself or in a class."""
-    return np.asarray(offers.near[offers.names.index(law.argument)])
-
-
-def is_alone(law: Law, offers: Offers) -> np.ndarray:
-    """(c,) by itself."""
-    return np.asarray(is_named(law, offers) & (offers.near.sum(axis=0) == 1))
+def is_named(law: Law, offers: Offers, alone: bool = False) -> np.ndarray:
+    """(c,) by itself, or in a class too."""
+    most = 1 if alone else len(offers.names)
+    near = offers.near
+    return np.asarray(near[offers.names.index(law.argument)] & (near.sum(axis=0) <= most))
 
 
 def sizes_of(design: Design, wanted: float, progress: Callable[[], object]) -> list[Size]:
@@ -134,8 +133,8 @@ def sizes_of(design: Design, wanted: float, progress: Callable[[], object]) -> l
     for number, law in enumerate(design.laws):
         progress()
         low, high = np.multiply(BRACKET, design.first_guess(law))
-        away = design.smallest(number, low, high, wanted, is_named)
-        alone = design.smallest(number, away, BRACKET[1] * away, wanted, is_alone)
+        away = design.smallest(number, low, high, wanted)
+        alone = design.smallest(number, away, BRACKET[1] * away, wanted, alone=True)
         sizes.append(design.size(number, away, alone))
     return sizes
 

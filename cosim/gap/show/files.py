@@ -1,25 +1,33 @@
-"""What a finished answer leaves behind: numbers and model first, then figures and the page."""
+"""What a finished answer leaves behind: numbers and model first, then figures and the page.
+
+Where a measurement fault was named, so does a campaign whose data are freed of it: what a filter
+took away, or rounding, is gone and stays in the data.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas as pd
+import tomli_w
 
 from cosim.coupling import FmuParticipant
 from cosim.files import write_bytes, write_text
 from cosim.fmu.build import FmuBuildError, own_fmu
-from cosim.gap.quantities import digits, fitted_quantities, with_digits
+from cosim.gap.data import Track
+from cosim.gap.data.campaign_file import FILE_NAME
+from cosim.gap.quantities import BESIDE_THE_MODEL, digits, fitted_quantities, quantity, with_digits
 from cosim.gap.result import Gap, RigNumber
 from cosim.gap.scatter import scatter_text
-from cosim.gap.windows.camera import seen, true_time
+from cosim.gap.windows import camera
 from cosim.interrupts import held_interrupts
 from cosim.report.page import Picture, render
 
 from . import text
-from .corrected import write_corrected as write_corrected
 from .figures import figures_of as drawers
 from .model_file import model_text, scenario_of, shown_run
 from .model_file import safe_name as safe_name
@@ -31,6 +39,9 @@ from .tracks import shown_runs, starts
 STATED = ("offset.x", "offset.stiffness")
 #: Runs that halve the variance of a stated number tell of it.
 TOLD = 0.7
+#: Faults that can be undone; and what a corrected campaign keeps of a run.
+UNDONE = tuple(f"{text.FAULT}{name}" for name in camera.UNDONE)
+OF_A_RUN = ("mass", "stiffness", "surface_speed", "ambient_degC", "hold_out")
 #: Pictures that are seen at once.
 FIRST = ("ladder", "curve", "run")
 
@@ -98,8 +109,8 @@ def rig_rows(gap: Gap) -> list[dict[str, str]]:
     rows = []
     for one in sorted(filter(_is_told, gap.rig), key=lambda one: one.name):
         factor, unit = {"1": (1e2, "%"), "m": (1e3, "mm")}.get(one.unit, (1.0, one.unit))
-        pairs = ((one.stated, one.stated_sd), (one.value, one.sd))
-        stated, found = (plus_minus(factor * value, factor * sd) for value, sd in pairs)
+        stated = plus_minus(factor * one.stated, factor * one.stated_sd)
+        found = plus_minus(factor * one.value, factor * one.sd)
         rows.append({"name": one.name, "stated": stated, "found": found, "unit": unit})
     return rows
 
@@ -133,7 +144,7 @@ def largest_difference(gap: Gap, fmu: Path) -> float:
     """Between FMU and fitted model along x until the fit sets out anew, in units of the noise."""
     run = shown_run(gap)
     scenario, fitted = scenario_of(gap, run), gap.extended.run(run.name)
-    time = true_time(run.motion.time[: next(iter(starts(run, fitted)), None)], fitted.values)
+    time = camera.true_time(run.motion.time[: next(iter(starts(run, fitted)), None)], fitted.values)
     speed = {"surface_speed": scenario.surface.speed}
     with FmuParticipant(fmu, parameters=scenario.mechanics.flat(), inputs=speed) as block:
         block.enter_initialisation(float(time[0]), float(time[-1]))
@@ -142,6 +153,46 @@ def largest_difference(gap: Gap, fmu: Path) -> float:
         for before, after in zip(time[:-1], time[1:], strict=True):
             block.step(float(before), float(after - before))
             places.append(block.read()["x"])
-    written = seen(np.pad(np.array(places)[:, None], ((0, 0), (0, 2))), time, fitted.values)[:, 0]
+    written = camera.seen(np.pad(np.array(places)[:, None], ((0, 0), (0, 2))), time, fitted.values)[
+        :, 0
+    ]
     off = written + fitted.values.get("offset.x", 0.0) - fitted.track[: time.size, 0]
     return float(np.max(np.abs(off)) / run.noise["x"])
+
+
+def write_corrected(gap: Gap, folder: Path) -> list[Path]:
+    """`corrected/campaign.toml` and the runs' files beside it; [] where nothing can be undone."""
+    if not set(text.faults_of(gap)) & set(UNDONE):
+        return []
+    campaign, target = gap.campaign, folder / "corrected"
+    target.mkdir(parents=True, exist_ok=True)
+    values = {run.name: run.values for run in gap.extended.runs}
+    files, entries = [], []
+    for number, run in enumerate(campaign.runs, 1):
+        if run.track is not None:
+            files.append(target / f"run{number:02d}.csv")
+            numbers = {k: v for k, v in values[run.name].items() if k.startswith(text.FAULT)}
+            write_text(_csv(camera.undone(run.motion, numbers), numbers), files[-1])
+            entries.append({"file": files[-1].name} | {key: getattr(run, key) for key in OF_A_RUN})
+    noise = {k: v for k, v in campaign.noise.items() if k not in campaign.noise_estimated}
+    friction: dict[str, Any] = {key: list(pair) for key, pair in campaign.friction.items()}
+    if campaign.friction_table is not None:
+        friction["table"] = str(campaign.friction_table.file.resolve())
+    rig, errors = (part.model_dump(exclude_unset=True) for part in (campaign.rig, campaign.errors))
+    known = {"rig": rig, "noise": noise, "errors": errors, "friction": friction, "run": entries}
+    table = {"name": f"{campaign.name}, corrected"[:200], **known}
+    write_text(tomli_w.dumps(table), target / FILE_NAME)
+    return [target / FILE_NAME, *files]
+
+
+def _csv(track: Track, numbers: Mapping[str, float]) -> str:
+    """Rows in SI units, with a word on what was done."""
+    columns = {"t": track.time + track.time_offset} | {name: track[name] for name in track.channels}
+    said = [
+        f"# {quantity(key, number, None).text}: "
+        f"{'undone' if key.startswith(UNDONE) else 'still in the data, as it cannot be undone'}\n"
+        for key, number in numbers.items()
+        if key in BESIDE_THE_MODEL and numbers.get(f"{key}_in", 1.0)
+    ]  # fmt: skip
+    table = pd.DataFrame(columns)
+    return "".join(said) + table.to_csv(index=False, float_format="%.12g", lineterminator="\n")

@@ -81,9 +81,8 @@ def file_text(
     known = {one.key: one for one in quantities}
     wrapped = [line for text in header for line in textwrap.wrap(text, 96)]
     lines = [f"# {line}".rstrip() for line in (*wrapped, *USAGE)] + [""]
-    lines += [
-        _entry(key, given.pop(key)) for key in ("name", "defaults", "effects") if key in given
-    ]
+    beginning = [key for key in ("name", "defaults", "effects") if key in given]
+    lines += [_entry(key, given.pop(key)) for key in beginning]
     for table in sorted(filter(given.get, given), key=lambda table: table not in FIRST):
         lines += ["", f"[{table}]"]
         for key, value in given[table].items():
@@ -120,10 +119,8 @@ def put(tables: dict[str, dict[str, Any]], values: Mapping[str, float]) -> None:
 
 def scenario_from(campaign: Campaign, tables: Mapping[str, Mapping[str, Any]]) -> Scenario:
     """A scenario of these tables in which everything else is off."""
-    cut = {
-        table: {key: rounded(value) for key, value in entries.items()}
-        for table, entries in tables.items()
-    }
+    cut = {table: {key: rounded(value) for key, value in entries.items()}
+           for table, entries in tables.items()}  # fmt: skip
     effects = [effect for effect in campaign.catalogue.effects if effect.id in tables]
     own = [str(file) for effect in effects if (file := file_of(effect))]
     first = {"name": f"{safe_name(campaign.name)}-model", **({"effects": own} if own else {})}

@@ -37,7 +37,11 @@ def as_data(gap: Gap, model: str) -> dict[str, Any]:
         "gap": {"before": gap.before, "after": gap.after},
         "ranking": [ranked(row) for row in gap.ranking],
         "curves": [_curve(law) for law in gap.laws],
-        "scatter": gap.scatter and _scatter(gap.scatter),
+        "scatter": gap.scatter
+        and {
+            **dict(zip(("value", "low", "high"), gap.scatter, strict=True)),
+            "determined": is_determined(gap.scatter),
+        },
         "model": model,
         "remarks": gap.campaign.remarks,
         "noise": {
@@ -60,11 +64,6 @@ def ranked(row: Ranked) -> dict[str, Any]:
     }
 
 
-def _scatter(scatter: tuple[float, float, float]) -> dict[str, Any]:
-    numbers = dict(zip(("value", "low", "high"), scatter, strict=True))
-    return numbers | {"determined": is_determined(scatter)}
-
-
 def _curve(law: Law) -> dict[str, Any]:
     names = ("effect", "unit", "per", "mean", "form", "law", "in_model")
     return {name: getattr(law, name) for name in names} | {
@@ -81,9 +80,8 @@ def _curve(law: Law) -> dict[str, Any]:
 
 def _fitted(fitted: Fitted) -> dict[str, Any]:
     runs = [{"name": run.name, "hold_out": run.hold_out, "gap": run.gap} for run in fitted.runs]
-    return {
-        "parameters": fitted.values, "sd": fitted.sd, "at_bound": fitted.at_bound, "runs": runs
-    }  # fmt: skip
+    known = {"parameters": fitted.values, "sd": fitted.sd, "at_bound": fitted.at_bound}
+    return known | {"runs": runs}
 
 
 def tree(value: Any) -> Any:

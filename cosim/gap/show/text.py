@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from stickslip.catalogue import Catalogue
 
@@ -43,13 +43,11 @@ def gap_line(gap: Gap) -> str:
     return ", ".join(said) if held_out else f"{said[0]}; no run was held out"
 
 
-def noise_of(gap: Gap) -> str:
+def noise_of(noise: Mapping[str, float]) -> str:
     """`x: 0.3 mm, φ: 2 mrad`."""
-    return ", ".join(_noise(*each) for each in gap.campaign.noise.items())
-
-
-def _noise(channel: str, value: float) -> str:
-    return NOISE_OF[channel].format(value, 1e3 * value)
+    return ", ".join(
+        NOISE_OF[channel].format(value, 1e3 * value) for channel, value in noise.items()
+    )
 
 
 def what_is_left(gap: Gap) -> str:
@@ -96,15 +94,13 @@ def runner_up(gap: Gap) -> str:
 def rates_lines(gap: Gap) -> list[str]:
     """What else would have led to this answer, and how often."""
     said = answer_text(gap.effects) if gap.effects else gap.verdict
-    return [
-        f"If {_if(truth)}, these runs would say {said} {answers[said]} times in {gap.rates.each}."
-        for truth, answers in (gap.rates.table.items() if gap.rates else ())
-        if truth not in gap.effects and gap.rates and answers.get(said, 0) > 0
-    ]
-
-
-def _if(truth: str) -> str:
-    return "nothing were missing" if truth == NONE else f"it were {truth}"
+    lines = []
+    for truth, answers in gap.rates.table.items() if gap.rates else ():
+        if gap.rates and truth not in gap.effects and answers.get(said, 0) > 0:
+            were = "nothing were missing" if truth == NONE else f"it were {truth}"
+            times = f"{answers[said]} times in {gap.rates.each}"
+            lines.append(f"If {were}, these runs would say {said} {times}.")
+    return lines
 
 
 def assumptions(gap: Gap) -> list[str]:
@@ -119,7 +115,7 @@ def assumptions(gap: Gap) -> list[str]:
         f"stiffness of the springs, as stated within {100.0 * errors.stiffness:.3g} %",
         f"surface speeds, as stated within {100.0 * errors.surface_speed:.3g} %",
         *(
-            f"noise of {_noise(channel, value)}, "
+            f"noise of {noise_of({channel: value})}, "
             f"{'from the data' if channel in estimated else 'as stated'}"
             for channel, value in campaign.noise.items()
         ),

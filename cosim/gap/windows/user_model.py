@@ -43,7 +43,8 @@ def user_model(campaign: Campaign) -> tuple[list[Number], dict[str, float]]:
             settings[f"friction.table_speed[{i}]"] = float(speed)
             settings[f"friction.table_part[{i}]"] = float(part)
     numbers = []
-    sticks, slips = any(map(breaks_away, runs)), any(not never_slips(run) for run in runs)
+    sticks = any(breaks_away(run) or run.rounding for run in runs)  # coarse steps hide sticks
+    slips = any(not never_slips(run) for run in runs)
     for name, guess in zip(("mu_s", "mu_k"), friction_guess(runs), strict=True):
         key = f"friction.{name}"
         value, sd = campaign.known_friction.get(name, (guess, None))
@@ -106,6 +107,8 @@ def friction_guess(runs: Sequence[MeasuredRun]) -> tuple[float, float]:
         if ends and starts:
             holding.append(float(np.nanmedian(ends)))
             mean = 0.5 * (holding[-1] + float(np.nanmedian(starts)))
+        elif run.rounding:  # sticks are not seen between coarse steps
+            holding.append(held[-1])
         sliding.append(mean)
     mu_k = max(float(np.median(sliding)), 1e-3)
     if runs and all(map(never_slips, runs)):

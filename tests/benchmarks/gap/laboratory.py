@@ -119,16 +119,9 @@ def judge(task: Task, keep: Path | None = None) -> dict:
             shutil.copytree(folder, keep / task.suite / task.name, dirs_exist_ok=True)
     finally:
         shutil.rmtree(place)
-    return {
-        "suite": task.suite,
-        "name": task.name,
-        "answer": truth,
-        "found": found,
-        "error": error,
-        "seconds": round(wall, 2),
-        "cpu": round(cpu, 2),
-        "code": code(),
-    }
+    told = {"suite": task.suite, "name": task.name, "answer": truth, "found": found}
+    times = {"seconds": round(wall, 2), "cpu": round(cpu, 2)}
+    return {**told, "error": error, **times, "code": code()}
 
 
 def code() -> str:
@@ -186,10 +179,8 @@ def report(rows: list[Row], out: Path) -> str:
 
 def figures(rows: list[Row]) -> dict[str, Figure]:
     """Share of right answers of each suite, for `compare.py`."""
-    return {
-        f"right, {suite}": Figure(share(some, is_right).value, better="more")
-        for suite, some in by_suite(rows)
-    }
+    return {f"right, {suite}": Figure(share(some, is_right).value, better="more")
+            for suite, some in by_suite(rows)}  # fmt: skip
 
 
 def arguments() -> argparse.Namespace:
@@ -199,9 +190,7 @@ def arguments() -> argparse.Namespace:
     )
     parser.add_argument("suite", nargs="*", metavar="SUITE", help=", ".join(SUITES))
     parser.add_argument("--seed", type=int, help="of the suites")
-    parser.add_argument(
-        "--count", type=int, help="campaigns of a suite; its own number if left out"
-    )
+    parser.add_argument("--count", type=int, help="campaigns of a suite (default: its own)")
     parser.add_argument("--first", type=int, help="only so many campaigns of each suite")
     parser.add_argument("--campaigns", type=Path, help="a folder with a folder for each campaign")
     parser.add_argument("--answers", type=Path, help="answers.json of that folder")

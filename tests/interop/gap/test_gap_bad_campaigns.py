@@ -8,8 +8,6 @@ from gap_campaigns import NOISE, motion, noisy, write_campaign
 
 from cosim.cli import main
 
-KNOWN_NOISE = {"x": NOISE}
-
 
 def run_of(seed=1, speed=0.06, duration=4.0, **more):
     """A run that sticks and slips, as a table of [[run]] with its columns."""
@@ -51,47 +49,30 @@ def test_a_file_that_is_a_folder_is_refused(tmp_path, capsys):
     assert (status, err.count("\n")) == (2, 1) and "run01.csv" in err
 
 
-# Too little to name anything, yet no fault: a verdict with its reasons.
+def holed(run, rows):
+    run["columns"]["x"][rows] = np.nan
+    return run
 
 
-def check_reasoned(status, answer):
+#: Runs that hold too little to name anything, yet no fault, and what is said of them.
+LITTLE = {
+    "a single run": (lambda: [run_of()], "no run is held out"),
+    "no slip": (lambda: [run_of(1, 0.001), run_of(2, 0.0015)], "no slip is seen"),
+    "no stick": (lambda: [run_of(seed, speed, initial={"x": 0.03})
+                          for seed, speed in ((1, 0.4), (2, 0.5))], "no stick is seen"),
+    "duplicates": (lambda: [run_of(), run_of(), run_of(2)],
+                   "run02 holds the same data as run01: left out"),
+    "holes": (lambda: [holed(run_of(1), slice(50, 120)), holed(run_of(2), slice(None, None, 7))],
+              ""),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", LITTLE)
+def test_too_little_gets_a_verdict_with_its_reasons(case, tmp_path, capsys):
     """None of these holds an effect: no name may come out of nothing."""
-    assert status == 0
+    runs, words = LITTLE[case]
+    status, err, answer = said(tmp_path, capsys, runs(), noise={"x": NOISE})
+    assert status == 0 and words in err
     assert answer["verdict"] in ("none", "unknown") and answer["effects"] == []
     assert 0.8 < answer["gap"]["after"]["fit"] < 1.3
-
-
-def test_a_single_run_gets_a_verdict(tmp_path, capsys):
-    status, err, answer = said(tmp_path, capsys, [run_of()], noise=KNOWN_NOISE)
-    check_reasoned(status, answer)
-    assert answer["gap"]["before"]["held_out"] is None  # nothing was
-    assert "no run is held out" in err
-
-
-def test_runs_without_any_slip_get_a_verdict(tmp_path, capsys):
-    runs = [run_of(1, 0.001), run_of(2, 0.0015)]
-    status, err, answer = said(tmp_path, capsys, runs, noise=KNOWN_NOISE)
-    assert "no slip is seen" in err
-    check_reasoned(status, answer)
-
-
-def test_runs_without_any_stick_get_a_verdict(tmp_path, capsys):
-    runs = [run_of(seed, speed, initial={"x": 0.03}) for seed, speed in ((1, 0.4), (2, 0.5))]
-    status, err, answer = said(tmp_path, capsys, runs, noise=KNOWN_NOISE)
-    check_reasoned(status, answer)
-    assert "no stick is seen" in err
-
-
-def test_duplicates_are_counted_once(tmp_path, capsys):
-    same = run_of()
-    status, err, answer = said(tmp_path, capsys, [same, same, run_of(2)], noise=KNOWN_NOISE)
-    check_reasoned(status, answer)
-    assert "run02 holds the same data as run01: left out" in err
-
-
-def test_a_track_with_holes_gets_a_verdict(tmp_path, capsys):
-    runs = [run_of(1), run_of(2)]
-    runs[0]["columns"]["x"][50:120] = np.nan
-    runs[1]["columns"]["x"][::7] = np.nan
-    status, _, answer = said(tmp_path, capsys, runs, noise=KNOWN_NOISE)
-    check_reasoned(status, answer)
+    assert (answer["gap"]["before"]["held_out"] is None) == (case == "a single run")

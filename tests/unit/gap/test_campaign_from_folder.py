@@ -51,9 +51,8 @@ def test_decimal_commas_in_millimetres(tmp_path):
     assert [run.surface_speed for run in campaign.runs] == [0.1, 0.15, 0.06]
     assert [run.hold_out for run in campaign.runs] == [False, False, True]
     assert campaign.runs[0].track.x == pytest.approx(X, abs=1e-6)
-    assert "by the file's name" in file.read_text("utf-8") and "x = pos_mm" in "\n".join(
-        shown(found)
-    )
+    assert "by the file's name" in file.read_text("utf-8")
+    assert "x = pos_mm" in "\n".join(shown(found))
 
 
 def test_a_table_of_tracker(tmp_path):
@@ -72,14 +71,9 @@ def deeplabcut(folder, name):
     sure = np.where(TIME == TIME[7], 0.1, 0.99)
     frame = np.arange(TIME.size)
     columns = (frame, left, 50.0 + Y / 2e-4, sure, right, 30.0 - Y / 2e-4, 1.0 + 0.0 * X)
-    write(
-        folder,
-        name,
-        "scorer" + ",net" * 6,
-        "bodyparts" + ",left" * 3 + ",right" * 3,
-        "coords" + ",x,y,likelihood" * 2,
-        *lines(*columns),
-    )
+    head = ("scorer" + ",net" * 6, "bodyparts" + ",left" * 3 + ",right" * 3,
+            "coords" + ",x,y,likelihood" * 2)  # fmt: skip
+    write(folder, name, *head, *lines(*columns))
 
 
 def test_pixels_of_deeplabcut(tmp_path):
@@ -120,12 +114,7 @@ def test_what_no_name_says_is_given_or_asked_for(tmp_path, capsys):
 def test_columns_of_other_names_are_said_beforehand(tmp_path):
     """A campaign.toml without runs keeps nobody from making one, and is not lost."""
     name = "m0.87_v0.06_k38.5.csv"
-    write(
-        tmp_path,
-        name,
-        "Zeit [s];Weg [mm]",
-        *(f"{t:.3f};{1e3 * x:.6f}" for t, x in zip(TIME, X, strict=True)),
-    )
+    write(tmp_path, name, "Zeit [s];Weg [mm]", *lines(TIME, 1e3 * X, mark=";"))
     with pytest.raises(CampaignError, match="column t: missing"):
         campaign_of(tmp_path)
     said = '[columns]\nt = "Zeit"\nx = "Weg"\n'

@@ -14,21 +14,9 @@ from scipy.ndimage import gaussian_filter1d
 from scipy.optimize import brentq
 
 from cosim.gap import Campaign, CampaignError, MeasuredRun, Track, read_campaign
-from cosim.gap.checks import LEVEL, doubts_of
-from cosim.gap.checks import motion as checks_of_motion
+from cosim.gap.checks import LEVEL, doubts_of, tracker
+from cosim.gap.checks import motion as in_motion
 from cosim.gap.checks.level import far
-from cosim.gap.checks.motion import CREEPS, doubts_of_direction, stick_speed, stiffness_ratio
-from cosim.gap.checks.tracker import (
-    BARTLETT,
-    SMOOTHED,
-    WHITE,
-    doubts_of_noise,
-    doubts_of_sampling,
-    felt,
-    lattice,
-    with_rounding,
-)
-from cosim.gap.checks.units import SHORT_CYCLE, doubts_of_units
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.data.units import COARSEST, MOST_FRICTION, check_units, cycle_of, friction_of, swing
 from cosim.gap.naming import Naming
@@ -127,12 +115,11 @@ def said(doubts, check):
 
 
 @pytest.mark.parametrize(
-    ("log", "doubted"),
-    [(0.9, False), (1.2, True), (-0.9, False), (-1.15, True)],
+    ("log", "doubted"), [(0.9, False), (1.2, True), (-0.9, False), (-1.15, True)]
 )
 def test_the_speed_in_sticks_is_that_of_the_surface(log, doubted, sound):
     """In parts of the limit; to the lower side a contact may creep."""
-    limit = far(3) * OF_SPEED - (math.log1p(-CREEPS) if log < 0.0 else 0.0)
+    limit = far(3) * OF_SPEED - (math.log1p(-in_motion.CREEPS) if log < 0.0 else 0.0)
     off = math.exp(-log * limit)
     doubts = doubts_of(changed(sound, lambda r: replace(r, surface_speed=off * 0.06), 2))
     assert said(doubts, "speed") == doubted
@@ -154,9 +141,9 @@ def test_a_scale_of_all_runs_is_one_doubt():
 @pytest.mark.parametrize("stated", [0.5, 0.8, 1.0, 1.25, 3.0])
 def test_the_surface_s_speed_is_read_off_sticks_whatever_is_stated(stated, sound):
     for run in sound.runs[:2]:
-        found, error = stick_speed(replace(run, surface_speed=stated * run.surface_speed))
+        found, error = in_motion.stick_speed(replace(run, surface_speed=stated * run.surface_speed))
         assert abs(found - run.surface_speed) < 5.0 * error + 0.01 * run.surface_speed
-    assert stick_speed(sound.runs[2]) is None  # it never sticks
+    assert in_motion.stick_speed(sound.runs[2]) is None  # it never sticks
 
 
 @pytest.mark.parametrize(("ripple", "severe"), [(0.0, True), (0.4, False)])
@@ -166,8 +153,8 @@ def test_a_surface_that_is_now_slower_and_now_faster_has_no_other_set_point(ripp
     slopes = 0.02 * np.array([1.0 - ripple, *[1.25] * 39])
     sticks = slopes, np.full(slopes.size, 1.0)
     with pytest.MonkeyPatch.context() as patched:
-        patched.setattr(checks_of_motion, "_sticks_at", lambda run, speed: sticks)
-        (doubt,) = checks_of_motion.doubts_of_speed(campaign_of([run]), [run])
+        patched.setattr(in_motion, "_sticks_at", lambda run, speed: sticks)
+        (doubt,) = in_motion.doubts_of_speed(campaign_of([run]), [run])
     assert doubt.severe is severe
 
 
@@ -175,7 +162,7 @@ def test_crests_of_a_vibration_are_no_sticks():
     for speed in (0.2, 0.4):
         for seed in range(5):
             run = run_of(speed, seed, initial={"x": 0.03}, duration=10.0)
-            assert stick_speed(replace(run, surface_speed=2.0 * speed)) is None
+            assert in_motion.stick_speed(replace(run, surface_speed=2.0 * speed)) is None
 
 
 @pytest.mark.parametrize("log", [-1.2, -0.8, 0.8, 1.2])
@@ -190,7 +177,7 @@ def test_slips_swing_as_stated(log, sound):
 def test_springs_are_read_off_slips(ratio, severe, sound):
     """Softer ones than anything makes are severe; harder ones are an effect."""
     stated = changed(sound, lambda run: replace(run, stiffness=run.stiffness / ratio))
-    found, error = stiffness_ratio(stated, stated.runs[1])
+    found, error = in_motion.stiffness_ratio(stated, stated.runs[1])
     assert found == pytest.approx(ratio, rel=0.03) and abs(found - ratio) < 5.0 * error
     assert [d.severe for d in doubts_of(stated) if d.check == "springs"] == [severe]
 
@@ -201,16 +188,16 @@ def test_friction_carries_the_block_along(part, sound):
     momentum = swing(run.track.x) / (run.natural_frequency * run.track.duration)
     least = far(1) * 5e-4 + momentum
     turned = with_track(run, x=run.track.x - run.track.x.mean() - part * least)
-    assert bool(doubts_of_direction(sound, [turned])) == (part > 1.0)
+    assert bool(in_motion.doubts_of_direction(sound, [turned])) == (part > 1.0)
 
 
 def test_units_are_told_where_the_limits_say(sound):
     run = sound.runs[1]
     cycle = cycle_of(run)
     for part in (0.9, 1.1):
-        period = cycle / (part * SHORT_CYCLE)
+        period = cycle / (part * in_motion.SHORT_CYCLE)
         heavy = replace(run, mass=run.total_stiffness * (period / (2.0 * math.pi)) ** 2)
-        assert bool(doubts_of_units([heavy])) == (part < 1.0)
+        assert bool(in_motion.doubts_of_units([heavy])) == (part < 1.0)
 
 
 def refused(run):
@@ -236,7 +223,7 @@ def test_units_are_refused_where_the_limits_say(sound):
 def test_slips_want_samples(step, sound):
     """omega times the interval: a third at most."""
     run = with_track(sound.runs[0], time=np.arange(100) * step / sound.runs[0].natural_frequency)
-    doubts = doubts_of_sampling(sound, [run])
+    doubts = tracker.doubts_of_sampling(sound, [run])
     assert [doubt.severe for doubt in doubts] == ([True] if step > 1.0 / 3.0 else [])
 
 
@@ -254,7 +241,9 @@ def test_runs_of_few_samples_are_simulated_and_others_asked(coarse, severe, soun
 @pytest.mark.parametrize("factor", [1.0 / 1.45, 1.0 / 1.25, 1.25, 1.45])
 def test_noise_is_as_stated(factor, sound):
     louder = changed(sound, lambda run: replace(run, noise={"x": factor * NOISE}))
-    assert said(doubts_of_noise(louder, louder.runs), "noise") == (abs(math.log(factor)) > 0.3)
+    assert said(tracker.doubts_of_noise(louder, louder.runs), "noise") == (
+        abs(math.log(factor)) > 0.3
+    )
 
 
 @pytest.mark.parametrize("size", [200, 2000])
@@ -263,26 +252,26 @@ def test_third_differences_of_white_noise_scatter_as_foretold(size):
     draws = np.random.default_rng(1).standard_normal((2000, size))
     thirds = np.diff(draws, 3, axis=1)
     products = np.mean(thirds[:, 1:] * thirds[:, :-1], axis=1) / np.mean(thirds**2, axis=1)
-    assert np.mean(products) == pytest.approx(WHITE, abs=0.01)
-    assert size * np.var(products) == pytest.approx(BARTLETT, rel=0.15)
+    assert np.mean(products) == pytest.approx(tracker.WHITE, abs=0.01)
+    assert size * np.var(products) == pytest.approx(tracker.BARTLETT, rel=0.15)
 
 
 def raised(side):
     """By how much a filter (a, 1 - 2 a, a) makes neighbours' third differences go together."""
     taps = np.convolve([1.0, -3.0, 3.0, -1.0], [side, 1.0 - 2.0 * side, side])
-    return float(taps[1:] @ taps[:-1] / (taps @ taps)) - WHITE
+    return float(taps[1:] @ taps[:-1] / (taps @ taps)) - tracker.WHITE
 
 
 @pytest.mark.parametrize("part", [0.85, 1.15])
 def test_a_tracker_that_smooths_is_told_from_one_that_does_not(part):
-    side = brentq(lambda a: raised(a) - part * SMOOTHED, 0.0, 0.2)
+    side = brentq(lambda a: raised(a) - part * tracker.SMOOTHED, 0.0, 0.2)
     taps = [side, 1.0 - 2.0 * side, side]
     runs = [
         run_of(0.004, number, duration=60.0, filtered=lambda x: np.convolve(x, taps, "same"))
         for number in (1, 2)
     ]
     # what a filter takes of the noise is not stated, here
-    doubts = doubts_of_noise(campaign_of(runs), runs)
+    doubts = tracker.doubts_of_noise(campaign_of(runs), runs)
     assert said(doubts, "smoothed") == (part > 1.0)
 
 
@@ -290,7 +279,7 @@ def test_no_false_alarm_on_white_noise():
     """Of stick-slip motion, slow and fast, dense and coarse."""
     for number, (speed, interval) in enumerate([(0.01, 0.01), (0.1, 0.01), (0.05, 0.002)] * 4):
         run = run_of(speed, number, interval=interval, duration=8.0)
-        assert doubts_of_noise(campaign_of([run]), [run]) == [], (speed, interval)
+        assert tracker.doubts_of_noise(campaign_of([run]), [run]) == [], (speed, interval)
 
 
 @pytest.mark.parametrize("decimals", [1e-9, 1e-6])
@@ -302,9 +291,9 @@ def test_steps_are_found(step, decimals):
         return decimals * np.round(x / decimals)
 
     run = run_of(0.1, filtered=written)
-    found, share = lattice(run.track.x)
+    found, share = tracker.lattice(run.track.x)
     assert found == pytest.approx(step, rel=2e-3) and share > 0.98
-    (doubt,) = doubts_of_noise(campaign_of([run]), [run])
+    (doubt,) = tracker.doubts_of_noise(campaign_of([run]), [run])
     assert doubt.check == "steps" and not doubt.severe
 
 
@@ -312,7 +301,7 @@ def test_steps_of_some_runs_are_told_with_their_names():
     runs = [run_of(0.1, number) for number in range(3)]
     runs[1] = run_of(0.1, 1, filtered=lambda x: 4e-3 * np.round(x / 4e-3))
     runs = [replace(run, name=f"run0{number}") for number, run in enumerate(runs)]
-    (doubt,) = doubts_of_noise(campaign_of(runs), runs)
+    (doubt,) = tracker.doubts_of_noise(campaign_of(runs), runs)
     assert (doubt.check, doubt.runs) == ("steps", ("run01",))
     assert doubt.text.startswith("run01: 100 % of x are multiples of 4 mm")
 
@@ -321,8 +310,8 @@ def test_steps_of_some_runs_are_told_with_their_names():
 def test_decimals_of_a_file_are_no_steps(decimals):
     for seed in range(20):
         run = run_of(0.1, seed, filtered=lambda x: decimals * np.round(x / decimals), duration=5.0)
-        assert lattice(run.track.x)[0] < 1.01 * decimals
-        assert doubts_of_noise(campaign_of([run]), [run]) == []
+        assert tracker.lattice(run.track.x)[0] < 1.01 * decimals
+        assert tracker.doubts_of_noise(campaign_of([run]), [run]) == []
 
 
 @pytest.mark.parametrize(
@@ -333,12 +322,12 @@ def test_steps_that_would_look_like_something_missing_are_coarse(noise, estimate
     """Steps of 1 mm, beside noise that is stated, mm, or that was taken from the samples."""
     run = run_of(0.1, noise=2e-4, filtered=lambda x: 1e-3 * np.round(x / 1e-3))
     campaign = campaign_of([replace(run, noise={"x": 1e-3 * noise})])
-    (made,) = with_rounding(replace(campaign, noise_estimated=estimated)).runs
+    (made,) = tracker.with_rounding(replace(campaign, noise_estimated=estimated)).runs
     assert bool(made.rounding) == bool(factor)
     if factor:
         assert made.rounding["x"] == pytest.approx((1e-3, factor), rel=2e-3)
         assert made.noise["x"] == pytest.approx(1e-3 * noise * factor, rel=2e-3)
-        assert doubts_of_noise(campaign, [made]) == []
+        assert tracker.doubts_of_noise(campaign, [made]) == []
 
 
 def test_runs_of_few_levels_have_the_step_of_the_others():
@@ -358,7 +347,7 @@ def test_a_step_is_felt_at_the_stated_level():
     """Variances of noise alone: as often beyond the smallest step that is felt as is stated."""
     samples, level = 400, 0.05
     steps = np.linspace(0.1, 3.0, 2901)
-    least = next(step for step in steps if felt(step, 1.0, samples) < level)
+    least = next(step for step in steps if tracker.felt(step, 1.0, samples) < level)
     noise = np.random.default_rng(1).standard_normal((4000, samples))
     beyond = np.mean(np.mean(noise**2, axis=1) > 1.0 + least**2 / 12.0)
     assert beyond == pytest.approx(level, abs=0.0125)  # 3.6 standard errors

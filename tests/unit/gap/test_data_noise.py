@@ -35,11 +35,9 @@ def test_noise_is_found_again(speed, seed):
 
 @settings(max_examples=25)
 @given(
-    seed=st.integers(0, 2**32 - 1),
-    jitter=st.floats(0.0, 0.004),
-    lost=st.floats(0.0, 0.3),
+    seed=st.integers(0, 2**32 - 1), jitter=st.floats(0.0, 0.004), lost=st.floats(0.0, 0.3),
     size=st.floats(1e-5, 1e-3),
-)
+)  # fmt: skip
 def test_noise_with_jitter_and_lost_rows(slow, seed, jitter, lost, size):
     random = np.random.default_rng(seed)
     time = slow.time + random.uniform(-jitter, jitter, len(slow.time))
@@ -79,9 +77,8 @@ def test_corners_are_no_outliers(slow, seed, size):
     """With little noise the corners are the sharpest thing in the data."""
     x = slow["x"] + size * np.random.default_rng(seed).standard_normal(len(slow.time))
     kept = without_outliers(slow.time, x)
-    assert (
-        np.count_nonzero(np.isnan(kept)) <= 1
-    )  # of 2000 samples, each an outlier by chance once in a million
+    # of 2000 samples, each an outlier by chance once in a million
+    assert np.count_nonzero(np.isnan(kept)) <= 1
 
 
 def test_rows_of_outliers():

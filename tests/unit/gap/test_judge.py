@@ -8,18 +8,22 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from stickslip.catalogue import CATALOGUE
+from stickslip.effects.candidate import Scales
+from stickslip.effects.contact.static_strengthening import EFFECT
 
+from cosim.gap import models
 from cosim.gap.extended import Part
 from cosim.gap.judge import (
     Verdict,
     halves,
     judge,
-    leaves,
     may_be_spurious,
     rivals_of,
-    runs_ask,
     with_steps,
 )
+from cosim.gap.judge import judged as judged_gap
+from cosim.gap.laws import Context, FreeCurve, laws_of
+from cosim.gap.models import Models
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import VERDICTS, Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
@@ -60,21 +64,27 @@ def test_no_run_alone_shows_that_nothing_is_missing():
     assert "no run is held out" in sentence_of(gap, [])
 
 
-@pytest.mark.parametrize(("gap", "verdict"), [(1.29, "named"), (1.31, "unknown")])
-def test_what_is_named_explains_the_runs(gap, verdict):
-    assert judged(["run_in"], 5.0, gap, 0.5)[0] == verdict
-
-
-@pytest.mark.parametrize(("share", "verdict"), [(0.79, "unknown"), (0.81, "partial")])
-def test_a_part_is_most_of_the_misfit(share, verdict):
-    assert judged(["run_in"], 5.0, 2.0, share)[0] == verdict
-
-
 @pytest.mark.parametrize(
-    ("less", "verdict"), [(2.9, ("class", ("run_in", "film_drag"))), (3.1, ("named", ("run_in",)))]
+    ("names", "before", "after", "share", "others", "told"),
+    [
+        # what is named explains the runs; a part is most of the misfit
+        (["run_in"], 5.0, 1.29, 0.5, {}, ("named", ("run_in",))),
+        (["run_in"], 5.0, 1.31, 0.5, {}, ("unknown", ())),
+        (["run_in"], 5.0, 2.0, 0.79, {}, ("unknown", ())),
+        (["run_in"], 5.0, 2.0, 0.81, {}, ("partial", ("run_in",))),
+        # twenty to one tells two apart
+        (["run_in"], 5.0, 1.0, 1.0, {"film_drag": -2.9}, ("class", ("run_in", "film_drag"))),
+        (["run_in"], 5.0, 1.0, 1.0, {"film_drag": -3.1}, ("named", ("run_in",))),
+        # held-out runs judge where there are some: fitted ones have 9 before and after; worse
+        (["run_in"], 5.0, None, 1.0, {}, ("unknown", ())),
+        (["run_in"], 1.2, 1.25, 1.0, {}, ("unknown", ())),
+        # what has no name
+        (["other.time"], 5.0, 1.0, 1.0, {}, ("unknown", ())),
+        (["run_in", "other.time"], 5.0, 1.0, 1.0, {}, ("unknown", ())),
+    ],
 )
-def test_twenty_to_one_tells_two_apart(less, verdict):
-    assert judged(["run_in"], 5.0, 1.0, film_drag=-less) == verdict
+def test_verdicts_change_at_the_limits(names, before, after, share, others, told):
+    assert judged(names, before, after, share, **others) == told
 
 
 @pytest.mark.parametrize(
@@ -88,16 +98,9 @@ def test_what_the_design_confuses_is_told_apart_by_four_hundred_to_one(less, ver
     assert (found.verdict, found.effects) == verdict
 
 
-def test_held_out_runs_judge_where_there_are_some():
-    assert judged(["run_in"], 5.0, None)[0] == "unknown"  # fitted runs: 9 before and after
+def test_fitted_runs_judge_where_none_is_held_out():
     ladder = [rung(9.0, None), rung(1.0, None, 1.0)]
     assert judge([finding("run_in")], ["run_in"], ladder, PHYSICS).verdict == "named"
-    assert judged(["run_in"], 1.2, 1.25)[0] == "unknown"  # worse than without it
-
-
-@pytest.mark.parametrize(("gained", "ask"), [(4.5, False), (5.9, False), (6.1, True)])
-def test_simulated_runs_ask_for_a_finding_by_as_much_as_the_rows(gained, ask):
-    assert runs_ask(gained) is ask
 
 
 @pytest.mark.parametrize(("left", "halved"), [(1.48, True), (1.6, False)])
@@ -106,12 +109,6 @@ def test_a_lesser_finding_halves_what_the_contact_alone_leaves(left, halved, of_
     """2^2 - 1 without it, half of which is (1.58)^2 - 1; of fitted runs and of held-out ones."""
     after = Score(left, 1.0) if of_fitted else Score(1.0, left)
     assert halves(after, Score(2.0, 2.0)) is halved
-
-
-@pytest.mark.parametrize("of_fitted", [True, False])
-@pytest.mark.parametrize(("gap", "missing"), [(1.09, False), (1.11, True)])
-def test_what_has_no_law_may_be_what_is_missing_where_something_is(gap, missing, of_fitted):
-    assert leaves(Score(gap, 1.0) if of_fitted else Score(1.0, gap)) is missing
 
 
 def test_faint_findings_along_x_may_be_a_contact_s_and_further_ones_what_the_first_leaves():
@@ -142,11 +139,6 @@ def test_a_part_is_half_of_what_contact_and_scatter_leave():
         left = Score(before, before)
         told = judge([finding("run_in")], ["run_in"], ladder, PHYSICS, None, left)
         assert told.verdict == verdict
-
-
-def test_what_has_no_name_is_unknown():
-    assert judged(["other.time"], 5.0, 1.0) == ("unknown", ())
-    assert judged(["run_in", "other.time"], 5.0, 1.0) == ("unknown", ())
 
 
 @dataclass
@@ -195,26 +187,26 @@ def climbed(**unknowns):
     return [each.name for each in Plain(Rows(gains, misfits), offered, ()).climb().findings]
 
 
-def test_the_first_finding_is_e3_times_as_probable_and_others_e6():
-    """Simulated runs are asked for the first, too."""
-    assert climbed(a=(2.9, 1.0)) == [] and climbed(a=(3.1, 1.0)) == ["a"]
-    assert climbed(a=(90.0, 1.0), b=(5.9, 1.0)) == ["a"]
-    assert climbed(a=(90.0, 1.0), b=(6.1, 1.0)) == ["a", "b"]
-
-
-def test_a_second_finding_takes_a_part_that_counts():
-    """Misfits add up as squares."""
-    assert climbed(a=(90.0, 1.0), b=(50.0, 0.115)) == ["a"]
-    assert climbed(a=(90.0, 1.0), b=(50.0, 0.126)) == ["a", "b"]
-
-
-def test_where_nuisances_take_all_misfit_a_second_finding_is_told_by_evidence():
-    assert climbed(a=(90.0, 0.0), b=(12.1, 0.0)) == ["a", "b"]
-    assert climbed(a=(90.0, 0.0), b=(11.9, 0.0)) == ["a"]
-
-
-def test_more_than_three_findings_are_no_explanation():
-    assert climbed(**{name: (90.0 - at, 1.0) for at, name in enumerate("abcd")}) == ["a", "b", "c"]
+@pytest.mark.parametrize(
+    ("unknowns", "found"),
+    [
+        # the first is e^3 times as probable, as simulated runs are asked for it too; others e^6
+        ({"a": (2.9, 1.0)}, ""),
+        ({"a": (3.1, 1.0)}, "a"),
+        ({"a": (90.0, 1.0), "b": (5.9, 1.0)}, "a"),
+        ({"a": (90.0, 1.0), "b": (6.1, 1.0)}, "ab"),
+        # a second one takes a part that counts; misfits add up as squares
+        ({"a": (90.0, 1.0), "b": (50.0, 0.115)}, "a"),
+        ({"a": (90.0, 1.0), "b": (50.0, 0.126)}, "ab"),
+        # where nuisances take all misfit it is told by evidence
+        ({"a": (90.0, 0.0), "b": (12.1, 0.0)}, "ab"),
+        ({"a": (90.0, 0.0), "b": (11.9, 0.0)}, "a"),
+        # more than three are no explanation
+        ({name: (90.0 - at, 1.0) for at, name in enumerate("abcd")}, "abc"),
+    ],
+)
+def test_what_rows_ask_for(unknowns, found):
+    assert climbed(**unknowns) == list(found)
 
 
 GAPS = st.floats(0.9, 10.0)
@@ -237,20 +229,11 @@ def test_parts_of_an_answer_cannot_contradict(names, gaps, share, gains, others)
     verdict = judge(findings, names, ladder, PHYSICS)
     parts = [part(each) for each in findings]
     answer = SimpleNamespace(
-        verdict=verdict.verdict,
-        effects=verdict.effects,
-        classes=verdict.classes,
-        ladder=ladder,
-        share=share,
-        exponents=(),
-        doubts=(),
+        **vars(verdict), ladder=ladder, share=share, exponents=(), doubts=(),
         extended=SimpleNamespace(values={}),
-    )
+    )  # fmt: skip
     headline = sentence_of(answer, parts)
-    before, after = (
-        one.gap.fit if one.gap.held_out is None else one.gap.held_out
-        for one in (ladder[0], ladder[-1])
-    )
+    before, after = (judged_gap(one.gap) for one in (ladder[0], ladder[-1]))
     assert verdict.verdict in VERDICTS
     assert bool(verdict.effects) == (verdict.verdict in ("named", "class", "partial"))
     assert set(verdict.effects) <= PHYSICS
@@ -294,20 +277,14 @@ def test_what_moves_the_block_across_has_a_name_and_no_curve():
     """It has numbers, and no rows along x."""
     across = Finding("turning_surface", (), 50.0, numbers={"curvature": (0.1, 0.01)})
     key = "turning_surface.curvature"
-    part = Part(across, None, (), (Number(key, 0.1, None, -20.0, 20.0),), {})
+    part = Part(across, numbers=(Number(key, 0.1, None, -20.0, 20.0),))
     fitted = SimpleNamespace(values={key: 0.995}, sd={key: 0.00638}, at_bound={})
     gap = SimpleNamespace(
-        campaign=SimpleNamespace(catalogue=CATALOGUE),
-        verdict="named",
-        effects=("turning_surface",),
-        exponents=(),
-        classes=(),
-        doubts=(),
-        extended=fitted,
-    )
-    assert sentence_of(gap, [part]).endswith(
-        "turning_surface, curvature = 0.995 1/m (0.985 to 1.005)."
-    )
+        campaign=SimpleNamespace(catalogue=CATALOGUE), verdict="named",
+        effects=("turning_surface",), exponents=(), classes=(), doubts=(), extended=fitted,
+    )  # fmt: skip
+    said = "turning_surface, curvature = 0.995 1/m (0.985 to 1.005)."
+    assert sentence_of(gap, [part]).endswith(said)
     assert law_of(None, None, part) is None and list(exponents_of(part)) == []
 
 
@@ -331,3 +308,27 @@ def test_data_in_doubt_are_said_to_be_the_reason():
 def test_coarse_steps_are_named_where_nothing_else_is_unknown(verdict, effects, told):
     answer = with_steps(Verdict(verdict, effects, ()), "steps")
     assert (answer.verdict, answer.effects) == told
+
+
+# --- laws of the catalogue beside the curves that the runs have drawn ---
+
+
+def test_a_law_and_what_the_curve_has_beside_it():
+    """Ageing is drawn from the shortest hold on: by then mu_s has grown already."""
+    at = np.log([0.2, 0.4, 0.8, 1.6, 3.2])
+    grown = 0.08 * np.log10(1.0 + np.exp(at) / 0.01) / 0.25
+    curve = FreeCurve(at, grown - grown[0], 1e-6 * np.eye(at.size))
+    scales = Scales(0.05, 1.0, 1.0, 20.0, 50.0, 0.02, 0.9, 9.0)
+    campaign = SimpleNamespace(catalogue=SimpleNamespace(effects=[EFFECT]))
+    best = laws_of(EFFECT.id, curve, Context(campaign, scales, {"mu_s": 0.25}))[0]
+    assert best.candidate.form == "logarithmic"
+    assert best.values["static_strengthening.rate"] == pytest.approx(0.08, rel=1e-3)
+    assert best.level == pytest.approx(-grown[0], rel=1e-3)
+
+
+def test_a_fit_sets_out_from_what_the_rows_have_beside_the_laws(monkeypatch):
+    known = {"friction.mu_s": 0.4, "friction.mu_k": 0.2}
+    monkeypatch.setattr(models, "started_from", lambda campaign, rows: dict(known))
+    aged = Part(Finding(EFFECT.id, (), 30.0), None, (), (), {}, shifts={"friction.mu_s": -0.1})
+    assert Models(None, None, {}, [aged], 1)._by_rows(None) == {**known, "friction.mu_s": 0.4 - 0.1}
+    assert Models(None, None, {}, [], 1)._by_rows(None) == known

@@ -9,7 +9,7 @@ import pytest
 
 from cosim.gap.quantities import digits
 from cosim.gap.show import files
-from cosim.gap.show.text import closing_lines, rates_lines, what_is_left
+from cosim.gap.show.text import closing_lines, what_is_left
 from cosim.gap.show.tracks import worst
 
 JARGON = ("offset.", "rung 0", "nan", "None", "{")
@@ -60,14 +60,6 @@ def test_a_held_out_gap_above_noise_is_said(gap):
     last = replace(gap.ladder[-1], gap=replace(gap.after, held_out=1.3))
     left = what_is_left(replace(gap, ladder=(gap.ladder[0], last)))
     assert left == "What is left in the held-out runs is more than the tracker's noise explains."
-
-
-def test_what_runs_would_mislead_to(gap):
-    rates = replace(gap.rates, table={"structural_damping": {"velocity_weakening": 3, "none": 47}})
-    assert rates_lines(replace(gap, rates=rates)) == [
-        "If it were structural_damping, these runs would say velocity_weakening 3 times in 50."
-    ]
-    assert rates_lines(replace(gap, rates=None)) == []
 
 
 def test_closing_lines(gap):

@@ -9,7 +9,7 @@ from gap_campaigns import RIG, motion, noisy, write_campaign
 from cosim.gap.data import read_campaign
 from cosim.gap.find import find_gap
 from cosim.gap.naming import Naming
-from cosim.gap.show.corrected import write_corrected
+from cosim.gap.show.files import write_corrected
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.camera_faults import (
     COURSES,

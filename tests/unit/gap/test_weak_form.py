@@ -1,6 +1,8 @@
 """Rows of the equation of motion: exact integrals, unit noise, evidence, and what they ask for."""
 
+import json
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -54,30 +56,30 @@ def written(folder, parts=None, more=None, duration=10.0, held_out=(), seed=0, *
     runs = []
     for number, (mass, speed) in enumerate(RUNS):
         part = 1.0 if parts is None else parts[number]
-        friction = {name: part * mu for name, mu in FRICTION.items()}
-        run = moved(speed, mass, duration, tuple(friction.items()), repr(blocks), blocks=blocks)
+        run = moved(speed, mass, duration, part, json.dumps(blocks))
         columns = {"t": run.time, "x": noisy(run["x"], 100 * seed + number)}
         table = {"surface_speed": speed, "mass": mass, "hold_out": number in held_out}
         runs.append(table | {"columns": columns} | ({} if more is None else more[number]))
     return read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
 
 
-class _Motions(dict):
-    """Motions are computed once."""
-
-    def __call__(self, speed, mass, duration, friction, key, blocks):
-        name = (speed, mass, duration, friction, key)
-        if name not in self:
-            self[name] = motion(speed, mass, duration=duration, **dict(friction), **blocks)
-        return self[name]
-
-
-moved = _Motions()
+@cache
+def moved(speed, mass, duration, part, blocks):
+    """Motions are computed once. part : of friction; blocks : JSON"""
+    friction = {name: part * mu for name, mu in FRICTION.items()}
+    return motion(speed, mass, duration=duration, **friction, **json.loads(blocks))
 
 
 def system_of(campaign, every=True):
     rows = [rows_of(track, campaign.rig) for track in tracks_of(campaign, list(campaign.runs))]
     return System(campaign, rows, every=every)
+
+
+def rows_alone(folder, columns, speed, noise):
+    """Of a campaign of one run."""
+    runs = [{"surface_speed": speed, "columns": columns}]
+    campaign = read_campaign(write_campaign(folder, runs, noise={"x": noise}))
+    return rows_of(smooth(campaign.runs[0]), campaign.rig)
 
 
 def found_in(campaign):
@@ -112,10 +114,8 @@ def swinging(tmp_path_factory):
     """Rows of a block that swings, slower than the surface; amplitude and angular frequency."""
     time, (amplitude, omega) = np.arange(400) * 0.01, (0.02, 11.0)
     columns = {"t": time, "x": amplitude * np.cos(omega * time)}
-    folder = tmp_path_factory.mktemp("swinging")
-    path = write_campaign(folder, [{"surface_speed": 1.0, "columns": columns}], noise={"x": NOISE})
-    campaign = read_campaign(path)
-    return rows_of(smooth(campaign.runs[0]), campaign.rig), amplitude, omega
+    rows = rows_alone(tmp_path_factory.mktemp("swinging"), columns, 1.0, NOISE)
+    return rows, amplitude, omega
 
 
 def test_integrals_of_a_swing_are_exact(swinging):
@@ -149,14 +149,9 @@ def test_holes_leave_rows_at_noise_where_every_sample_has_a_row(tmp_path, apart)
     """What a cubic puts into a hole is no sample more, and is off by its remainder."""
     omega, noise = np.sqrt(STIFFNESS / MASS), 2e-5
     time = np.arange(400) * apart / omega
-    x = 0.02 * np.cos(omega * time) + noise * np.random.default_rng(0).standard_normal(time.size)
+    x = noisy(0.02 * np.cos(omega * time), 0, noise)
     kept = ~np.isin(np.arange(400), [50, 120, 200, 300])
-    columns = {"t": time[kept], "x": x[kept]}
-    path = write_campaign(
-        tmp_path, [{"surface_speed": 1.0, "columns": columns}], noise={"x": noise}
-    )
-    campaign = read_campaign(path)
-    rows = rows_of(smooth(campaign.runs[0]), campaign.rig)
+    rows = rows_alone(tmp_path, {"t": time[kept], "x": x[kept]}, 1.0, noise)
     assert rows.track.errors is not None and len(rows) > 390
     assert abs(np.sqrt(np.mean(rows.values**2)) - 1.0) < 3.0 / np.sqrt(2 * len(rows))
 
@@ -165,13 +160,8 @@ def test_holes_leave_rows_at_noise_where_every_sample_has_a_row(tmp_path, apart)
 def test_what_noise_hides_of_a_slip_is_no_stick(tmp_path, noise, sticks):
     """Slips of 2.5 mm at most: with noise of 0.4 mm most of their speeds are below what is seen."""
     moved = motion(0.02, MASS, duration=20.0, mu_s=0.08, mu_k=0.05)
-    x = moved["x"] + noise * np.random.default_rng(1).standard_normal(moved["x"].size)
-    columns = {"t": moved.time, "x": x}
-    path = write_campaign(
-        tmp_path, [{"surface_speed": 0.02, "columns": columns}], noise={"x": noise}
-    )
-    campaign = read_campaign(path)
-    rows = rows_of(smooth(campaign.runs[0]), campaign.rig)
+    columns = {"t": moved.time, "x": noisy(moved["x"], 1, noise)}
+    rows = rows_alone(tmp_path, columns, 0.02, noise)
     left = rows.values[rows.kinds == STICK]
     assert len(rows.track.sticks) <= sticks
     assert np.sqrt(np.mean(left**2)) < 1.0 + 3.0 / np.sqrt(2 * left.size)

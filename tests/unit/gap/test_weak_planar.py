@@ -70,6 +70,12 @@ def tracks_and_rows(campaign):
     return tracks, [rows_of(track, campaign.rig) for track in tracks]
 
 
+def planar_of(folder, **given):
+    """What moves the block across in a campaign of these."""
+    campaign = measured(folder, **given)
+    return planar_effects(campaign, tracks_and_rows(campaign)[1])
+
+
 def most_spurious(campaign, rows):
     """ln evidence that the best of all arguments adds to rows along x."""
     rung = System(campaign, rows).rung()
@@ -93,8 +99,7 @@ def test_an_effect_is_named_and_its_size_recovered(effect, tmp_path):
 def test_springs_turned_by_far_are_found_where_nothing_holds_the_block(tmp_path):
     """From springs along x the courses of a block that swings freely do not lead there."""
     blocks = {"spring_misalignment": {"angle_deg": -10.0}, "initial": {"phi": 0.1}}
-    campaign = measured(tmp_path, turn_noise=5e-4, **blocks)
-    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    planar = planar_of(tmp_path, turn_noise=5e-4, **blocks)
     assert planar.answer == "spring_misalignment" and planar.fits[planar.answer].gap < 1.3
     assert planar.numbers["turn"][0] == pytest.approx(np.deg2rad(-10.0), rel=0.05)
 
@@ -110,8 +115,8 @@ PLACED = {
 @pytest.mark.parametrize("placed", PLACED)
 def test_a_turned_frame_and_a_diagonal_that_is_off_are_told_from_turned_springs(placed, tmp_path):
     blocks, numbers = PLACED[placed]
-    campaign = measured(tmp_path, turn_noise=5e-4, spring_misalignment=blocks, initial={"phi": 0.1})
-    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    initial = {"phi": 0.1}
+    planar = planar_of(tmp_path, turn_noise=5e-4, spring_misalignment=blocks, initial=initial)
     assert planar.answer == "spring_misalignment" and planar.fits[planar.answer].gap < 1.3
     found = {name: value for name, (value, _) in planar.numbers.items()}
     assert found == pytest.approx(numbers, rel=0.05)  # springs are off by some percent
@@ -119,32 +124,27 @@ def test_a_turned_frame_and_a_diagonal_that_is_off_are_told_from_turned_springs(
 
 @pytest.mark.parametrize("turned", [(1, 1, 1), (0, 1, 0), (1, 0, 1)])
 def test_a_turned_camera_is_named_and_the_runs_in_which_it_is(turned, tmp_path):
-    campaign = measured(tmp_path, rotation=[0.03 * each for each in turned])
-    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    planar = planar_of(tmp_path, rotation=[0.03 * each for each in turned])
     assert planar.answer == "measurement.rotation"
     value, deviation = planar.numbers["measurement.rotation"]
     assert value == pytest.approx(0.03, abs=4.0 * deviation + 3e-4)
-    names = [f"in@{run.name}" for run in campaign.runs]
-    told = dict(zip(names, map(float, turned), strict=True))
+    told = {f"in@run{number:02d}": float(each) for number, each in enumerate(turned, 1)}
     assert planar.settings == ({} if all(turned) else told)
 
 
 def test_a_block_that_stays_on_the_axis_shows_nothing(tmp_path):
-    campaign = measured(tmp_path, **ISOTROPIC)
-    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    planar = planar_of(tmp_path, **ISOTROPIC)
     assert planar.answer == "" and not planar.evidence
 
 
 @pytest.mark.parametrize("creep", [0.0, 8e-3])
 def test_a_block_that_swings_freely_shows_no_effect(creep, tmp_path):
-    campaign = measured(tmp_path, creep=creep, initial={"y": 5e-3})
-    assert planar_effects(campaign, tracks_and_rows(campaign)[1]).answer == ""
+    assert planar_of(tmp_path, creep=creep, initial={"y": 5e-3}).answer == ""
 
 
 @pytest.mark.parametrize("deviations, answer", [(3.5, ""), (4.5, "spring_misalignment")])
 def test_a_form_whose_numbers_may_be_zero_is_a_swing(deviations, answer, tmp_path, monkeypatch):
     """Of a turn that is not measured the rounds of one form find more than those of another."""
-    campaign = measured(tmp_path, initial={"y": 5e-3})
 
     def fitted(campaign, runs, level, form, turned):
         shifted = form == ("shift",)
@@ -152,21 +152,20 @@ def test_a_form_whose_numbers_may_be_zero_is_a_swing(deviations, answer, tmp_pat
         return in_plane.Fitted(form, 100.0 * shifted, number, {}, 1.0 if shifted else 2.0, turned)
 
     monkeypatch.setattr(in_plane, "_best_fit", fitted)
-    assert planar_effects(campaign, tracks_and_rows(campaign)[1]).answer == answer
+    assert planar_of(tmp_path, initial={"y": 5e-3}).answer == answer
 
 
 def test_zeros_far_beyond_their_stated_error_explain_no_place_beside_the_axis(tmp_path):
     """Not even beside anchors that turn the block, too, which no tracker has seen."""
     anchors = {"lateral_offset": 9e-3, "diagonal_offset": 9e-3}
-    campaign = measured(tmp_path, spring_misalignment=anchors, initial={"y": 9e-3, "phi": 0.3})
-    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    initial = {"y": 9e-3, "phi": 0.3}
+    planar = planar_of(tmp_path, spring_misalignment=anchors, initial=initial)
     assert planar.answer == "spring_misalignment"
     assert planar.numbers["shift"][0] == pytest.approx(9e-3, rel=0.05)
 
 
 def test_a_camera_that_creeps_moves_no_block(tmp_path):
-    campaign = measured(tmp_path, creep=8e-3, **ISOTROPIC)
-    planar = planar_effects(campaign, tracks_and_rows(campaign)[1])
+    planar = planar_of(tmp_path, creep=8e-3, **ISOTROPIC)
     assert planar.answer == "" and planar.fits[""].form == ("measurement.drift, root",)
 
 

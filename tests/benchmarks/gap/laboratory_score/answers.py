@@ -91,15 +91,8 @@ class Row:
 
 def row_of(line: Mapping[str, Any]) -> Row:
     """A line of a benchmark's file as a row."""
-    return Row(
-        line["suite"],
-        line["name"],
-        truth_of(line["answer"]),
-        line["found"],
-        float(line.get("seconds", 0.0)),
-        float(line.get("cpu", 0.0)),
-        line.get("error", ""),
-    )
+    told = {key: line[key] for key in ("suite", "name", "found", "seconds", "cpu", "error")}
+    return Row(truth=truth_of(line["answer"]), **told)
 
 
 def read_lines(file: Path) -> Iterator[dict[str, Any]]:

@@ -83,9 +83,3 @@ def probability(row: Row) -> float | None:
     return next(
         (float(each["probability"]) for each in ranked if each["effect"] in given(row)), None
     )
-
-
-def gap(row: Row, when: str, part: str = "held_out") -> float | None:
-    """Gap `before` or `after`, of the runs fitted (`fit`) or held out; noise units."""
-    value = (((row.found or {}).get("gap") or {}).get(when) or {}).get(part)
-    return None if value is None else float(value)

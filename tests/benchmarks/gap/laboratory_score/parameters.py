@@ -21,14 +21,8 @@ from .outcome import is_right
 WANTED = 0.9  # level of an interval at which coverage is counted
 
 # Hidden things that leave mu_k and mu_s numbers of the contact.
-STEADY = {
-    "lateral_friction",
-    "turning_surface",
-    "spring_hardening",
-    "spring_misalignment",
-    "structural_damping",
-    "speed_ripple",
-}
+STEADY = {"lateral_friction", "turning_surface", "spring_hardening", "spring_misalignment",
+          "structural_damping", "speed_ripple"}  # fmt: skip
 # Contacts whose static friction is a number of their own, and not the peak of a curve.
 WITH_STATIC = {"jump", "lugre", "elasto_plastic", "iwan"}
 # Shape of a fault -> the parameter that is its amount, in the same unit.

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
-from itertools import pairwise
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -13,7 +12,7 @@ from .outcome import Outcome, is_right, outcome
 from .parameters import WANTED, Compared, compared
 from .shares import share
 
-SIZES = (0.0, 2.0, 5.0, 10.0, 20.0, 1e9)  # edges of the size classes, noise units
+SIZES = (0.0, 2.0, 5.0, 10.0, 20.0)  # where the size classes begin, noise units
 
 
 def table(head: Sequence[str], lines: Iterable[Sequence[object]]) -> str:
@@ -28,14 +27,17 @@ def by_suite(rows: Sequence[Row]) -> Iterator[tuple[str, list[Row]]]:
         yield suite, [row for row in rows if row.suite == suite]
 
 
-def kinds_table(rows: Sequence[Row]) -> str:
-    """How many answers of each kind, and how many right ones."""
+def by(head: str, key: Callable[[Row], str | None], rows: Sequence[Row]) -> str:
+    """Right answers, and how many of each kind, of all rows that are alike; None: not counted."""
+    groups: dict[str, list[Row]] = {}
+    for row in rows:
+        if (name := key(row)) is not None:
+            groups.setdefault(name, []).append(row)
     lines = []
-    for suite, of_suite in by_suite(rows):
-        counts = Counter(outcome(row) for row in of_suite)
-        right = sum(map(is_right, of_suite))
-        lines.append((suite, len(of_suite), right, *(counts[kind] or "" for kind in Outcome)))
-    return table(("suite", "campaigns", "right", *Outcome), lines)
+    for name, some in groups.items():
+        counts = Counter(map(outcome, some))
+        lines.append((name, share(some, is_right), *(counts[kind] or "" for kind in Outcome)))
+    return table((head, "right", *Outcome), lines)
 
 
 def what_is_hidden(row: Row) -> str:
@@ -44,37 +46,10 @@ def what_is_hidden(row: Row) -> str:
     return " + ".join(names)
 
 
-def hidden_table(rows: Sequence[Row]) -> str:
-    """Right answers by what is hidden."""
-    lines = []
-    for name in sorted({what_is_hidden(row) for row in rows}):
-        of_name = [row for row in rows if what_is_hidden(row) == name]
-        counts = Counter(outcome(row) for row in of_name)
-        lines.append((name, share(of_name, is_right), *(counts[kind] or "" for kind in Outcome)))
-    return table(("hidden", "right", *Outcome), lines)
-
-
-def size_table(rows: Sequence[Row]) -> str:
-    """Right answers by the size of the smallest hidden thing."""
-    sized = [(row.truth.size, row) for row in rows if row.truth.size is not None]
-    lines = []
-    for low, high in pairwise(SIZES):
-        some = [row for size, row in sized if low <= size < high]
-        if some:
-            counts = Counter(outcome(row) for row in some)
-            name = f"{low:g} to {high:g}" if high < SIZES[-1] else f"from {low:g}"
-            lines.append((name, share(some, is_right), *(counts[kind] or "" for kind in Outcome)))
-    return table(("size / noise", "right", *Outcome), lines)
-
-
-def contact_table(rows: Sequence[Row]) -> str:
-    """Right answers by the form of the contact, where it is told."""
-    forms = sorted({str(row.truth.contact["form"]) for row in rows if row.truth.contact})
-    lines = [
-        (form, share([r for r in rows if r.truth.contact.get("form") == form], is_right))
-        for form in forms
-    ]
-    return table(("contact", "right"), lines)
+def size_class(row: Row) -> str | None:
+    """Of the smallest hidden thing, in units of the noise."""
+    size = row.truth.size
+    return None if size is None else f"from {max(edge for edge in SIZES if edge <= size):g}"
 
 
 def parameter_table(found: Sequence[Compared]) -> str:
@@ -106,10 +81,10 @@ def markdown(rows: Sequence[Row], title: str) -> str:
     """All tables on a page."""
     found = [each for row in rows for each in compared(row)]
     parts = {
-        "Kinds of answers": kinds_table(rows),
-        "By what is hidden": hidden_table(rows),
-        "By size": size_table(rows),
-        "By contact": contact_table(rows),
+        "Kinds of answers": by("suite", lambda row: row.suite, rows),
+        "By what is hidden": by("hidden", what_is_hidden, sorted(rows, key=what_is_hidden)),
+        "By size": by("size / noise", size_class, sorted(rows, key=lambda r: r.truth.size or 0.0)),
+        "By contact": by("contact", lambda row: row.truth.contact.get("form"), rows),
         "Parameters of right answers": parameter_table(found),
         "Time of an answer, each on one core": times(rows),
     }

@@ -4,78 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import asdict
 
 from .answers import Row
-from .exponents import exponents_are_near, exponents_stated
-from .outcome import gap, is_right, outcome, verdict
+from .exponents import exponents_are_near
+from .outcome import is_right, outcome
 
 FIRST = 3  # of the ranking
-
-
-def number(value: float | None) -> str:
-    """Three digits, or a dash."""
-    return "–" if value is None else f"{value:.3g}"
-
-
-def truth_lines(row: Row) -> list[str]:
-    """What is true, with its text and its size."""
-    truth = row.truth
-    lines = []
-    for each in truth.hidden:
-        lines.append(
-            f"- hidden: **{each['name']}**, {each['shape']}; size {each['size']['size']:.1f} noise "
-            f"units, strength {each['strength']:.3g}; {each['law']}"
-        )
-    if not truth.hidden:
-        names = ", ".join(sorted(truth.effects or truth.members)) or truth.kind or "nothing"
-        lines.append(f"- hidden: **{names}**")
-    if truth.exponents:
-        lines.append(f"- exponents: {dict(truth.exponents)}")
-    if truth.contact:
-        numbers = ", ".join(
-            f"{key} {value:.3g}" for key, value in truth.contact.items() if key != "form"
-        )
-        lines.append(f"- contact {truth.contact['form']}: {numbers}; scatter {truth.scatter}")
-    return lines
-
-
-def answer_lines(row: Row) -> list[str]:
-    """What was said of it."""
-    if row.found is None:
-        return [f"- no answer: {row.error}"]
-    said = f"- said: **{verdict(row)}** {', '.join(row.found['effects'])}"
-    gaps = ", ".join(
-        f"{part} {number(gap(row, 'before', part))} → {number(gap(row, 'after', part))}"
-        for part in ("fit", "held_out")
-    )
-    lines = [said, f"- gap {gaps.replace('held_out', 'held out')}; {row.seconds:.0f} s"]
-    for place, each in enumerate(row.found.get("ranking", [])[:FIRST], 1):
-        numbers = ", ".join(f"{key} {number(v)}" for key, v in each["parameters"].items())
-        lines.append(
-            f"- {place}. {each['effect']} ({each['form']}): held out "
-            f"{number(each['held_out_gap'])}, fit {number(each['fit_gap'])}, "
-            f"dBIC {number(each['delta_bic'])}; {numbers}"
-        )
-    for name, at in places(row).items():
-        if at is None or at > FIRST:
-            lines.append(f"- {name}: {'not in the ranking' if at is None else f'place {at}'}")
-    if row.found.get("share") is not None:
-        lines.append(f"- share of the misfit that is taken: {number(row.found['share'])}")
-    lines += [f"- ladder: {json.dumps(step)}" for step in row.found.get("ladder") or ()]
-    if exponents_stated(row):
-        lines.append(f"- exponents stated: {exponents_stated(row)}")
-    if row.found.get("remarks"):
-        lines.append("- remarks: " + "; ".join(row.found["remarks"]))
-    return lines
-
-
-def places(row: Row) -> dict[str, int | None]:
-    """Where each hidden effect stands in the ranking, from 1."""
-    ranked = [each["effect"] for each in (row.found or {}).get("ranking", [])]
-    return {
-        name: ranked.index(name) + 1 if name in ranked else None
-        for name in sorted(row.truth.effects)
-    }
+SAID = ("verdict", "effects", "classes", "gap", "share", "exponents", "ladder", "remarks")
 
 
 def is_listed(row: Row) -> bool:
@@ -84,10 +20,15 @@ def is_listed(row: Row) -> bool:
 
 
 def listing(rows: Sequence[Row]) -> str:
-    """A chapter for every one of them."""
+    """A chapter for every one of them: what is true, and what was said."""
     listed = [row for row in rows if is_listed(row)]
     parts = [f"# {len(listed)} of {len(rows)} campaigns not answered right\n"]
     for row in listed:
-        lines = [*truth_lines(row), *answer_lines(row)]
-        parts.append(f"## {row.suite} {row.name}: {outcome(row)}\n" + "\n".join(lines) + "\n")
+        said = {key: row.found.get(key) for key in SAID} if row.found else {"error": row.error}
+        ranking = (row.found or {}).get("ranking", [])
+        said |= {"first": ranking[:FIRST], "places": [each["effect"] for each in ranking]}
+        both = {"true": asdict(row.truth), "said": said}
+        text = json.dumps(both, indent=1, ensure_ascii=False, default=sorted)
+        head = f"{row.suite} {row.name}: {outcome(row)}, {row.seconds:.0f} s"
+        parts.append(f"## {head}\n```json\n{text}\n```\n")
     return "\n".join(parts)
