@@ -187,7 +187,7 @@ def lattice(values: np.ndarray) -> tuple[float, float]:
     values = values[np.isfinite(values)]
     levels, counts = np.unique(values, return_counts=True)
     levels = levels[counts > 1]  # outliers do not come back
-    if levels.size <= 3:
+    if levels.size < 3:
         return 0.0, 0.0
     origin = levels[np.argmin(np.abs(levels - np.median(values)))]
     gaps = np.unique(np.diff(levels))
@@ -198,7 +198,8 @@ def lattice(values: np.ndarray) -> tuple[float, float]:
             step = float(numbers[near] @ (levels - origin)[near] / (numbers[near] @ numbers[near]))
         off = (values - origin) / step
         share = float(np.mean(np.abs(off - np.rint(off)) < NEAR))
-        if share > ON_LATTICE and np.ptp(levels) > 3.0 * step:
+        of_steps = np.ptp(levels) / step  # few, and more levels: clusters of finer ones
+        if share > ON_LATTICE and (of_steps > 3.0 or levels.size < of_steps + 1.5):
             return float(step), share
     return 0.0, 0.0
 

@@ -20,6 +20,8 @@ from cosim.gap.checks.level import far
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.data.units import COARSEST, MOST_FRICTION, check_units, cycle_of, friction_of, swing
 from cosim.gap.naming import Naming
+from cosim.gap.windows import user_model
+from cosim.gap.windows.user_model import breaks_away
 
 SPEEDS = (0.03, 0.06, 0.3)
 #: Stated errors of the speed, beside what a sheared contact makes; of springs, beside friction.
@@ -231,7 +233,7 @@ def test_slips_want_samples(step, sound):
 def test_runs_of_few_samples_are_simulated_and_others_asked(coarse, severe, sound):
     """Of one run alone nothing can be named."""
     doubted = changed(sound, lambda run: thinned(run, 15.0), *coarse)
-    (doubt,) = doubts_of_sampling(doubted, doubted.runs)
+    (doubt,) = tracker.doubts_of_sampling(doubted, doubted.runs)
     assert doubt.severe == severe
     assert ("effects are looked for in the other runs" in doubt.text) != severe
     names = [rows.track.run.name for rows in Naming.of(doubted).rows]
@@ -331,16 +333,27 @@ def test_steps_that_would_look_like_something_missing_are_coarse(noise, estimate
 
 
 def test_runs_of_few_levels_have_the_step_of_the_others():
-    """Of 4 mm, in a swing of 10 mm: three levels alone are no lattice."""
+    """Of 4 mm, in a swing of 4 mm: two levels alone are no lattice."""
     coarse = 4e-3
     runs = [run_of(0.2, filtered=lambda x: coarse * np.round(x / coarse)),
-            run_of(0.2, 1, filtered=lambda x: coarse * np.round(0.15 * x / coarse)),
+            run_of(0.2, 1, filtered=lambda x: coarse * np.round(0.1 * x / coarse)),
             run_of(0.2, 2)]  # fmt: skip
-    assert lattice(runs[1].track.x) == (0.0, 0.0)
-    made = with_rounding(campaign_of(runs)).runs
+    assert tracker.lattice(runs[1].track.x) == (0.0, 0.0)
+    made = tracker.with_rounding(campaign_of(runs)).runs
     assert [run.rounding["x"][0] if run.rounding else 0.0 for run in made] == pytest.approx(
         [coarse, coarse, 0.0]
     )
+
+
+@pytest.mark.parametrize("coarse", [4e-3, 5e-3, 6e-3])
+def test_where_coarse_steps_hide_every_stick_static_friction_is_fitted(coarse):
+    """Two to four steps in a swing: no stick is seen, and mu_s is about where it turns."""
+    run = run_of(0.03, filtered=lambda x: coarse * np.round(x / coarse))
+    assert not breaks_away(run)
+    (made,) = tracker.with_rounding(campaign_of([run])).runs
+    numbers = {each.key: each.start for each in user_model(campaign_of([made]))[0]}
+    assert numbers["friction.mu_s"] == pytest.approx(0.3, rel=0.25)
+    assert "friction.mu_s" not in {each.key for each in user_model(campaign_of([run]))[0]}
 
 
 def test_a_step_is_felt_at_the_stated_level():
