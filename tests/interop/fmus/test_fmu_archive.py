@@ -14,7 +14,6 @@ from c_units import made
 from stickslip import scratch
 from stickslip.scratch import scratch_folder
 
-from cosim.cli import main
 from cosim.coupling import CoupledSystem, FmuError, FmuParticipant, GaussSeidel, run
 from cosim.coupling.fmu import archive
 
@@ -132,15 +131,6 @@ def test_a_library_without_the_functions_of_the_standard_is_refused(unit, tmp_pa
 
     path = with_library(unit, tmp_path / "other.fmu", Path(_ctypes.__file__).read_bytes())
     refused(path, r"cannot be loaded: undefined symbol: fmi2\w+; allowed is a shared library")
-
-
-def test_couple_refuses_a_library_that_is_none(unit, tmp_path, capsys):
-    path = with_library(unit, tmp_path / "junk.fmu", b"text")
-    system = tmp_path / "system.toml"
-    system.write_text('[units.one]\nfile = "junk.fmu"\n[run]\nstop = 0.1\n')
-    assert main(["couple", str(system), "-o", str(tmp_path / "out")]) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1 and said.startswith(f"error: {path}: its library binaries/")
 
 
 def test_a_unit_for_other_machines_says_for_which(unit, tmp_path):

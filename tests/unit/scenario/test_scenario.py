@@ -117,6 +117,23 @@ def test_a_byte_order_mark_is_no_fault(tmp_path):
     assert read_scenario(written(tmp_path, b"\xef\xbb\xbf[rig]\nmass = 2")).rig.mass == 2.0
 
 
+LAYER = """
+[[belt.layers]]
+thickness = 3e-4
+density = 2600.0
+heat_capacity = 780.0
+conductivity = 2.0
+"""
+
+
+@pytest.mark.parametrize("rig", ["", '[rig]\nsurface = "slab"\nslab_radius = 0.5\n'])
+def test_layers_reach_the_thermal_model_and_come_back(tmp_path, rig):
+    case = read_scenario(written(tmp_path, rig + LAYER + LAYER.replace("2.0", "0.12")))
+    assert [layer.conductivity for layer in case.thermal.belt.stack] == [2.0, 0.12]
+    again = read_scenario(written(tmp_path, case.to_toml()))
+    assert again.thermal == case.thermal and again.to_toml() == case.to_toml()
+
+
 NUMBER = "allowed is a number greater than 0 kg"
 
 
@@ -148,6 +165,23 @@ NUMBER = "allowed is a number greater than 0 kg"
         ("[rig]\nspring_natural_length = 0.5", "rig.spring_natural_length: 0.5 m is more than"),
         ("[rig]\ncontact_radius = 0.6", "must exceed 2 rig.contact_radius = 1.2 m"),
         ("[friction]\nmu_s = -1\nmu_k = -1\n[x]", "(-1), allowed is a number at least 0 (and 2 mo"),
+        (
+            LAYER + LAYER.replace("conductivity", "conductivty"),
+            "belt.layers[2].conductivity: missing, needed is a number greater than 0",
+        ),
+        (
+            LAYER.replace("3e-4", "0.0"),
+            "belt.layers[1].thickness: out of range (0.0), allowed is a number greater than 0",
+        ),
+        (
+            "[belt]\nthickness = 2e-3\n" + LAYER,
+            "belt.thickness: 0.002 and belt.layers are both given",
+        ),
+        ("[ice]\nmesh = 3", "ice.mesh: not a text (3), allowed is a text"),
+        (
+            '[ice]\nmesh = "a.msh"\n[contact]\nlength = 0.05',
+            "contact.length: 0.05 m and ice.mesh are both given",
+        ),
         ("[run]\nduration = 1e300", "run.output_interval: 0.01 s cuts run.duration = 1e+300 s"),
         ("[coupling]\nmacro_step = 0", "coupling.macro_step: out of range (0), allowed is a num"),
         ("name = '../up'", 'name: not fit for the name of a folder ("../up"), allowed is'),

@@ -2,7 +2,7 @@
 
 import numpy as np
 from fmpy import simulate_fmu
-from stickslip import Parameters
+from plain_start import values
 
 SPEED = 0.15
 SLOW = {"surface": {"speed": 0.03}, "initial": {"vx": 0.03}}
@@ -38,12 +38,6 @@ EVENTS = 10  # that are compared
 # Of the steepest cases the events move more: bristles give way the faster the faster they slide,
 # and from mu_s a slip departs at a rate that grows from nothing.
 SENSITIVE = {"bristles": 100.0, "transition_speed": 10.0}
-
-
-def values(tables):
-    """Start values by the FMU's names."""
-    parameters = Parameters(**tables)
-    return {**parameters.flat(), "surface_speed": parameters.surface.speed}
 
 
 def exchanged(fmu, tables, tolerance, **more):
