@@ -238,10 +238,3 @@ def test_rows_of_a_coupled_run_fall_on_macro_steps():
             assert case.changed({"run.output_interval": interval}).record_every
     with pytest.raises(ScenarioError, match="coupling.macro_step: 1e-12 s cuts run.duration"):
         assert case.changed({"coupling.macro_step": 1e-12}).record_every
-
-
-def test_a_change_is_checked_like_a_file():
-    with pytest.raises(ScenarioError, match="rig.mas: no such key, nearest known: rig.mass"):
-        Scenario().changed({"rig.mas": 1.0})
-    with pytest.raises(ScenarioError, match="rig.mass: out of range"):
-        Scenario().changed({"rig.mass": -1.0})
