@@ -10,68 +10,45 @@ import subprocess
 import sys
 import tomllib
 from configparser import ConfigParser
-from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
-import test_readme
 from gap_campaigns import noisy, write_campaign
 from notebooks import PAGES, is_notebook, source
-from sessions import fences, typed
+from sessions import typed
+from test_readme import BLOCKS, SESSIONS, SHELL, SITE, TEXTS, toml_with
 
 from cosim import read_scenario
 from cosim.gap import read_campaign
 
-HERE = Path(__file__).resolve().parent
-SITE = HERE / "site"
-FILES = [test_readme.ROOT / "README.md", *sorted(SITE.rglob("*.md"))]
 #: Directives that print no code of their own.
 NO_CODE = ("{toctree}", "{include}", "{figure}", "{image}", "{note}", "{warning}")
-
-
-@cache
-def printed(file):
-    """Language and text of each block of a file."""
-    found = fences(file.read_text(encoding="utf-8"))
-    return [(fence.info.strip(), fence.content) for fence in found]
-
-
-def is_run(file, language, text):
-    """Whether some test runs, reads or types a block; tutorials are typed, and their cells run."""
-    if language.startswith(NO_CODE):
-        return True
-    if language == "{code-cell} python":
-        return is_notebook(file)
-    if language in ("", "text") and text.startswith("$ "):
-        known = {session.values[0] for session in test_readme.SESSIONS}
-        asked = {command.removeprefix("stickslip ") for command, _ in typed(text)}
-        return file.parent == PAGES or asked <= known
-    if language == "python":
-        return (named(file), text) in test_readme.blocks("python")
-    if language == "sh":
-        return text.strip() in test_readme.SHELL
-    return language == "toml" and sum(table in text for table in TABLES) == 1
-
-
 #: Tables of which a test here or in `test_readme.py` reads the one block that has them.
 TABLES = ("[springs]", "[[run]]", "friction_table", "[block]", "[units]", "[project.entry-points.")
 
 
-def named(file):
-    """As `test_readme` names a page."""
-    return str(file.relative_to(SITE)) if SITE in file.parents else file.name
+def is_run(page, language, text):
+    """Whether some test runs, reads or types a block; tutorials are typed, and their cells run."""
+    if language.startswith(NO_CODE):
+        return True
+    if language == "{code-cell} python":
+        return is_notebook(SITE / page)
+    if language in ("", "text") and text.startswith("$ "):
+        asked = {command.removeprefix("stickslip ") for command, _ in typed(text)}
+        return page.startswith("tutorials/") or asked <= SESSIONS.keys()
+    if language == "sh":
+        return text.strip() in SHELL
+    return language == "python" or sum(table in text for table in TABLES) == 1
 
 
-@pytest.mark.parametrize("file", FILES, ids=named)
-def test_every_block_is_run(file):
-    assert [block for block in printed(file) if not is_run(file, *block)] == []
+@pytest.mark.parametrize("page", TEXTS)
+def test_every_block_is_run(page):
+    assert [block for block in BLOCKS if block[0] == page and not is_run(*block)] == []
 
 
 def test_the_campaign_with_a_table_is_one(tmp_path):
     """As the lines that state a law over the speed stand in a campaign."""
-    page = SITE / "guide" / "gap.md"
-    (block,) = [text for _, text in printed(page) if "friction_table" in text]
+    block = toml_with("friction_table")
     (tmp_path / "mu_v.csv").write_text("v,mu\n0,0.22\n0.4,0.17\n", encoding="utf-8")
     time = np.arange(40) * 0.01
     runs = [
@@ -86,8 +63,7 @@ def test_the_campaign_with_a_table_is_one(tmp_path):
 
 
 def test_the_block_of_steel_is_one(tmp_path):
-    page = SITE / "guide" / "scenario.md"
-    (block,) = [text for _, text in printed(page) if "[block]" in text]
+    block = toml_with("[block]")
     (tmp_path / "steel.toml").write_text(block + "[run]\nduration = 0.5\n", encoding="utf-8")
     scenario = read_scenario(tmp_path / "steel.toml")
     assert (scenario.block.material, scenario.ambient.temperature_degC) == ("steel", 20.0)
@@ -104,8 +80,7 @@ print(scenario.catalogue.effects[-1].id, scenario.flash_heating.fall)
 def test_the_entry_point_is_one(tmp_path):
     """The page's law in a package that says what the page says of it, as pip would install it."""
     page = PAGES / "add_an_effect.md"
-    (block,) = [text for kind, text in printed(page) if kind == "toml"]
-    points = tomllib.loads(block)["project"]["entry-points"]
+    points = tomllib.loads(toml_with("[project.entry-points."))["project"]["entry-points"]
     ((name, value),) = points["stickslip.effects"].items()
     package, _, module = value.partition(":")[0].partition(".")
     (tmp_path / package).mkdir()
