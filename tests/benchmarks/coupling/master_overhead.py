@@ -2,8 +2,8 @@
 
     python tests/benchmarks master_overhead [--json FILE] [--steps 100000] [--cofmupy PYTHON]
 
-Two small native units, coupled both ways (`masters/oscillator.c`), 1e5 steps of 0.1 ms. What the
-master adds is measured against a loop written by hand of the very calls of fmpy that the scheme
+Two small native units, coupled both ways (`oscillator.c` of the helpers), 1e5 steps of 0.1 ms. What
+the master adds is measured against a loop written by hand of the very calls of fmpy that the scheme
 makes. All are seconds of the processor, which other work on the machine does not lengthen; median
 of several rounds in which all take turns. Beside it the largest error of x over 1 s in steps of
 10 ms, which the masters come to by their own schemes. `--cofmupy` names an interpreter that has
