@@ -1,14 +1,13 @@
 """The unit for FMI 3.0: the motion of the one for FMI 2.0, and what is FMI 3's alone."""
 
 import ctypes
-import zipfile
 from ctypes import byref, c_double, c_uint
 from xml.etree import ElementTree
 
 import fmpy
 import pytest
 from c_instance import ERROR, OK
-from c_library import compiled, compiler
+from c_library import compiled, compiler, unpacked
 from fmi3_unit import Unit
 from plain_start import values
 from stickslip import Parameters, simulate
@@ -70,9 +69,7 @@ def test_value_references_are_those_of_fmi_2(fmu, fmu3):
 
 @pytest.mark.skipif(not compiler(), reason="needs a C compiler")
 def test_the_named_sources_make_the_library(fmu3, tmp_path):
-    with zipfile.ZipFile(fmu3) as archive:
-        archive.extractall(tmp_path)
-    sources = tmp_path / "sources"
+    sources = unpacked(fmu3, tmp_path, "sources")
     assert not [*sources.glob("fmi2*")]
     described = ElementTree.parse(sources / "buildDescription.xml")
     named = [file.get("name") for file in described.iter("SourceFile")]

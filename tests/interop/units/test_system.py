@@ -16,10 +16,11 @@ import numpy as np
 import pytest
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd, read_ssv
+from foreign_tools import ecos_environment
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimObserver import CosimObserver
 from stickslip.generation.platforms import this_platform
-from test_other_hosts import ecos_environment, output  # noqa: F401  (the first is a fixture)
+from test_other_hosts import needs_ecospy, output
 
 from cosim import read_scenario, run_scenario
 from cosim.cli import main
@@ -217,7 +218,8 @@ def test_every_tool_hands_over_the_joules_that_the_block_has_made(system, step, 
     np.testing.assert_allclose(balance[1] + balance[2], balance[0], rtol=0, atol=1e-12 * ours[-1])
 
 
-def test_in_ecospy(system, expected, ecos_environment):  # noqa: F811
-    said = output([sys.executable, SCRIPT, system, STEP, COUNT], env=ecos_environment)
+def test_in_ecospy(system, expected):
+    needs_ecospy()
+    said = output([sys.executable, SCRIPT, system, STEP, COUNT], env=ecos_environment())
     rows = [line.split()[1:] for line in said.splitlines() if line.startswith("at ")]
     agree(*np.array(rows, dtype=float).T, expected)

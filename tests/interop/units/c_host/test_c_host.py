@@ -3,13 +3,12 @@
 import shutil
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
-from c_library import SANITIZERS, Host, compiled, compiler, host_in
+from c_library import SANITIZERS, Host, compiled, compiler, host_in, unpacked
 from native_unit import library_of, references
 from plain_start import PLAIN
 from stickslip import Parameters, simulate
@@ -29,12 +28,7 @@ pytestmark = [
 @pytest.fixture(scope="module")
 def sources(fmu, tmp_path_factory):
     """Folder of the sources that the unit brings along."""
-    folder = tmp_path_factory.mktemp("unit")
-    with zipfile.ZipFile(fmu) as archive:
-        archive.extractall(
-            folder, [name for name in archive.namelist() if name.startswith("sources/")]
-        )
-    return folder / "sources"
+    return unpacked(fmu, tmp_path_factory.mktemp("unit"), "sources")
 
 
 @pytest.fixture(scope="module")

@@ -3,12 +3,11 @@
 import struct
 import sys
 import urllib.parse
-import zipfile
 from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_uint, c_void_p
 
 import pytest
 from c_instance import ERROR, OK
-from c_library import SANITIZERS, Host, compiled, compiler, host_in
+from c_library import SANITIZERS, Host, compiled, compiler, host_in, unpacked
 from heat_instance import H
 from native_unit import MODEL_EXCHANGE, Unit, references
 
@@ -26,12 +25,7 @@ def library(native, tmp_path_factory):
 @pytest.fixture
 def folder(native, tmp_path):
     """Resources in a folder with a name that has to be escaped."""
-    with zipfile.ZipFile(native) as archive:
-        content = archive.read(f"resources/{resources.FILE}")
-    place = tmp_path / "räum 1 %20#?[x]"
-    place.mkdir()
-    (place / resources.FILE).write_bytes(content)
-    return place
+    return unpacked(native, tmp_path, "resources").rename(tmp_path / "räum 1 %20#?[x]")
 
 
 def locations(folder):
@@ -144,9 +138,7 @@ def test_a_state_of_other_bytes_is_refused(library, place):
 def test_a_host_in_c_finds_no_fault(native, place, tmp_path):
     """Sanitizers over sources and host: two threads of two instances, melting, states."""
     options = [*SANITIZERS, "-std=c99", "-Wall", "-Wextra", "-Werror"]
-    with zipfile.ZipFile(native) as archive:
-        archive.extractall(tmp_path, [n for n in archive.namelist() if n.startswith("sources/")])
-    sources = sorted((tmp_path / "sources").glob("*.c"))
+    sources = sorted(unpacked(native, tmp_path, "sources").glob("*.c"))
     library = tmp_path / "unit.so"
     compiled(*options, "-fPIC", "-shared", *sources, "-o", library, "-lm")
     host = Host(
