@@ -6,13 +6,12 @@ examples with what they print) are looked at in `test_site.py`.
 """
 
 import os
-import subprocess
-import sys
 import tomllib
 from configparser import ConfigParser
 
 import numpy as np
 import pytest
+from command_line import python
 from gap_campaigns import noisy, write_campaign
 from notebooks import PAGES, is_notebook, source
 from sessions import typed
@@ -95,11 +94,4 @@ def test_the_entry_point_is_one(tmp_path):
     with (info / "entry_points.txt").open("w") as file:
         written.write(file)
     path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
-    done = subprocess.run(
-        [sys.executable, "-c", INSTALLED],
-        capture_output=True,
-        text=True,
-        check=True,
-        env=os.environ | {"PYTHONPATH": path},
-    )
-    assert done.stdout.split() == [name, "0.0"]
+    assert python(INSTALLED, env=os.environ | {"PYTHONPATH": path}).split() == [name, "0.0"]

@@ -91,30 +91,24 @@ def exchanged(unit, drive, tables, tolerance):
 def own(unit, folder, drive, tables):
     """The same in co-simulation, with the derivative of the table."""
     times, speeds, rows = drive["time"], drive["surface_speed"], []
-    with fmpy_slave(unit, folder) as (description, slave, _):
-        at = {each.name: each for each in description.modelVariables}
-        for name, value in starts(drive, tables).items():
-            of = slave.setReal if at[name].type == "Real" else slave.setInteger
-            of([at[name].valueReference], [value if at[name].type == "Real" else int(value)])
-        slave.setupExperiment()
-        slave.enterInitializationMode()
-        slave.exitInitializationMode()
-        speed = [at["surface_speed"].valueReference]
+    shown = ("x", "heat", "vx", "slip_count")
+    with fmpy_slave(unit, folder) as block:
+        block.begin(**starts(drive, tables))
+        speed = [block.variables["surface_speed"].valueReference]
 
         def show():
-            real = slave.getReal([at[name].valueReference for name in ("x", "heat", "vx")])
-            rows.append((*real, *slave.getInteger([at["slip_count"].valueReference])))
+            rows.append([block.get(name) for name in shown])
 
         show()
         for n in range(round(STOP / STEP)):
             piece = min(np.searchsorted(times, n * STEP + STEP / 2.0) - 1, len(times) - 2)
             rate = (speeds[piece + 1] - speeds[piece]) / (times[piece + 1] - times[piece])
-            slave.setReal(speed, [speeds[piece] + rate * (n * STEP - times[piece])])
-            slave.setRealInputDerivatives(speed, [1], [rate])
-            slave.doStep(n * STEP, STEP)
+            block.slave.setReal(speed, [speeds[piece] + rate * (n * STEP - times[piece])])
+            block.slave.setRealInputDerivatives(speed, [1], [rate])
+            block.march(n, 1, STEP)
             if (n + 1) % round(SHOWN / STEP) == 0:
                 show()
-    return dict(zip(("x", "heat", "vx", "slip_count"), np.array(rows).T, strict=True))
+    return dict(zip(shown, np.array(rows).T, strict=True))
 
 
 @pytest.fixture(scope="module")
