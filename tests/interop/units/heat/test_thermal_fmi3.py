@@ -7,12 +7,6 @@ from heat_instance import OUTPUTS
 
 from cosim.coupling.fmu.errors import FmuCallError
 from cosim.coupling.fmu.participant import FmuParticipant
-from cosim.fmu.build import THERMAL_FMI3
-
-
-@pytest.fixture(scope="module")
-def native3(once):
-    return once(THERMAL_FMI3)
 
 
 def test_it_is_for_co_simulation(native3):
