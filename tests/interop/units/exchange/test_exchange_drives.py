@@ -14,9 +14,9 @@ from functools import cache
 
 import numpy as np
 import pytest
-from exchange_host import PLANE, values
 from fmpy import simulate_fmu, sundials
 from fmpy_slave import fmpy_slave
+from plain_start import values
 
 STOP, STEP, SHOWN = 6.0, 1e-3, 0.01
 #: Pretension and the finest own steps: what is compared is the hosts'.
@@ -42,7 +42,11 @@ DRIVES = {
     "kinks": table([0.0, 1.0, 2.5, 3.0, 4.0, STOP], [0.05, 0.15, 0.02, 0.2, -0.05, 0.1]),
     "steps": table([0.0, 2.0, 2.0, 4.0, 4.0, STOP], [0.1, 0.1, 0.05, 0.05, 0.2, 0.2]),
 }
-SLAB = {**PLANE, "turning_surface": {"curvature": 1.0}, "initial": {"phi": 0.05, "y": 0.005}}
+SLAB = {
+    "lateral_friction": {"ratio": 1.0},
+    "turning_surface": {"curvature": 1.0},
+    "initial": {"phi": 0.05, "y": 0.005},
+}
 CASES = {
     **{name: (name, {}) for name in DRIVES},
     "slab": ("sine", SLAB),
