@@ -9,6 +9,7 @@ import time
 import numpy as np
 import pytest
 from command_line import python
+from refusals import one_line
 
 from cosim.coupling.record import GrowingTable, Place
 from cosim.files import OutputError
@@ -109,9 +110,8 @@ def test_another_file_is_refused(tmp_path, spoil):
     place = table.place
     table.close()
     spoil(table.path)
-    with pytest.raises(OutputError, match=r"t\.npy: ") as refused:
-        GrowingTable(2, table.path, place=place)
-    assert "\n" not in str(refused.value)
+    line = one_line(OutputError, lambda: GrowingTable(2, table.path, place=place))
+    assert "t.npy: " in line
 
 
 def test_an_earlier_table_is_replaced_and_stays_with_who_reads_it(tmp_path):

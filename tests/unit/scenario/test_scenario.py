@@ -6,6 +6,7 @@ import warnings
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import one_line
 from stickslip import Parameters
 from stickslip.contradictions import COMPUTABLE
 
@@ -23,10 +24,8 @@ def written(tmp_path, text, name="case.toml"):
 def fault(tmp_path, text):
     """The line that a file gets, without the file."""
     path = written(tmp_path, text)
-    with pytest.raises(ScenarioError) as caught:
-        read_scenario(path)
-    line = str(caught.value)
-    assert "\n" not in line and line.startswith(f"{path}: ")
+    line = one_line(ScenarioError, read_scenario, path)
+    assert line.startswith(f"{path}: ")
     return line.removeprefix(f"{path}: ")
 
 
