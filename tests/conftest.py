@@ -76,28 +76,22 @@ def once(tmp_path_factory):
     return look_up
 
 
-@pytest.fixture(scope="session")
-def fmu(once):
-    """The native unit for this machine."""
-    from cosim.fmu.build import NATIVE
+def _unit(constant):
+    """A fixture: the unit that a constant of `cosim.fmu.build` names."""
 
-    return once(NATIVE)
+    @pytest.fixture(scope="session")
+    def unit(once):
+        from cosim.fmu import build
 
+        return once(getattr(build, constant))
 
-@pytest.fixture(scope="session")
-def fmu3(once):
-    """The native unit for FMI 3."""
-    from cosim.fmu.build import FMI3
-
-    return once(FMI3)
+    return unit
 
 
-@pytest.fixture(scope="session")
-def python_fmu(once):
-    """The unit that pythonfmu makes."""
-    from cosim.fmu.build import PYTHON
-
-    return once(PYTHON)
+# the block's for this machine, for FMI 2 and 3, and as pythonfmu makes it
+fmu, fmu3, python_fmu = map(_unit, ("NATIVE", "FMI3", "PYTHON"))
+# the heat's, reduced, for FMI 2 and 3, and whole
+native, native3, whole = map(_unit, ("THERMAL", "THERMAL_FMI3", "THERMAL_PYTHON"))
 
 
 @pytest.fixture(params=["native", "python"])

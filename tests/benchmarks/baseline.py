@@ -18,12 +18,14 @@ class Figure(NamedTuple):
     better: Literal["less", "more"] = "less"
 
 
-def arguments(description: str | None) -> argparse.ArgumentParser:
-    """A parser that knows `--json FILE`."""
+def arguments(description: str | None, **numbers: int) -> argparse.ArgumentParser:
+    """A parser that knows `--json FILE`, and whole numbers with these defaults."""
     parser = argparse.ArgumentParser(
         description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the figures there")
+    for name, default in numbers.items():
+        parser.add_argument(name, type=int, nargs="?", default=default)
     return parser
 
 

@@ -1,4 +1,4 @@
-"""Every block of code that README and site print is run by somebody, who is named here.
+"""Every block of code that README and site print is run by a test.
 
 What is run by nobody is found out to be wrong by readers. Blocks are found by the site's own
 parser. Those that the build makes from the code that they show (usages of commands, formulas,
@@ -6,100 +6,48 @@ examples with what they print) are looked at in `test_site.py`.
 """
 
 import os
-import subprocess
-import sys
 import tomllib
 from configparser import ConfigParser
-from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
-import test_readme
+from command_line import python
 from gap_campaigns import noisy, write_campaign
 from notebooks import PAGES, is_notebook, source
-from sessions import fences, typed
+from sessions import typed
+from test_readme import BLOCKS, SESSIONS, SHELL, SITE, TEXTS, toml_with
 
 from cosim import read_scenario
 from cosim.gap import read_campaign
 
-HERE = Path(__file__).resolve().parent
-SITE = HERE / "site"
-FILES = [test_readme.ROOT / "README.md", *sorted(SITE.rglob("*.md"))]
 #: Directives that print no code of their own.
 NO_CODE = ("{toctree}", "{include}", "{figure}", "{image}", "{note}", "{warning}")
+#: Tables of which a test here or in `test_readme.py` reads the one block that has them.
+TABLES = ("[springs]", "[[run]]", "friction_table", "[block]", "[units]", "[project.entry-points.")
 
 
-@cache
-def printed(file):
-    """Language and text of each block of a file."""
-    found = fences(file.read_text(encoding="utf-8"))
-    return [(fence.info.strip(), fence.content) for fence in found]
-
-
-def who_runs(file, language, text):
-    """File and name of the test that runs a block; None where there is none."""
+def is_run(page, language, text):
+    """Whether some test runs, reads or types a block; tutorials are typed, and their cells run."""
     if language.startswith(NO_CODE):
-        return "test_site.py", "test_the_site_is_built_without_a_warning"
-    if language == "{code-cell} python" and is_notebook(file):
-        return "test_site.py", "test_every_notebook_is_there_to_download_with_what_it_computed"
+        return True
+    if language == "{code-cell} python":
+        return is_notebook(SITE / page)
     if language in ("", "text") and text.startswith("$ "):
-        return who_types(file, text)
-    if language == "python" and (named(file), text) in test_readme.blocks("python"):
-        return "test_readme.py", "test_python_runs"
+        asked = {command.removeprefix("stickslip ") for command, _ in typed(text)}
+        return page.startswith("tutorials/") or asked <= SESSIONS.keys()
     if language == "sh":
-        return {
-            test_readme.SHELL[0]: ("typed/test_typed_install.py", "test_install"),
-            test_readme.SHELL[1]: ("test_readme.py", "test_ci_runs_the_line_that_tests"),
-            test_readme.SHELL[2]: (
-                "test_readme.py",
-                "test_what_is_typed_next_makes_a_rig_and_runs_it",
-            ),
-        }.get(text.strip())
-    if language == "toml":
-        found = [test for table, test in TABLES.items() if table in text]
-        return found[0] if len(found) == 1 else None
-    return None
+        return text.strip() in SHELL
+    return language == "python" or sum(table in text for table in TABLES) == 1
 
 
-#: Table that is in one block alone -> who reads that.
-TABLES = {
-    "[springs]": ("test_readme.py", "test_the_scenario_is_one"),
-    "[[run]]": ("test_readme.py", "test_the_campaign_is_one"),
-    "friction_table": ("test_blocks.py", "test_the_campaign_with_a_table_is_one"),
-    "[block]": ("test_blocks.py", "test_the_block_of_steel_is_one"),
-    "[units]": ("test_readme.py", "test_the_system_is_one"),
-    "[project.entry-points.": ("test_blocks.py", "test_the_entry_point_is_one"),
-}
-
-
-def who_types(file, text):
-    """Who types a session: a page of the tutorials has its own reader."""
-    if file.parent == PAGES:
-        return f"typed/test_typed_{file.stem}.py", f"test_{file.stem}"
-    known = {session.values[0] for session in test_readme.SESSIONS}
-    if {command.removeprefix("stickslip ") for command, _ in typed(text)} <= known:
-        return "test_readme.py", "test_a_session_prints_what_is_shown"
-    return None
-
-
-def named(file):
-    """As `test_readme` names a page."""
-    return str(file.relative_to(SITE)) if SITE in file.parents else file.name
-
-
-@pytest.mark.parametrize("file", FILES, ids=named)
-def test_every_block_is_run_by_a_test_that_exists(file):
-    blocks = {block: who_runs(file, *block) for block in printed(file)}
-    assert [block for block, runs in blocks.items() if runs is None] == []
-    for path, test in set(blocks.values()):
-        assert f"def {test}(" in (HERE / path).read_text(encoding="utf-8")
+@pytest.mark.parametrize("page", TEXTS)
+def test_every_block_is_run(page):
+    assert [block for block in BLOCKS if block[0] == page and not is_run(*block)] == []
 
 
 def test_the_campaign_with_a_table_is_one(tmp_path):
     """As the lines that state a law over the speed stand in a campaign."""
-    page = SITE / "guide" / "gap.md"
-    (block,) = [text for _, text in printed(page) if "friction_table" in text]
+    block = toml_with("friction_table")
     (tmp_path / "mu_v.csv").write_text("v,mu\n0,0.22\n0.4,0.17\n", encoding="utf-8")
     time = np.arange(40) * 0.01
     runs = [
@@ -114,8 +62,7 @@ def test_the_campaign_with_a_table_is_one(tmp_path):
 
 
 def test_the_block_of_steel_is_one(tmp_path):
-    page = SITE / "guide" / "scenario.md"
-    (block,) = [text for _, text in printed(page) if "[block]" in text]
+    block = toml_with("[block]")
     (tmp_path / "steel.toml").write_text(block + "[run]\nduration = 0.5\n", encoding="utf-8")
     scenario = read_scenario(tmp_path / "steel.toml")
     assert (scenario.block.material, scenario.ambient.temperature_degC) == ("steel", 20.0)
@@ -132,8 +79,7 @@ print(scenario.catalogue.effects[-1].id, scenario.flash_heating.fall)
 def test_the_entry_point_is_one(tmp_path):
     """The page's law in a package that says what the page says of it, as pip would install it."""
     page = PAGES / "add_an_effect.md"
-    (block,) = [text for kind, text in printed(page) if kind == "toml"]
-    points = tomllib.loads(block)["project"]["entry-points"]
+    points = tomllib.loads(toml_with("[project.entry-points."))["project"]["entry-points"]
     ((name, value),) = points["stickslip.effects"].items()
     package, _, module = value.partition(":")[0].partition(".")
     (tmp_path / package).mkdir()
@@ -148,17 +94,4 @@ def test_the_entry_point_is_one(tmp_path):
     with (info / "entry_points.txt").open("w") as file:
         written.write(file)
     path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
-    done = subprocess.run(
-        [sys.executable, "-c", INSTALLED],
-        capture_output=True,
-        text=True,
-        check=True,
-        env=os.environ | {"PYTHONPATH": path},
-    )
-    assert done.stdout.split() == [name, "0.0"]
-
-
-def test_every_tutorial_is_typed():
-    pages = {file.stem for file in PAGES.glob("*.md")} - {"index"}
-    assert len(pages) == 6
-    assert pages <= {file.stem.removeprefix("test_typed_") for file in HERE.glob("typed/test_*.py")}
+    assert python(INSTALLED, env=os.environ | {"PYTHONPATH": path}).split() == [name, "0.0"]

@@ -3,10 +3,10 @@
 import os
 import re
 import shutil
-import subprocess
-import sys
 from importlib import resources
 from pathlib import Path
+
+from command_line import python
 
 ROOT = Path(__file__).resolve().parents[2]
 GUIDE = (ROOT / ".github" / "CONTRIBUTING.md").read_text(encoding="utf-8")
@@ -33,11 +33,5 @@ def test_the_guide_s_effect_is_one(tmp_path):
         r"(FILES = \(.*?)\n\)", rf'\1\n    "friction.{name}",\n)', text, flags=re.DOTALL
     )
     listed.write_text(longer, encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "-c", ASKED],
-        capture_output=True,
-        text=True,
-        check=True,
-        env=os.environ | {"PYTHONPATH": str(tmp_path)},
-    )
-    assert done.stdout.split() == [name, "True", "True"]
+    said = python(ASKED, env=os.environ | {"PYTHONPATH": str(tmp_path)})
+    assert said.split() == [name, "True", "True"]

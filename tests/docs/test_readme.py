@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from command_line import stickslip, stickslip_here
-from sessions import timeless
+from sessions import fences, timeless, typed
 
 from cosim import read_scenario
 from cosim.cli.arguments import COMMANDS
@@ -25,8 +25,12 @@ SITE = Path(__file__).parent / "site"
 TEXTS = {"README.md": README} | {
     str(file.relative_to(SITE)): file.read_text(encoding="utf-8") for file in SITE.rglob("*.md")
 }
-PAGES = {name: text for name, text in TEXTS.items() if "{code-cell}" not in text}
-BLOCK = re.compile(r"^```([^\n]*)\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+#: Page, language and text of each block of code.
+BLOCKS = [
+    (page, fence.info.strip(), fence.content)
+    for page, text in TEXTS.items()
+    for fence in fences(text)
+]
 #: Lines that install, of which .ci/run is the second; what is typed after the first.
 SHELL = [
     "python3 -m venv .venv && .venv/bin/pip install . && .venv/bin/stickslip run",
@@ -38,17 +42,12 @@ SLOW = ("plan next_week", "gap cold_room")
 
 
 def blocks(language):
-    """Name of a page and text of each of its fenced blocks of a language."""
-    return [
-        (name, text)
-        for name, page in PAGES.items()
-        for found, text in BLOCK.findall(page)
-        if found == language
-    ]
+    """Page and text of each block of a language."""
+    return [(page, text) for page, found, text in BLOCKS if found == language]
 
 
 def toml_with(table):
-    (found,) = [text for _, text in blocks("toml") if f"[{table}]" in text]
+    (found,) = [text for _, text in blocks("toml") if table in text]
     return found
 
 
@@ -57,12 +56,13 @@ NAMED = {}
 for command, rest in re.findall(r"`stickslip ([a-z][a-z-]*)([^`]*)`", "\n".join(TEXTS.values())):
     NAMED.setdefault(command, set()).update(re.findall(r"--[a-z][a-z-]+", rest))
 
-#: Sessions in a terminal: a command, and what it prints.
-SESSIONS = [
-    pytest.param(command, printed, marks=[pytest.mark.slow] * (command in SLOW), id=command)
-    for _, text in blocks("")
-    for command, printed in re.findall(r"^\$ stickslip (.+)\n((?:(?!\$).*\n)*)", text, re.MULTILINE)
-]
+#: Sessions in a terminal that no tutorial has: a command, and what it prints.
+SESSIONS = {
+    command.removeprefix("stickslip "): printed
+    for page, text in blocks("")
+    for command, printed in typed(text)
+    if not page.startswith("tutorials/")
+}
 
 
 @pytest.mark.parametrize(("page", "code"), blocks("python"), ids=lambda text: text.split("\n")[0])
@@ -72,7 +72,7 @@ def test_python_runs(page, code, at_home):
 
 
 def test_the_scenario_is_one(at_home):
-    Path("soft_springs.toml").write_text(toml_with("springs"), encoding="utf-8")
+    Path("soft_springs.toml").write_text(toml_with("[springs]"), encoding="utf-8")
     scenario = read_scenario("soft_springs.toml")
     assert (scenario.springs.stiffness, scenario.rig.spring_natural_length) == (12.0, 0.17)
 
@@ -80,14 +80,14 @@ def test_the_scenario_is_one(at_home):
 def test_the_campaign_is_one(tmp_path):
     rows = [f"{0.01 * i:.2f},{1e-3 * (i % 50):.6f}" for i in range(1000)]
     (tmp_path / "run01.csv").write_text("\n".join(["t,x", *rows]), encoding="utf-8")
-    (tmp_path / "campaign.toml").write_text(toml_with("[run]"), encoding="utf-8")
+    (tmp_path / "campaign.toml").write_text(toml_with("[[run]]"), encoding="utf-8")
     campaign = read_campaign(tmp_path)
     assert campaign.noise == {"x": 2e-4}
     assert campaign.runs[0].surface_speed == 0.15
 
 
 def test_the_system_is_one(tmp_path):
-    (tmp_path / "system.toml").write_text(toml_with("units"), encoding="utf-8")
+    (tmp_path / "system.toml").write_text(toml_with("[units]"), encoding="utf-8")
     with read_system(tmp_path / "system.toml") as system:
         assert [str(link) for link in system.links] == [
             "mechanics.heat -> thermal.heat",
@@ -111,12 +111,14 @@ def test_ci_runs_the_line_that_tests():
     assert SHELL[1] in (ROOT / ".ci" / "run").read_text(encoding="utf-8").splitlines()
 
 
-@pytest.mark.parametrize(("command", "printed"), SESSIONS)
-def test_a_session_prints_what_is_shown(command, printed, elsewhere):
+@pytest.mark.parametrize(
+    "command", [pytest.param(c, marks=[pytest.mark.slow] * (c in SLOW)) for c in SESSIONS]
+)
+def test_a_session_prints_what_is_shown(command, elsewhere):
     done = stickslip_here(".", *command.split())
     assert done.returncode == 0, done.stderr
     said = set(timeless((done.stdout + done.stderr).splitlines()))
-    assert said >= set(timeless(printed.splitlines()))
+    assert said >= set(timeless(SESSIONS[command]))
 
 
 @pytest.mark.parametrize("command", NAMED)

@@ -102,11 +102,6 @@ def test_own_participant(ran):
     assert got["end"] == pytest.approx(0.01 * grown, rel=2e-6)
 
 
-def test_every_example_is_run_here():
-    tested = {name.removeprefix("test_") for name in globals() if name.startswith("test_")}
-    assert set(NAMES) <= tested
-
-
 class Links(HTMLParser):
     """What a page refers to, and what can be referred to in it."""
 

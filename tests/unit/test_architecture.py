@@ -110,9 +110,9 @@ def module_of(package: str, file: Path) -> tuple[str, list[str]]:
     return ".".join(parts), parts[:-1]
 
 
-def imports_of(package: str, file: Path) -> Iterator[str]:
-    """Dotted names of everything that a file imports; `import cosim` alone asks where it is."""
-    _, home = module_of(package, file)
+def imports_in(file: Path, home: list[str]) -> Iterator[str]:
+    """Dotted names of everything that a file of a package imports; `import cosim` alone asks where
+    it is."""
     for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name != "cosim")
@@ -125,7 +125,9 @@ def imports_of(package: str, file: Path) -> Iterator[str]:
 @cache
 def imports() -> dict[str, set[str]]:
     """Module -> dotted names of what it imports."""
-    return {module_of(*entry)[0]: set(imports_of(*entry)) for entry in FILES}
+    return {
+        module_of(*entry)[0]: set(imports_in(entry[1], module_of(*entry)[1])) for entry in FILES
+    }
 
 
 def inside(name: str, *parts: str) -> bool:
@@ -250,18 +252,7 @@ def test_those_who_hide_effects_know_nothing_of_the_product():
     """Campaigns with answers are foreign data: the laboratory imports nothing that is asked."""
     files = [*(ROOT / "tests" / "blind").rglob("*.py")]
     assert len(files) > 20
-    imported = {
-        name.partition(".")[0]
-        for file in files
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
-        for name in (
-            [alias.name for alias in node.names]
-            if isinstance(node, ast.Import)
-            else [node.module]
-            if isinstance(node, ast.ImportFrom) and not node.level
-            else []
-        )
-    }
+    imported = {name.partition(".")[0] for file in files for name in imports_in(file, [])}
     assert not imported & set(PRODUCT)
 
 

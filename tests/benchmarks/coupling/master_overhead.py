@@ -2,8 +2,8 @@
 
     python tests/benchmarks master_overhead [--json FILE] [--steps 100000] [--cofmupy PYTHON]
 
-Two small native units, coupled both ways (`masters/oscillator.c`), 1e5 steps of 0.1 ms. What the
-master adds is measured against a loop written by hand of the very calls of fmpy that the scheme
+Two small native units, coupled both ways (`oscillator.c` of the helpers), 1e5 steps of 0.1 ms. What
+the master adds is measured against a loop written by hand of the very calls of fmpy that the scheme
 makes. All are seconds of the processor, which other work on the machine does not lengthen; median
 of several rounds in which all take turns. Beside it the largest error of x over 1 s in steps of
 10 ms, which the masters come to by their own schemes. `--cofmupy` names an interpreter that has
@@ -13,17 +13,16 @@ CoFMPy; masters that are not there are left out.
 from __future__ import annotations
 
 import json
-import os
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
 from ctypes import c_double, c_int, c_uint
-from importlib.metadata import PackageNotFoundError, files
 from pathlib import Path
 
 from baseline import Figure, arguments, write
+from foreign_tools import ecos_environment
 
 HERE = Path(__file__).resolve().parent
 
@@ -135,21 +134,6 @@ def by_hand_us(units, loop, steps):
         return 1e6 * (time.process_time() - began) / steps
 
 
-def environment():
-    """ecospy needs tbb, does not find it, and its programs come without the right to be run."""
-    found = {}
-    try:
-        for each in files("tbb") or ():
-            if each.name == "libtbb.so.12":
-                found["LD_LIBRARY_PATH"] = str(Path(each.locate()).resolve().parent)
-        for each in files("ecospy") or ():
-            if each.name in ("ecos", "proxyfmu"):
-                Path(each.locate()).chmod(0o755)
-    except PackageNotFoundError:
-        pass
-    return os.environ | found
-
-
 def other(tool, folder, steps, python=sys.executable):
     """What host.py prints of a tool; None where it is not there."""
     command = [python, HERE / "masters" / "host.py", tool, folder, STEP, steps]
@@ -160,7 +144,7 @@ def other(tool, folder, steps, python=sys.executable):
             cwd=scratch,
             capture_output=True,
             text=True,
-            env=environment() | own,
+            env=ecos_environment() | own,
         )
     lines = [line for line in done.stdout.splitlines() if line.startswith("found ")]
     if not lines:

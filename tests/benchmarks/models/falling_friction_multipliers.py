@@ -13,10 +13,7 @@ from falling_friction import agrees, compared, drawn_rig
 
 
 def main():
-    parser = arguments(__doc__)
-    parser.add_argument("rigs", type=int, nargs="?", default=40)
-    parser.add_argument("seed", type=int, nargs="?", default=0)
-    told = parser.parse_args()
+    told = arguments(__doc__, rigs=40, seed=0).parse_args()
     draw = np.random.default_rng(told.seed)
     right = grazing = wrong = unstable = 0
     while right + grazing + wrong < told.rigs:

@@ -15,10 +15,7 @@ from stickslip.steady_motion import regimes
 
 
 def main():
-    parser = arguments(__doc__)
-    parser.add_argument("rigs", type=int, nargs="?", default=200)
-    parser.add_argument("seed", type=int, nargs="?", default=0)
-    told = parser.parse_args()
+    told = arguments(__doc__, rigs=200, seed=0).parse_args()
     lost = invented = several = 0
     seconds = []
     for i in range(told.rigs):

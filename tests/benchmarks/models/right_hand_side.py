@@ -17,23 +17,8 @@ from mechanics import median_seconds
 from stickslip import Parameters
 from stickslip.compiled import library
 from stickslip.generation.source import kernel_source
+from stickslip.kernel import layout
 from stickslip.kernel.friction.force import friction_in_slip
-from stickslip.kernel.layout import (
-    DEPTHS,
-    OMEGA,
-    PHI,
-    RAYS,
-    U_SIZE,
-    U_SPEED,
-    U_TEMPERATURE,
-    VX,
-    VY,
-    W_FRICTION,
-    W_SIZE,
-    W_STATE,
-    X,
-    Y,
-)
 
 LOOPS = 200_000
 MU, RADIUS, NORMAL, TOP = 0.2, 0.04, 0.67 * 9.81, 0.3
@@ -84,12 +69,19 @@ def repeat():
 def moving(blocks: dict, turning: float) -> SimpleNamespace:
     """The kernel's arrays with the block sliding at 0.26 m/s against the belt."""
     parameters = Parameters(**blocks)
-    u, w = np.zeros(U_SIZE), np.zeros(W_SIZE)
-    u[U_SPEED], u[U_TEMPERATURE] = parameters.surface.speed, -8.0
+    u, w = np.zeros(layout.U_SIZE), np.zeros(layout.W_SIZE)
+    u[layout.U_SPEED], u[layout.U_TEMPERATURE] = parameters.surface.speed, -8.0
     across = 0.0 if parameters.rig.degrees_of_freedom == ("x",) else 0.01
-    start = {X: 0.02, Y: across, PHI: across, VX: -0.1, VY: 5.0 * across, OMEGA: turning}
+    start = {
+        layout.X: 0.02,
+        layout.Y: across,
+        layout.PHI: across,
+        layout.VX: -0.1,
+        layout.VY: 5.0 * across,
+        layout.OMEGA: turning,
+    }
     for place, value in start.items():
-        w[W_STATE + place] = value
+        w[layout.W_STATE + place] = value
     return SimpleNamespace(p=np.array(parameters.pack()), u=u, w=w)
 
 
@@ -104,11 +96,14 @@ def quadrature_error(law: str, ratio: float) -> float:
     blocks, exact = LAWS[law]
     sliding, spinning = TOP * min(1.0, 1.0 / ratio), TOP * min(1.0, ratio)
     p = Parameters(friction={"mu_k": MU}, **(PLANE | blocks)).pack()
-    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
-    u[U_TEMPERATURE] = -8.0
+    u, w = [0.0] * layout.U_SIZE, [0.0] * layout.W_SIZE
+    u[layout.U_TEMPERATURE] = -8.0
     friction_in_slip(p, u, w, sliding, 0.0, spinning)
     force, moment = law_over_disc(exact, sliding, spinning, ACCURACY)
-    errors = -w[W_FRICTION] / NORMAL - force, -w[W_FRICTION + 2] / (NORMAL * RADIUS) - moment
+    errors = (
+        -w[layout.W_FRICTION] / NORMAL - force,
+        -w[layout.W_FRICTION + 2] / (NORMAL * RADIUS) - moment,
+    )
     return max(*map(abs, errors), ACCURACY) / MU
 
 
@@ -118,7 +113,8 @@ def main() -> None:
     for kind in KINDS:
         figures[kind] = Figure(nanoseconds(kind), "ns")
         print(f"{kind:<34}{figures[kind].value:9.0f}")
-    print(f"\nerror of {RAYS} x {DEPTHS} points ({ACCURACY / MU:.0e} or less); spinning / sliding:")
+    points = f"{layout.RAYS} x {layout.DEPTHS} points ({ACCURACY / MU:.0e} or less)"
+    print(f"\nerror of {points}; spinning / sliding:")
     print(f"{'':<26}" + "".join(f"{ratio:>10g}" for ratio in RATIOS))
     for law in LAWS:
         errors = [quadrature_error(law, ratio) for ratio in RATIOS]

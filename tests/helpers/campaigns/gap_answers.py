@@ -107,33 +107,25 @@ def law():
 def other(gap, verdict):
     """The same runs with another verdict."""
     first, last = gap.ladder
-    if verdict == "none":
-        return replace(
-            gap, verdict=verdict, effects=(), sentence="Nothing is missing.", ladder=(first,),
-            extended=gap.plain, laws=(), exponents=(), rates=None, next_experiment=None,
-        )  # fmt: skip
-    if verdict == "class":
-        members = ("velocity_weakening", "film_drag")
-        asked = {
-            "text": "0.87 kg at 0.4 m/s for 20 s: velocity_weakening and film_drag would differ",
-        }
-        return replace(
-            gap, verdict=verdict, effects=members, classes=(members,), next_experiment=asked,
+    members = ("velocity_weakening", "film_drag")
+    asked = {"text": "0.87 kg at 0.4 m/s for 20 s: velocity_weakening and film_drag would differ"}
+    bare = dict(effects=(), ladder=(first,), extended=gap.plain, laws=(), exponents=(),
+                rates=None, next_experiment=None)  # fmt: skip
+    changes = {
+        "named": {},
+        "none": bare | dict(sentence="Nothing is missing."),
+        "unknown": bare
+        | dict(sentence="The model does not fit, and no effect of the catalogue repairs it."),
+        "class": dict(
+            effects=members, classes=(members,), next_experiment=asked,
             sentence="velocity_weakening or film_drag is missing; these runs cannot tell which.",
-        )  # fmt: skip
-    if verdict == "partial":
-        left = replace(last, gap=Score(2.3, 2.8), share=0.83)
-        return replace(
-            gap, verdict=verdict, ladder=(first, left),
+        ),
+        "partial": dict(
+            ladder=(first, replace(last, gap=Score(2.3, 2.8), share=0.83)),
             sentence="velocity_weakening takes 83 % of the misfit; something else is missing.",
-        )  # fmt: skip
-    if verdict == "unknown":
-        return replace(
-            gap, verdict=verdict, effects=(), ladder=(first,), extended=gap.plain, laws=(),
-            exponents=(), rates=None, next_experiment=None,
-            sentence="The model does not fit, and no effect of the catalogue repairs it.",
-        )  # fmt: skip
-    return gap
+        ),
+    }  # fmt: skip
+    return replace(gap, verdict=verdict, **changes[verdict])
 
 
 def with_a_fault(gap, **numbers):

@@ -45,7 +45,9 @@ def drawn_starts(parameters, draw, count=STARTS):
     Half of them are as straight as a rig can be made, half are 5 mm aside and turned by 9 degrees.
     """
     load, stiffness = parameters.rig.mass * GRAVITY, 4.0 * parameters.springs.stiffness
-    slides, holds = (mu * load / stiffness for mu in _coefficients(parameters))
+    slides, holds = (
+        mu * load / stiffness for mu in (parameters.friction.mu_k, parameters.friction.mu_s)
+    )
     speed, rate = parameters.surface.speed, np.sqrt(stiffness / parameters.rig.mass)
     for i in range(count):
         kind, straight, ramp = i // 2 % 3, i % 2 == 0, 0.0
@@ -61,10 +63,6 @@ def drawn_starts(parameters, draw, count=STARTS):
         state["y"] = draw.normal() * (1e-4 if straight else 5e-3)
         state["phi"] = draw.normal() * (1e-3 if straight else 0.15)
         yield started(parameters, state, ramp)
-
-
-def _coefficients(parameters):
-    return parameters.friction.mu_k, parameters.friction.mu_s
 
 
 def by_force(parameters, draw, steady=STEADY, count=STARTS):

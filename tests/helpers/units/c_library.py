@@ -8,6 +8,7 @@ import os
 import shutil
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 from stickslip.compiled import Library, code, sources
@@ -41,6 +42,13 @@ def host_in(folder: Path, *options: str) -> Path:
     program, headers = folder / "host", f"-I{native_folder() / 'headers'}"
     compiled("-O1", "-g", *options, headers, HOST, "-o", program, "-ldl", "-lpthread")
     return program
+
+
+def unpacked(fmu: Path, folder: Path, part: str) -> Path:
+    """A folder of a unit, unpacked into another."""
+    with zipfile.ZipFile(fmu) as archive:
+        archive.extractall(folder, [n for n in archive.namelist() if n.startswith(f"{part}/")])
+    return folder / part
 
 
 class Host:

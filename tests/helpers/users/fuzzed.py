@@ -6,21 +6,19 @@ is made of numbers.
 """
 
 import contextlib
-import io
 import json
 import math
 import operator
 import re
 import warnings
-from pathlib import Path
 from unittest import mock
 
 import numpy as np
 import pandas as pd
 import tomli_w
+from command_line import stickslip_here
 from hypothesis import strategies as st
 
-from cosim.cli import main
 from cosim.gap.data.campaign_file import CampaignTable, RunTable
 from cosim.scenario import Scenario
 from cosim.scenario.validation import known_keys
@@ -218,21 +216,15 @@ def called(*argv, figures=True):
 
     figures: without them a run takes a tenth of the time.
     """
-    out, err = io.StringIO(), io.StringIO()
     with contextlib.ExitStack() as stack:
-        stack.enter_context(contextlib.redirect_stdout(out))
-        stack.enter_context(contextlib.redirect_stderr(err))
         stack.enter_context(warnings.catch_warnings())
         # whether a motion is stable is another question, which takes seconds
         stack.enter_context(mock.patch("cosim.cli.runs.running.MOST_STEPS", 2e4))
         if not figures:
             stack.enter_context(mock.patch("cosim.report.figures.plates_of", return_value=()))
             stack.enter_context(mock.patch("cosim.report.style.png", return_value=b""))
-        try:
-            status = main([str(word) for word in argv])
-        except SystemExit as stop:
-            status = stop.code
-    return status, out.getvalue(), err.getvalue()
+        done = stickslip_here(".", *argv)
+    return done.returncode, done.stdout, done.stderr
 
 
 def fault_of(status, out, err, folder=None):
@@ -277,28 +269,8 @@ def _fault_of_numbers(folder):
     for name in ("gap.json", "plan.json", "summary.json"):
         if (folder / name).exists():
             text = (folder / name).read_text(encoding="utf-8")
-            content = json.loads(text, parse_constant=lambda word: f"<{word}>")
-            if found := _first_nan(content):
-                return f"{name} holds {found}"
+            strange: list[str] = []
+            json.loads(text, parse_constant=strange.append)
+            if strange:
+                return f"{name} holds {strange[0]}"
     return None
-
-
-def _first_nan(content, place=""):
-    if isinstance(content, str) and content in ("<NaN>", "<Infinity>", "<-Infinity>"):
-        return f"{content} at {place}"
-    pairs = (
-        content.items()
-        if isinstance(content, dict)
-        else enumerate(content)
-        if isinstance(content, list)
-        else ()
-    )
-    return next(filter(None, (_first_nan(each, f"{place}.{key}") for key, each in pairs)), None)
-
-
-def fresh(folder: Path) -> Path:
-    """An empty folder of that name."""
-    import shutil
-
-    shutil.rmtree(folder, ignore_errors=True)
-    return folder

@@ -14,7 +14,6 @@ from c_units import made
 from stickslip import scratch
 from stickslip.scratch import scratch_folder
 
-from cosim.cli import main
 from cosim.coupling import CoupledSystem, FmuError, FmuParticipant, GaussSeidel, run
 from cosim.coupling.fmu import archive
 
@@ -109,11 +108,13 @@ def test_a_description_without_sense_is_refused(tmp_path, changes, message):
     refused(made("faulty", tmp_path, **changes), message)
 
 
-def with_library(unit, path, content):
-    """The unit with another library."""
+def with_library(unit, path, content, place=None):
+    """The unit with another library, or one in another place."""
     with zipfile.ZipFile(unit) as old, zipfile.ZipFile(path, "w") as file:
         for name in old.namelist():
-            file.writestr(name, content if name.startswith("binaries/") else old.read(name))
+            is_library = name.startswith("binaries/")
+            at, said = (place or name, content) if is_library else (name, old.read(name))
+            file.writestr(at, said)
     return path
 
 
@@ -134,20 +135,8 @@ def test_a_library_without_the_functions_of_the_standard_is_refused(unit, tmp_pa
     refused(path, r"cannot be loaded: undefined symbol: fmi2\w+; allowed is a shared library")
 
 
-def test_couple_refuses_a_library_that_is_none(unit, tmp_path, capsys):
-    path = with_library(unit, tmp_path / "junk.fmu", b"text")
-    system = tmp_path / "system.toml"
-    system.write_text('[units.one]\nfile = "junk.fmu"\n[run]\nstop = 0.1\n')
-    assert main(["couple", str(system), "-o", str(tmp_path / "out")]) == 2
-    said = capsys.readouterr().err
-    assert said.count("\n") == 1 and said.startswith(f"error: {path}: its library binaries/")
-
-
 def test_a_unit_for_other_machines_says_for_which(unit, tmp_path):
-    path = tmp_path / "other.fmu"
-    with zipfile.ZipFile(unit) as old, zipfile.ZipFile(path, "w") as file:
-        file.writestr("modelDescription.xml", old.read("modelDescription.xml"))
-        file.writestr("binaries/amiga/faulty.library", "x")
+    path = with_library(unit, tmp_path / "other.fmu", "x", "binaries/amiga/faulty.library")
     refused(path, r"holds no library for this machine, binaries/.*; it is for amiga")
 
 

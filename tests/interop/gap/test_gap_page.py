@@ -4,20 +4,13 @@ import base64
 import re
 
 import pytest
-from browser import PHONE, WIDE, start
+from browser import PHONE, WIDE
 
 from cosim.gap.show import files
 
 #: A4, inches.
 PAPER = {"paperWidth": 8.27, "paperHeight": 11.69}
 DARK = [{"name": "prefers-color-scheme", "value": "dark"}]
-
-
-@pytest.fixture(scope="module")
-def browser():
-    found = start()
-    yield found
-    found.driver.quit()
 
 
 @pytest.fixture(scope="module")

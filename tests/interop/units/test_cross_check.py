@@ -53,6 +53,26 @@ def run(units, name):
     return found, expected
 
 
+@pytest.mark.parametrize("name", [NATIVE, FMI3, PYTHON, *HEAT])
+def test_every_variable_says_what_it_is(units, name):
+    description = fmpy.read_model_description(units[name][0], validate_model_structure=True)
+    known = {each.name for each in description.unitDefinitions}
+    for variable in description.modelVariables:
+        assert variable.description, variable.name
+        if variable.type in ("Real", "Float64"):
+            assert variable.unit in known, variable.name
+        if variable.causality == "parameter":
+            tunable = variable.name in ("friction.mu_s", "friction.mu_k")
+            assert variable.variability == ("tunable" if tunable else "fixed")
+            assert variable.initial == "exact"
+            assert variable.start is not None and "." in variable.name
+    assert description.coSimulation.canGetAndSetFMUstate
+    assert description.coSimulation.canSerializeFMUstate
+    if name == PYTHON or name in HEAT:  # for co-simulation alone
+        assert description.modelExchange is None
+        assert all(unknown.dependencies == [] for unknown in description.outputs)
+
+
 def test_fmpy_validates_each_and_prints_nothing(units, capfd):
     for name, (unit, _) in units.items():
         assert (validate_fmu(str(unit)), *capfd.readouterr()) == ([], "", ""), name

@@ -97,19 +97,14 @@ def test_a_block_that_leaves_its_belt_is_told_in_one_line(pair, tmp_path, capsys
     ],
 )
 def test_what_no_rig_bears_is_shown_and_logged_once(unit, values, name, tmp_path):
-    with fmpy_slave(unit, tmp_path) as (description, slave, log):
-        known = {each.name: each.valueReference for each in description.modelVariables}
-        slave.setReal([known[key] for key in values], [*values.values()])
-        slave.setupExperiment()
-        slave.enterInitializationMode()
-        slave.exitInitializationMode()
+    with fmpy_slave(unit, tmp_path) as block:
+        block.begin(**values)
         seen = []
         for n in range(150):
-            slave.doStep(n * 0.01, 0.01)
-            seen.append(bool(slave.getBoolean([known[name]])[0]))
-        (y,) = slave.getReal([known["y"]])
-        said = [each for each in log.messages if each.status == "warning"]
-    assert seen[-1] and not seen[0] and y > 0.0375
+            block.march(n, 1, 0.01)
+            seen.append(bool(block.get(name)))
+        said = [each for each in block.log.messages if each.status == "warning"]
+        assert seen[-1] and not seen[0] and block.get("y") > 0.0375
     assert len(said) == 1 and said[0].text.startswith(f"{name}: ")
 
 

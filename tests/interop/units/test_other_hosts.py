@@ -4,10 +4,8 @@ Each in a process of its own, with the lines of the scripts in `hosts`. A tool t
 is skipped.
 """
 
-import importlib.metadata
 import importlib.util
 import json
-import os
 import shutil
 import subprocess
 import sys
@@ -17,6 +15,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
+from foreign_tools import ecos_environment, tools
 
 from cosim.fmu.build import PYTHON, build_fmu
 
@@ -29,27 +28,15 @@ def needs(module):
         pytest.skip(f"needs {module}")
 
 
+def needs_ecospy():
+    needs("ecospy")
+    tool("tbb", "libtbb.so.12")
+
+
 def tool(distribution, name):
-    """A program that a package has brought, wherever it is installed."""
-    return tools(distribution, name)[0]
-
-
-def tools(distribution, name):
-    """All places in which a package has put a program."""
-    try:
-        files = importlib.metadata.files(distribution) or []
-    except importlib.metadata.PackageNotFoundError:
-        files = []
-    found = [Path(each.locate()).resolve() for each in files if each.name == name]
-    found += [Path(each) for each in [shutil.which(name)] if each]
-    if not found:
-        pytest.skip(f"needs {name} of {distribution}")
-    return found
-
-
-def library_folders():
-    """Where the libraries of tbb lie, which ecospy needs and does not find by itself."""
-    return str(tool("tbb", "libtbb.so.12").parent)
+    """A program that a package has brought."""
+    found = tools(distribution, name)
+    return found[0] if found else pytest.skip(f"needs {name} of {distribution}")
 
 
 def output(command, **more):
@@ -102,22 +89,11 @@ def same(x, expected, tolerance=1e-10):
     np.testing.assert_allclose(x, expected, rtol=0, atol=tolerance)
 
 
-@pytest.fixture
-def ecos_environment():
-    """ecospy's programs come without the right to be run."""
-    needs("ecospy")
-    for name in ("ecos", "proxyfmu"):
-        for program in tools("ecospy", name):
-            program.chmod(0o755)
-    return os.environ | {"LD_LIBRARY_PATH": library_folders()}
-
-
-def test_ecospy(fmu, expected, ecos_environment):
-    same(x_by("in_ecospy.py", fmu, env=ecos_environment), expected)
-
-
-def test_ecospy_with_the_unit_for_fmi_3(fmu3, expected, ecos_environment):
-    same(x_by("in_ecospy.py", fmu3, env=ecos_environment), expected)
+@pytest.mark.parametrize("unit", ["fmu", "fmu3"])
+def test_ecospy(request, unit, expected):
+    needs_ecospy()
+    x = x_by("in_ecospy.py", request.getfixturevalue(unit), env=ecos_environment())
+    same(x, expected)
 
 
 def test_fmuloader(fmu, expected):

@@ -1,16 +1,14 @@
 """Both native units as a system (SSP), in tools that run such: the same as the coupled case.
 
-None of them steps the units one after the other, each with what those before it have reached, as
-the coupled case does: heat and travel come to the heat model a step later. The mechanics, which
-here does not feel the temperature, is the same.
+`stickslip couple` steps one after the other, each with what those before it have reached, as the
+coupled case does. The others do not: heat and travel come to the heat model a step later there. The
+mechanics, which here does not feel the temperature, is the same.
 """
 
-import importlib.util
-import os
-import subprocess
+import json
 import sys
-import tempfile
 import zipfile
+from contextlib import contextmanager
 from pathlib import Path
 
 import fmpy
@@ -18,18 +16,23 @@ import numpy as np
 import pytest
 from fmpy.ssp.simulation import simulate_ssp
 from fmpy.ssp.ssd import read_ssd, read_ssv
+from foreign_tools import ecos_environment
 from libcosimpy.CosimExecution import CosimExecution
 from libcosimpy.CosimObserver import CosimObserver
 from stickslip.generation.platforms import this_platform
-from test_other_hosts import ecos_environment  # noqa: F401  (a fixture)
+from test_other_hosts import needs_ecospy, output
 
 from cosim import read_scenario, run_scenario
+from cosim.cli import main
+from cosim.coupling.record import RunFolder
+from cosim.coupling.record.checkpoint import CheckpointError
 from cosim.fmu.build import SYSTEM
 from cosim.fmu.libraries import platforms_of
 from cosim.fmu.thermal import structure
 from cosim.systems import read_system, run_system
 
 STEP, COUNT = 0.01, 600
+TEMPERATURE = "thermal.interface_temperature"
 SCRIPT = Path(__file__).with_name("hosts") / "system_in_ecospy.py"
 #: K: the speed that the heat model is told is that of the end of a step, and the belt speeds up.
 NEAR = 2e-5
@@ -45,7 +48,19 @@ def expected():
     """x at the communication points, and the temperature of the interface."""
     scenario = read_scenario("reference").changed({"run.duration": COUNT * STEP})
     result = run_scenario(scenario).result
-    return result["mechanics.x"], result["thermal.interface_temperature"]
+    return result["mechanics.x"], result[TEMPERATURE]
+
+
+def result_of(path, step=STEP, stop=COUNT * STEP):
+    with read_system(path, {"coupling.macro_step": step, "run.stop": stop}) as specification:
+        result = run_system(specification).result
+    assert result.status == "complete", result.reason
+    return result
+
+
+@pytest.fixture(scope="module")
+def in_turn(system):
+    return result_of(system)
 
 
 def agree(x, temperature, expected):
@@ -53,6 +68,84 @@ def agree(x, temperature, expected):
     np.testing.assert_allclose(x, expected[0][1 : len(x) + 1], rtol=0, atol=1e-10)
     np.testing.assert_allclose(temperature[1:], expected[1][1 : len(x)], rtol=0, atol=NEAR)
     assert np.ptp(expected[1]) > 500 * NEAR
+
+
+def same(found, expected):
+    """To the last bit."""
+    assert found.values.keys() == expected.values.keys()
+    np.testing.assert_array_equal(found.time, expected.time)
+    for name, values in expected.values.items():
+        np.testing.assert_array_equal(found[name], values, err_msg=name)
+
+
+def test_in_turn_it_is_the_coupled_case(in_turn, expected):
+    np.testing.assert_allclose(in_turn["mechanics.x"], expected[0], rtol=0, atol=1e-10)
+    np.testing.assert_allclose(in_turn[TEMPERATURE], expected[1], rtol=0, atol=NEAR)
+
+
+@contextmanager
+def written(system, path, end=str, **of_units):
+    """A TOML file of the same units, values and connections; end: of a connection's, what else."""
+    with read_system(system) as read:
+        lines = [
+            line
+            for unit in read.units
+            for line in (
+                f'units.{unit.name}.file = "{unit.file}"',
+                *(
+                    f"units.{unit.name}.{key} = {n}"
+                    for key, n in of_units.get(unit.name, {}).items()
+                ),
+                *(
+                    f'units.{unit.name}.parameters."{key}" = {start.value!r}'
+                    for key, start in unit.given.items()
+                ),
+            )
+        ]
+        for link in read.links:
+            lines += ["[[connections]]", f'from = "{end(link.source)}"', f'to = "{end(link.sink)}"']
+        path.write_text("\n".join(lines), encoding="utf-8")
+        yield path
+
+
+def test_a_toml_file_of_the_pair_gives_the_same_numbers(system, in_turn, tmp_path):
+    with written(system, tmp_path / "pair.toml") as path:
+        same(result_of(path), in_turn)
+
+
+def test_no_heat_is_lost_between_substeps(system, tmp_path):
+    """Ten substeps of the block in each step, power handed over: that of all of them is given."""
+    settings = ["--set", f"coupling.macro_step={10 * STEP}", "--set", f"run.stop={COUNT * STEP}"]
+
+    def end(port):
+        return f"{port}_flow" if port.endswith(".heat") else port
+
+    with written(system, tmp_path / "pair.toml", end, mechanics={"substeps": 10}) as path:
+        assert main(["couple", str(path), *settings, "-o", str(tmp_path / "out")]) == 0
+    (power,) = json.loads((tmp_path / "out/summary.json").read_text())["ledger"]["powers"]
+    assert power["made"] > 0.01
+    assert power["given"] == pytest.approx(power["made"], rel=1e-12)
+
+
+def test_a_run_that_was_cut_off_goes_on_to_the_last_bit(system, in_turn, tmp_path):
+    def stop(reached):
+        if reached > 2.0:
+            raise KeyboardInterrupt
+
+    changes = {"coupling.macro_step": STEP, "run.stop": COUNT * STEP, "run.checkpoint_steps": 70}
+    with read_system(system, changes) as specification:
+        folder = RunFolder.begun(tmp_path, {}, {})
+        cut = run_system(specification, stop, folder)
+        folder.release()
+        assert cut.result.status == "interrupted" and 2.0 < cut.result.time[-1] < 2.1
+        again = run_system(specification, folder=RunFolder.found(tmp_path))
+    assert again.result.status == "complete" and again.steps.count == in_turn.steps
+    same(again.result, in_turn)
+    with (
+        read_system(system, changes | {"run.stop": 12.0}) as other,
+        pytest.raises(CheckpointError),
+    ):
+        run_system(other, folder=RunFolder.found(tmp_path))
 
 
 def test_the_system_is_as_its_schema_wants_it(system):
@@ -71,7 +164,7 @@ def test_in_fmpy(system, expected):
     chosen = read_ssv(system, resource=structure.SET_FILE)
     stop = (COUNT - 0.5) * STEP
     result = simulate_ssp(system, stop_time=stop, step_size=STEP, parameter_set=chosen)
-    agree(result["mechanics.x"], result["thermal.interface_temperature"], expected)
+    agree(result["mechanics.x"], result[TEMPERATURE], expected)
 
 
 def in_libcosim(system, tmp_path, step, count, *wanted):
@@ -117,29 +210,17 @@ def test_every_tool_hands_over_the_joules_that_the_block_has_made(system, step, 
     result = simulate_ssp(system, stop_time=stop, step_size=step, parameter_set=chosen)
     theirs, taken = result["mechanics.heat"], result["thermal.heat_received"]
     np.testing.assert_allclose(taken[1:], theirs[:-1], rtol=0, atol=1e-12 * theirs[-1])
-    with read_system(system, {"coupling.macro_step": step, "run.stop": stop}) as read:
-        run = run_system(read)
-    ours = run.result["mechanics.heat"]
-    (flow,) = run.result.ledger.flows
+    run = result_of(system, step, stop)
+    ours = run["mechanics.heat"]
+    (flow,) = run.ledger.flows
     assert ours[-1] > 0.1 and str(flow.connection) == "mechanics.heat -> thermal.heat"
     np.testing.assert_allclose(flow.taken, ours, rtol=0, atol=1e-12 * ours[-1])
-    balance = [run.result[f"thermal.heat_{of}"] for of in ("received", "stored", "to_air")]
+    balance = [run[f"thermal.heat_{of}"] for of in ("received", "stored", "to_air")]
     np.testing.assert_allclose(balance[1] + balance[2], balance[0], rtol=0, atol=1e-12 * ours[-1])
 
 
-def test_in_ecospy(system, expected, ecos_environment):  # noqa: F811
-    assert importlib.util.find_spec("ecospy")
-    command = [sys.executable, SCRIPT, system, STEP, COUNT]
-    with tempfile.TemporaryDirectory() as scratch:
-        done = subprocess.run(
-            list(map(str, command)),
-            cwd=scratch,
-            capture_output=True,
-            text=True,
-            timeout=120,
-            env=os.environ | ecos_environment,
-        )
-    assert done.returncode == 0, done.stderr
-    rows = [line.split()[1:] for line in done.stdout.splitlines() if line.startswith("at ")]
-    x, temperature = np.array(rows, dtype=float).T
-    agree(x, temperature, expected)
+def test_in_ecospy(system, expected):
+    needs_ecospy()
+    said = output([sys.executable, SCRIPT, system, STEP, COUNT], env=ecos_environment())
+    rows = [line.split()[1:] for line in said.splitlines() if line.startswith("at ")]
+    agree(*np.array(rows, dtype=float).T, expected)

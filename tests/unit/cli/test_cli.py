@@ -11,7 +11,6 @@ from command_line import python, refusal
 
 from cosim.cli import main, warnings_in_one_line
 from cosim.cli.arguments import COMMANDS, command_module, parser
-from cosim.files import OutputRefused, writable
 
 pytestmark = pytest.mark.usefixtures("elsewhere")
 
@@ -68,13 +67,12 @@ def test_arguments_that_do_not_exist_are_refused(capsys, argv, line):
 @pytest.mark.parametrize(
     "text, line",
     [
-        ("[rig]\nmass = -1", "case.toml: rig.mass: out of range (-1), allowed is a number greater"),
         ("[rig]\nmas = 1", "case.toml: rig.mas: no such key, nearest known: rig.mass"),
-        ("[rig", "case.toml: not TOML: expected ']'"),
         (None, "case.toml: no such file"),
     ],
 )
 def test_a_bad_scenario_is_refused(capsys, tmp_path, command, text, line):
+    """As the reader does, whose own tests have all the cases."""
     if text is not None:
         (tmp_path / "case.toml").write_text(text)
     assert line in refusal(capsys, command, "case.toml", "-o", "out")
@@ -107,16 +105,8 @@ def test_a_name_that_a_folder_has_taken_is_refused(capsys, tmp_path):
     assert refusal(capsys, "simulate", "-o", "out").startswith("out/result.nc: is a folder")
 
 
-@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
-def test_a_folder_without_permission_is_refused(tmp_path):
-    tmp_path.chmod(0o500)
-    with pytest.raises(OutputRefused, match="cannot be written to"):
-        writable(tmp_path)
-
-
-@pytest.mark.parametrize("content", [b"", b"text", b"PK\x03\x04 and then nothing"])
-def test_what_is_no_fmu_is_refused(capsys, tmp_path, content):
-    (tmp_path / "given.fmu").write_bytes(content)
+def test_what_is_no_fmu_is_refused(capsys, tmp_path):
+    (tmp_path / "given.fmu").write_bytes(b"PK\x03\x04 and then nothing")
     line = refusal(capsys, "run", "--fmu", "given.fmu")
     assert line.startswith("given.fmu: not an FMU, or truncated")
     assert refusal(capsys, "run", "--fmu", "nix.fmu").startswith("nix.fmu: no such file")

@@ -9,9 +9,10 @@ import shutil
 from unittest import mock
 
 import pytest
-from fuzzed import called, campaigns, fault_of, fresh, scenarios, toml, write_campaign
+from fuzzed import called, campaigns, fault_of, scenarios, toml, write_campaign
 from fuzzed_systems import packages, settings_of, systems, write_package, write_system
 from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 
 #: What a reading that finds no fault ends with here.
 READ = "error: interrupted before there was a result\n"
@@ -34,6 +35,13 @@ def place(tmp_path_factory):
     return tmp_path_factory.mktemp("fuzz")
 
 
+def fresh(folder):
+    """An empty folder of that name."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    return folder
+
+
 def check(status, out, err, folder=None):
     fault = fault_of(status, out, err, folder)
     assert fault is None, f"{fault}: {err}"
@@ -50,24 +58,17 @@ def test_any_scenario_gets_a_sensible_answer(place, tables):
     check(*answer, place / "out")
 
 
-@drawn(60)
-@given(case=campaigns())
-def test_any_campaign_is_read_or_refused(place, case):
+@pytest.mark.parametrize(
+    ("command", "computes"), [("gap", "gap._find"), ("plan", "plan.make_plan")]
+)
+@drawn(45)
+@given(data=st.data())
+def test_any_campaign_is_read_or_refused(place, command, computes, data):
+    case = data.draw(campaigns(planned=command == "plan"))
     if (path := write_campaign(place, *case)) is None:
         return
-    with mock.patch("cosim.cli.measurements.gap._find", side_effect=KeyboardInterrupt):
-        status, out, err = called("gap", path, "-o", place / "gap")
-    assert status == 2 or err.endswith(READ), err
-    check(status, out, err)
-
-
-@drawn(30)
-@given(case=campaigns(planned=True))
-def test_any_plan_is_read_or_refused(place, case):
-    if (path := write_campaign(place, *case)) is None:
-        return
-    with mock.patch("cosim.cli.measurements.plan.make_plan", side_effect=KeyboardInterrupt):
-        status, out, err = called("plan", path, "-o", place / "plan")
+    with mock.patch(f"cosim.cli.measurements.{computes}", side_effect=KeyboardInterrupt):
+        status, out, err = called(command, path, "-o", place / command)
     assert status == 2 or err.endswith(READ), err
     check(status, out, err)
 
@@ -76,7 +77,6 @@ def test_any_plan_is_read_or_refused(place, case):
 @given(tables=systems())
 def test_any_system_gets_a_sensible_answer(place, tables):
     folder = fresh(place / "system")
-    folder.mkdir()
     if (path := write_system(folder, tables)) is None:
         return
     check(*called("couple", path, "-o", folder / "out", figures=False), folder / "out")
@@ -86,7 +86,6 @@ def test_any_system_gets_a_sensible_answer(place, tables):
 @given(case=packages())
 def test_any_package_gets_a_sensible_answer(place, case):
     folder = fresh(place / "package")
-    folder.mkdir()
     text, changes = case
     argv = ["couple", write_package(folder, text), *settings_of(changes), "-o", folder / "out"]
     check(*called(*argv, figures=False), folder / "out")

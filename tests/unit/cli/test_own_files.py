@@ -65,15 +65,6 @@ def test_an_example_that_is_refused_writes_none_of_its_files(capsys, tmp_path):
     assert names_in(tmp_path / "mine") == {"run02.csv"}
 
 
-@pytest.mark.parametrize("command", ["gap", "plan"])
-def test_a_copy_of_the_numbers_does_not_overwrite_what_is_none(capsys, tmp_path, command):
-    main([command, "--write-example", "mine"])
-    campaign = (tmp_path / "mine" / "campaign.toml").read_bytes()
-    line = refusal(capsys, command, "mine", "--json", "mine/campaign.toml")
-    assert line.startswith("mine/campaign.toml: is there and no result of this command")
-    assert (tmp_path / "mine" / "campaign.toml").read_bytes() == campaign
-
-
 def test_the_figures_of_run_do_not_stay_where_simulate_writes(tmp_path):
     """Nor its temperature fields; what somebody else put there does."""
     (tmp_path / "short.toml").write_text(SHORT)

@@ -104,27 +104,30 @@ class Part:
         self.got = dict(values)
 
 
-def delivered(**options):
+SCALED = Affine(2.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    "options, expected, remarks",
+    [
+        ({}, 265.15, ()),
+        ({"transformation": SCALED}, 2.0 * 265.15 + 1.0, ()),
+        (
+            {"transformation": SCALED, "converts": False},
+            -15.0,
+            ("a.t -> b.u: units are not compared, as the system says",),
+        ),
+    ],
+)
+def test_the_exchange_converts_then_transforms(options, expected, remarks):
+    """In this order by the SSP standard, common content, LinearTransformation."""
     source = Part("a", port("degC", name="t"))
     sink = Part("b", port("K", name="u", causality=Causality.INPUT))
     system = CoupledSystem([source, sink], [Connection("a.t", "b.u", **options)])
     exchange = Exchange(system)
     exchange.collect("a")
     exchange.deliver("b")
-    return sink.got["u"], system
-
-
-def test_the_exchange_converts_then_transforms():
-    """In this order by the SSP standard, common content, LinearTransformation."""
-    assert delivered()[0] == pytest.approx(265.15)
-    scaled, _ = delivered(transformation=Affine(2.0, 1.0))
-    assert scaled == pytest.approx(2.0 * 265.15 + 1.0)
-
-
-def test_a_suppressed_conversion_leaves_the_transformation():
-    value, system = delivered(transformation=Affine(2.0, 1.0), converts=False)
-    assert value == -15.0
-    assert system.remarks == ("a.t -> b.u: units are not compared, as the system says",)
+    assert sink.got["u"] == pytest.approx(expected) and system.remarks == remarks
 
 
 def test_of_a_waveform_only_the_value_is_shifted():

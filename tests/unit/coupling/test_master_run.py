@@ -69,9 +69,9 @@ class Follower(Model):
 class Brake(Model):
     """Makes 3 W of heat from the start."""
 
-    def __init__(self):
+    def __init__(self, leak):
         super().__init__("brake", outputs(heat="J", residual="J"))
-        self.leak = 0.0
+        self.leak = leak
 
     def read(self):
         return {"heat": 3.0 * self.time, "residual": self.leak}
@@ -80,7 +80,7 @@ class Brake(Model):
 class Disc(Model):
     """Takes up the part `keeps` of the heat."""
 
-    def __init__(self, keeps=1.0):
+    def __init__(self, keeps):
         super().__init__("disc", inputs(heat="J") + outputs(heat_received="J"))
         self.received, self.keeps = 0.0, keeps
 
@@ -96,15 +96,15 @@ def clock_and_follower():
     return CoupledSystem([Clock(), Follower("mirror")], [Connection("clock.now", "mirror.seen")])
 
 
-def test_later_participants_see_the_new_values():
-    result = run(clock_and_follower(), GaussSeidel(("clock", "mirror")), stop=1.0, macro_step=0.25)
-    assert result.status == "complete" and result.reason == "" and result.steps == 4
-    np.testing.assert_array_equal(result["mirror.shown"], result["clock.now"])
+def mirrored(order=("clock", "mirror"), **how):
+    return run(clock_and_follower(), GaussSeidel(order), **{"stop": 1.0, "macro_step": 0.25} | how)
 
 
-def test_earlier_participants_see_the_values_of_the_step_s_start():
-    result = run(clock_and_follower(), GaussSeidel(("mirror", "clock")), stop=1.0, macro_step=0.25)
-    np.testing.assert_array_equal(result["mirror.shown"][1:], result["clock.now"][:-1])
+@pytest.mark.parametrize("order, late", [(("clock", "mirror"), 0), (("mirror", "clock"), 1)])
+def test_later_participants_see_the_new_values_and_earlier_ones_those_before(order, late):
+    result = mirrored(order)
+    assert (result.status, result.reason, result.steps) == ("complete", "", 4)
+    np.testing.assert_array_equal(result["mirror.shown"][late:], result["clock.now"][: 5 - late])
 
 
 def test_initial_exchange_reaches_the_end_of_a_chain_against_the_order():
@@ -127,15 +127,11 @@ def loop(factor):
     )
 
 
-def test_initial_exchange_settles_a_loop_with_feedthrough():
-    result = run(loop(0.5), GaussSeidel(("a", "b")), stop=1.0, macro_step=1.0)
-    assert result["a.shown"][0] == pytest.approx(2.0, rel=1e-14)
-
-
-def test_initial_exchange_solves_a_loop_that_amplifies():
-    """x = 1.5 (1 + x): plain sweeps run away from the solution."""
-    result = run(loop(1.5), GaussSeidel(("a", "b")), stop=1.0, macro_step=1.0)
-    assert result["a.shown"][0] == pytest.approx(-2.0, rel=1e-11)
+@pytest.mark.parametrize("factor, solution", [(0.5, 2.0), (1.5, -2.0)])
+def test_initial_exchange_solves_a_loop_with_feedthrough(factor, solution):
+    """x = factor (1 + x); where it amplifies, plain sweeps run away from the solution."""
+    result = run(loop(factor), GaussSeidel(("a", "b")), stop=1.0, macro_step=1.0)
+    assert result["a.shown"][0] == pytest.approx(solution, rel=1e-11)
 
 
 def test_a_loop_without_a_solution_is_reported_with_what_changes_and_the_remedy():
@@ -164,66 +160,42 @@ def test_grid_hits_the_end_exactly_and_does_not_drift(stop, macro_step):
 )
 def test_a_run_that_makes_no_sense_is_refused(change, message):
     with pytest.raises(CouplingError, match=message):
-        arguments = {"stop": 1.0, "macro_step": 0.1} | change
-        run(clock_and_follower(), GaussSeidel(("clock", "mirror")), **arguments)
+        mirrored(**change)
 
 
 def test_every_nth_point_is_recorded_and_the_last():
-    result = run(
-        clock_and_follower(),
-        GaussSeidel(("clock", "mirror")),
-        stop=1.0,
-        macro_step=0.1,
-        record_every=4,
-    )
+    result = mirrored(macro_step=0.1, record_every=4)
     np.testing.assert_allclose(result.time, [0.0, 0.4, 0.8, 1.0], rtol=1e-15)
     assert result.units == {"clock.now": "s", "mirror.shown": "s", "mirror.seen": "s"}
     np.testing.assert_array_equal(result["mirror.seen"], result["mirror.shown"])
-
-
-def test_an_unknown_result_name_is_answered_with_the_nearest():
-    result = run(clock_and_follower(), GaussSeidel(("clock", "mirror")), stop=1.0, macro_step=1.0)
     with pytest.raises(KeyError, match="nearest: 'clock.now'"):
         result["clock.nom"]
 
 
-def braked(keeps=1.0):
-    return CoupledSystem(
-        [Brake(), Disc(keeps)],
-        [Connection("brake.heat", "disc.heat", taken="heat_received")],
-        residuals=["brake.residual"],
+def braked(order, keeps=1.0, factor=1.0, leak=0.0):
+    """Ledger of 2 s in which a brake makes 6 J; a factor leaves a part of them."""
+    link = Connection(
+        "brake.heat", "disc.heat", taken="heat_received", transformation=Affine(factor)
     )
+    system = CoupledSystem([Brake(leak), Disc(keeps)], [link], residuals=["brake.residual"])
+    return run(system, GaussSeidel(order), stop=2.0, macro_step=0.1).ledger
 
 
-def test_ledger_closes_when_the_sink_takes_what_it_is_given():
-    result = run(braked(), GaussSeidel(("brake", "disc")), stop=2.0, macro_step=0.1)
-    assert exchanged(result.ledger) == pytest.approx(6.0, rel=1e-15)
-    assert largest_residual(result.ledger) == 0.0
+@pytest.mark.parametrize(
+    "given, handed, missing",
+    [({}, 6.0, 0.0), ({"factor": 1 / 3}, 2.0, 0.0), ({"keeps": 0.9, "leak": 0.25}, 6.0, 0.85)],
+)
+def test_the_ledger_has_what_is_handed_over_and_what_is_missing(given, handed, missing):
+    """What a sink loses, and what a participant is off by."""
+    ledger = braked(("brake", "disc"), **given)
+    assert exchanged(ledger) == pytest.approx(handed, rel=1e-12)
+    assert ledger.residual[-1] == pytest.approx(missing, rel=1e-12, abs=1e-12)
+    assert largest_residual(ledger) == pytest.approx(missing, rel=1e-12, abs=1e-12)
 
 
-def test_ledger_shows_the_joules_in_transit_when_the_sink_steps_first():
-    result = run(braked(), GaussSeidel(("disc", "brake")), stop=2.0, macro_step=0.1)
-    np.testing.assert_allclose(result.ledger.flows[0].in_transit[1:], 0.3, rtol=1e-12)
-
-
-def test_ledger_hands_over_what_a_factor_leaves():
-    """Of the 6 J that a brake makes a third goes over: that is handed, and nothing is missing."""
-    links = [
-        Connection(
-            "brake.heat", "disc.heat", taken="heat_received", transformation=Affine(1.0 / 3.0)
-        )
-    ]
-    system = CoupledSystem([Brake(), Disc(1.0)], links)
-    result = run(system, GaussSeidel(("brake", "disc")), stop=2.0, macro_step=0.1)
-    assert exchanged(result.ledger) == pytest.approx(2.0, rel=1e-12)
-    assert largest_residual(result.ledger) < 1e-12
-
-
-def test_ledger_shows_what_a_sink_loses_and_what_a_participant_is_off_by():
-    system = braked(keeps=0.9)
-    system.participants["brake"].leak = 0.25
-    result = run(system, GaussSeidel(("brake", "disc")), stop=2.0, macro_step=0.1)
-    assert result.ledger.residual[-1] == pytest.approx(0.6 + 0.25, rel=1e-12)
+def test_the_ledger_shows_the_joules_in_transit_when_the_sink_steps_first():
+    in_transit = braked(("disc", "brake")).flows[0].in_transit
+    np.testing.assert_allclose(in_transit[1:], 0.3, rtol=1e-12)
 
 
 class Failing(Clock):
@@ -239,14 +211,28 @@ class Failing(Clock):
             raise self.error
 
 
-def test_a_failing_participant_ends_the_run_and_nothing_is_lost():
-    system = CoupledSystem([Failing(0.5, RuntimeError("spring\nbroke"))], [])
-    result = run(system, GaussSeidel(("failing",)), stop=1.0, macro_step=0.125, record_every=3)
-    assert result.status == "failed" and result.steps == 4
-    assert result.reason == "failing: failed in the step from t = 0.5 s: spring broke"
-    assert isinstance(result.error, ParticipantError)
-    assert isinstance(result.error.__cause__, RuntimeError)
+def failing(error):
+    system = CoupledSystem([Failing(0.5, error)], [])
+    return run(system, GaussSeidel(("failing",)), stop=1.0, macro_step=0.125, record_every=3)
+
+
+@pytest.mark.parametrize(
+    "error, status, reason",
+    [
+        (
+            RuntimeError("spring\nbroke"),
+            "failed",
+            "failing: failed in the step from t = 0.5 s: spring broke",
+        ),
+        (KeyboardInterrupt(), "interrupted", "interrupted at t = 0.5 s"),
+    ],
+)
+def test_what_ends_a_step_ends_the_run_and_nothing_is_lost(error, status, reason):
+    result = failing(error)
+    assert (result.status, result.reason, result.steps) == (status, reason, 4)
     assert result.time[-1] == 0.5 and result["failing.now"][-1] == 0.5
+    if status == "failed":
+        assert isinstance(result.error, ParticipantError) and result.error.__cause__ is error
 
 
 def test_an_output_that_is_no_number_is_a_failure():
@@ -254,13 +240,6 @@ def test_an_output_that_is_no_number_is_a_failure():
     system.participants["clock"].read = lambda: {"now": math.nan}
     with pytest.raises(ParticipantError, match="clock: .*initialisation: output now is nan"):
         run(system, GaussSeidel(("clock", "mirror")), stop=1.0, macro_step=0.5)
-
-
-def test_an_interrupt_inside_a_participant_keeps_the_steps_before():
-    system = CoupledSystem([Failing(0.5, KeyboardInterrupt())], [])
-    result = run(system, GaussSeidel(("failing",)), stop=1.0, macro_step=0.125)
-    assert result.status == "interrupted" and result.time[-1] == 0.5
-    assert result.reason == "interrupted at t = 0.5 s"
 
 
 @pytest.mark.parametrize("event", [0.6, 0.3, math.nextafter(0.2, 1.0), 0.25])
@@ -283,14 +262,7 @@ def test_ctrl_c_waits_for_the_end_of_the_macro_step(ctrl_c):
             os.kill(os.getpid(), signal.SIGINT)
 
     before = signal.getsignal(signal.SIGINT)
-    result = run(
-        clock_and_follower(),
-        GaussSeidel(("clock", "mirror")),
-        stop=1.0,
-        macro_step=0.125,
-        record_every=100,
-        progress=progress,
-    )
+    result = mirrored(macro_step=0.125, record_every=100, progress=progress)
     assert result.status == "interrupted" and result.steps == 3
     assert signal.getsignal(signal.SIGINT) is before
     assert result.time.tolist() == [0.0, 0.375]

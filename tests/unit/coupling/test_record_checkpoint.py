@@ -1,8 +1,5 @@
 """Checkpoints: exact, whole or refused; the folder of a run that is not complete."""
 
-import multiprocessing
-import os
-
 import numpy as np
 import pytest
 
@@ -69,11 +66,8 @@ def test_another_format_is_refused(tmp_path, monkeypatch):
         load_checkpoint(path)
 
 
-def test_an_earlier_one_stays_until_the_next_is_whole(saved, monkeypatch):
-    def refuse(*_):
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("os.fsync", refuse)
+def test_an_earlier_one_stays_until_the_next_is_whole(saved, monkeypatch, full_disk):
+    monkeypatch.setattr("os.fsync", full_disk)
     with pytest.raises(OutputError, match="No space left on device"):
         save_checkpoint(saved, Checkpoint(9.0))
     assert load_checkpoint(saved) == EXAMPLE
@@ -132,26 +126,3 @@ def test_a_new_run_clears_what_an_earlier_one_left_and_nothing_else(tmp_path):
     with pytest.raises(OutputRefused, match="holds files that are not of a run"):
         RunFolder.begun(tmp_path, ASKED, {})
     assert own.read_text() == "my own"
-
-
-def _try(results, answers):
-    for attempt in (lambda: RunFolder.begun(results, ASKED, {}), lambda: RunFolder.found(results)):
-        try:
-            attempt()
-            answers.put("went in")
-        except OutputRefused as refused:
-            answers.put(str(refused))
-
-
-@pytest.mark.skipif(os.name == "nt", reason="no such locks there")
-def test_two_processes_do_not_write_into_one_folder(tmp_path):
-    folder = RunFolder.begun(tmp_path, ASKED, {})
-    save_checkpoint(folder.checkpoint, EXAMPLE)
-    spawn = multiprocessing.get_context("spawn")
-    answers = spawn.Queue()
-    other = spawn.Process(target=_try, args=(tmp_path, answers))
-    other.start()
-    said = [answers.get(timeout=60), answers.get(timeout=60)]
-    other.join()
-    assert all("another process is at work" in line for line in said)
-    assert folder.checkpoint.exists()

@@ -50,21 +50,19 @@ def adaptive(estimate):
     return AdaptiveStep(estimate(Tolerance(1e-4)), first=0.01, smallest=2e-3, largest=0.5)
 
 
+def iterated(acceleration):
+    return Iterated(ORDER, acceleration=acceleration)
+
+
 #: What is remembered from step to step: nothing, points, differences, sizes.
 HOW = {
     "held": lambda: {"scheme": GaussSeidel(ORDER), "macro_step": 0.03},
     "linear": lambda: {"scheme": Jacobi(ORDER, "linear"), "macro_step": 0.03},
     "quadratic": lambda: {"scheme": GaussSeidel(ORDER, "quadratic"), "macro_step": 0.03},
-    "Aitken": lambda: {"scheme": Iterated(ORDER, acceleration=Aitken()), "macro_step": 0.1},
-    "quasi-Newton": lambda: {
-        "scheme": Iterated(ORDER, acceleration=QuasiNewton(reused=3)),
-        "macro_step": 0.1,
-    },
+    "Aitken": lambda: {"scheme": iterated(Aitken()), "macro_step": 0.1},
+    "quasi-Newton": lambda: {"scheme": iterated(QuasiNewton(reused=3)), "macro_step": 0.1},
     "doubling": lambda: {"scheme": GaussSeidel(ORDER, "linear"), "control": adaptive(Doubling)},
-    "defect": lambda: {
-        "scheme": Iterated(ORDER, acceleration=QuasiNewton(reused=2)),
-        "control": adaptive(Defect),
-    },
+    "defect": lambda: {"scheme": iterated(QuasiNewton(reused=2)), "control": adaptive(Defect)},
 }
 #: Known events fall on steps of the grid and between them.
 SPAN = {"stop": 4.0, "events": (0.65, 1.25, 3.0), "record_every": 3}

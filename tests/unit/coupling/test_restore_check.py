@@ -57,16 +57,12 @@ class Counter(Part):
         self._may_fail("free_state")
 
 
-def test_one_that_comes_back_is_left_where_it_was():
-    counter = Counter()
-    assert restores_exactly(counter, 0.0, 0.1)
-    assert counter.read() == {"x": 0.0} and counter.states == 0
-
-
-def test_a_value_that_is_no_number_comes_back_too():
-    counter = Counter(off=math.nan)
+@pytest.mark.parametrize("off", [0.0, math.nan])
+def test_one_that_comes_back_is_left_where_it_was(off):
+    counter = Counter(off=off)
     counter.enter_initialisation(0.0, 1.0)
     assert restores_exactly(counter, 0.0, 0.1)
+    assert counter.read() == pytest.approx({"x": off}, nan_ok=True) and counter.states == 0
 
 
 @pytest.mark.parametrize(

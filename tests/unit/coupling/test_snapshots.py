@@ -9,22 +9,26 @@ from cosim.report.figures.animation import LASTS, animation
 from thermal import Belt, BeltIceModel, ThermalParameters
 
 
-@pytest.fixture
-def model():
+def coarse():
     return BeltIceModel(ThermalParameters(belt=Belt(cell_length=0.02, elements=2)))
 
 
+@pytest.fixture
+def model():
+    return coarse()
+
+
 def run(model, snapshots, steps, power=1.0):
-    for n in range(steps):
+    for n in steps:
         snapshots(0.1 * n, model)
         model.step(0.1, 0.1 * power, 0.03)
 
 
 def test_views_are_kept_when_asked_for(model):
     without, with_views = Snapshots(0.5), Snapshots(0.5, views=True)
-    run(model, without, 10)
+    run(model, without, range(10))
     assert without.views == []
-    run(model, with_views, 11)
+    run(model, with_views, range(11))
     assert [time for time, _ in with_views.views] == pytest.approx([0.0, 0.5, 1.0])
     _, last = with_views.views[-1]
     assert last.belt.shape == (last.offset.size, last.depth.size) == (51, 5)
@@ -58,38 +62,31 @@ def same(found, expected):
 def test_pictures_go_on_where_they_were_saved(tmp_path, monkeypatch, cut):
     """Saved after `cut` states, cut off at 30 and resumed from there, as if nothing was."""
     monkeypatch.setattr("cosim.coupling.case.snapshots.MOST_VIEWS", 8)
-    parameters = ThermalParameters(belt=Belt(cell_length=0.02, elements=2))
-    outcomes = {}
-    for name in ("whole", "cut off"):
-        store, fields = tmp_path / name, tmp_path / name / "fields"
-        fields.mkdir(parents=True)
-        model = BeltIceModel(parameters)
-        snapshots = Snapshots(0.2, fields, views=True, store=store)
-        for n in range(40):
-            if name == "cut off" and n == cut:
-                saved, state = snapshots.save_state(), model.state()
-            if name == "cut off" and n == 30:
-                break
-            snapshots(0.1 * n, model)
-            model.step(0.1, 0.1, 0.03)
-        outcomes[name] = snapshots
-    model, n = BeltIceModel(parameters), cut
+
+    def pictures(name):
+        (tmp_path / name / "fields").mkdir(parents=True, exist_ok=True)
+        return Snapshots(0.2, tmp_path / name / "fields", views=True, store=tmp_path / name)
+
+    whole, cut_off, model = pictures("whole"), pictures("cut off"), coarse()
+    run(coarse(), whole, range(40))
+    run(model, cut_off, range(cut))
+    saved, state = cut_off.save_state(), model.state()
+    run(model, cut_off, range(cut, 30))
+    again, model = pictures("cut off"), coarse()
     model.restore(state)
-    again = Snapshots(0.2, fields, views=True, store=store)
     again.load_state(saved)
-    for n in range(cut, 40):
-        again(0.1 * n, model)
-        model.step(0.1, 0.1, 0.03)
-    same(again, outcomes["whole"])
-    whole, cut_off = tmp_path / "whole" / "fields", tmp_path / "cut off" / "fields"
-    assert sorted(p.name for p in whole.iterdir()) == sorted(p.name for p in cut_off.iterdir())
-    for file in whole.iterdir():
-        assert file.read_bytes() == (cut_off / file.name).read_bytes()
+    run(model, again, range(cut, 40))
+    same(again, whole)
+    found, expected = (
+        {file.name: file.read_bytes() for file in (tmp_path / name / "fields").iterdir()}
+        for name in ("cut off", "whole")
+    )
+    assert found == expected
 
 
 def test_pictures_are_on_disk_as_they_are_taken(tmp_path, model):
     snapshots = Snapshots(0.1, store=tmp_path)
-    run(model, snapshots, 5)
+    run(model, snapshots, range(5))
     found = np.load(tmp_path / "pictures.npy", mmap_mode="r")
     assert found.shape == (5, 2 + snapshots.position.size)
     np.testing.assert_array_equal(found[:, 2:], snapshots.temperature)
@@ -107,7 +104,7 @@ def frames(data):
 
 def test_an_animation_shows_how_it_gets_warmer(model):
     snapshots = Snapshots(1.0, views=True)
-    run(model, snapshots, 31, power=5.0)
+    run(model, snapshots, range(31), power=5.0)
     shown, duration = frames(animation(snapshots.views, -8.0, "case"))
     assert len(shown) == 4
     assert duration <= 1000.0 * LASTS / 3

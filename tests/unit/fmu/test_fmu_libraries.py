@@ -7,6 +7,7 @@ import struct
 import subprocess
 
 import pytest
+from refusals import one_line
 from stickslip import machine_code
 from stickslip.generation.compiler import compiled, has_zig
 from stickslip.generation.platforms import PLATFORMS, this_platform
@@ -112,10 +113,7 @@ def prebuilt(tmp_path, monkeypatch):
 
 
 def refusal(folder):
-    with pytest.raises(FmuBuildError) as error:
-        build_fmu(folder, platforms=[this_platform()])
-    assert "\n" not in str(error.value)
-    return str(error.value)
+    return one_line(FmuBuildError, lambda: build_fmu(folder, platforms=[this_platform()]))
 
 
 def put(folder, platform, content=b"a library"):

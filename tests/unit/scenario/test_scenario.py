@@ -6,6 +6,7 @@ import warnings
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from refusals import one_line
 from stickslip import Parameters
 from stickslip.contradictions import COMPUTABLE
 
@@ -23,10 +24,8 @@ def written(tmp_path, text, name="case.toml"):
 def fault(tmp_path, text):
     """The line that a file gets, without the file."""
     path = written(tmp_path, text)
-    with pytest.raises(ScenarioError) as caught:
-        read_scenario(path)
-    line = str(caught.value)
-    assert "\n" not in line and line.startswith(f"{path}: ")
+    line = one_line(ScenarioError, read_scenario, path)
+    assert line.startswith(f"{path}: ")
     return line.removeprefix(f"{path}: ")
 
 
@@ -117,6 +116,23 @@ def test_a_byte_order_mark_is_no_fault(tmp_path):
     assert read_scenario(written(tmp_path, b"\xef\xbb\xbf[rig]\nmass = 2")).rig.mass == 2.0
 
 
+LAYER = """
+[[belt.layers]]
+thickness = 3e-4
+density = 2600.0
+heat_capacity = 780.0
+conductivity = 2.0
+"""
+
+
+@pytest.mark.parametrize("rig", ["", '[rig]\nsurface = "slab"\nslab_radius = 0.5\n'])
+def test_layers_reach_the_thermal_model_and_come_back(tmp_path, rig):
+    case = read_scenario(written(tmp_path, rig + LAYER + LAYER.replace("2.0", "0.12")))
+    assert [layer.conductivity for layer in case.thermal.belt.stack] == [2.0, 0.12]
+    again = read_scenario(written(tmp_path, case.to_toml()))
+    assert again.thermal == case.thermal and again.to_toml() == case.to_toml()
+
+
 NUMBER = "allowed is a number greater than 0 kg"
 
 
@@ -148,6 +164,23 @@ NUMBER = "allowed is a number greater than 0 kg"
         ("[rig]\nspring_natural_length = 0.5", "rig.spring_natural_length: 0.5 m is more than"),
         ("[rig]\ncontact_radius = 0.6", "must exceed 2 rig.contact_radius = 1.2 m"),
         ("[friction]\nmu_s = -1\nmu_k = -1\n[x]", "(-1), allowed is a number at least 0 (and 2 mo"),
+        (
+            LAYER + LAYER.replace("conductivity", "conductivty"),
+            "belt.layers[2].conductivity: missing, needed is a number greater than 0",
+        ),
+        (
+            LAYER.replace("3e-4", "0.0"),
+            "belt.layers[1].thickness: out of range (0.0), allowed is a number greater than 0",
+        ),
+        (
+            "[belt]\nthickness = 2e-3\n" + LAYER,
+            "belt.thickness: 0.002 and belt.layers are both given",
+        ),
+        ("[ice]\nmesh = 3", "ice.mesh: not a text (3), allowed is a text"),
+        (
+            '[ice]\nmesh = "a.msh"\n[contact]\nlength = 0.05',
+            "contact.length: 0.05 m and ice.mesh are both given",
+        ),
         ("[run]\nduration = 1e300", "run.output_interval: 0.01 s cuts run.duration = 1e+300 s"),
         ("[coupling]\nmacro_step = 0", "coupling.macro_step: out of range (0), allowed is a num"),
         ("name = '../up'", 'name: not fit for the name of a folder ("../up"), allowed is'),
@@ -204,10 +237,3 @@ def test_rows_of_a_coupled_run_fall_on_macro_steps():
             assert case.changed({"run.output_interval": interval}).record_every
     with pytest.raises(ScenarioError, match="coupling.macro_step: 1e-12 s cuts run.duration"):
         assert case.changed({"coupling.macro_step": 1e-12}).record_every
-
-
-def test_a_change_is_checked_like_a_file():
-    with pytest.raises(ScenarioError, match="rig.mas: no such key, nearest known: rig.mass"):
-        Scenario().changed({"rig.mas": 1.0})
-    with pytest.raises(ScenarioError, match="rig.mass: out of range"):
-        Scenario().changed({"rig.mass": -1.0})

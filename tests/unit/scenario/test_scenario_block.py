@@ -4,6 +4,7 @@ import json
 import math
 
 import pytest
+from refusals import one_line
 
 from cosim.report.contents import tables_of
 from cosim.report.material import live_of_material, of_material, page_of_material
@@ -54,8 +55,7 @@ def test_only_ice_melts(steel):
     found = model.outputs()
     assert found["melted_mass"] == found["meltwater_heat"] == 0.0
     assert found["interface_temperature"] > 20.0
-    # rounding of 10 J
-    assert abs(found["heat_residual"]) < 1e-12
+    assert abs(found["heat_residual"]) < 1e-12 * found["heat_received"]  # rounding of 10 J
     assert math.isfinite(seconds_to_run(steel.thermal, 30.0, 0.01, 0.15, 0.2))
 
 
@@ -76,9 +76,7 @@ def test_only_ice_melts(steel):
     ],
 )
 def test_what_cannot_be_is_refused_in_one_line(changes, says):
-    with pytest.raises(ScenarioError) as refused:
-        read_scenario("reference", changes)
-    assert says in str(refused.value) and "\n" not in str(refused.value)
+    assert says in one_line(ScenarioError, read_scenario, "reference", changes)
 
 
 def test_belt_length_answers_for_a_block_of_steel(steel):

@@ -88,16 +88,10 @@ def test_a_file_is_found_from_where_the_command_is(tmp_path):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-@pytest.mark.parametrize(
-    ("setting", "line"),
-    [
-        ("rig.mas=1", "rig.mas: no such key, nearest known: rig.mass"),
-        ("rig.mass=-1", "rig.mass: out of range (-1), allowed is a number greater than 0 kg"),
-    ],
-)
-def test_every_command_refuses_what_a_file_may_not_hold(capsys, command, setting, line):
-    said = refusal(capsys, command, "reference", "--set", setting, *COMMANDS[command])
-    assert said.startswith(f"reference, as changed: {line}")
+def test_every_command_refuses_what_a_file_may_not_hold(capsys, command):
+    said = refusal(capsys, command, "reference", "--set", "rig.mas=1", *COMMANDS[command])
+    known = "rig.mas: no such key, nearest known: rig.mass"
+    assert said.startswith(f"reference, as changed: {known}")
 
 
 def test_what_is_wrong_in_the_file_is_not_laid_to_the_change(capsys, tmp_path):

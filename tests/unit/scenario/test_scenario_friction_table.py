@@ -1,6 +1,7 @@
 """A table of friction in a scenario: its numbers, or the CSV file that has them."""
 
 import pytest
+from refusals import one_line
 
 from cosim.scenario import Scenario, read_scenario
 from cosim.scenario.validation import ScenarioError
@@ -13,14 +14,6 @@ def scenario(folder, text, csv=CSV, name="mu_v.csv"):
     path = folder / "case.toml"
     path.write_text(text, encoding="utf-8")
     return path
-
-
-def fault(folder, text, csv=CSV):
-    with pytest.raises(ScenarioError) as caught:
-        read_scenario(scenario(folder, text, csv))
-    line = str(caught.value)
-    assert "\n" not in line
-    return line
 
 
 def test_a_file_is_named_from_where_the_scenario_is(tmp_path, monkeypatch):
@@ -71,6 +64,6 @@ NUMBERS = "[friction]\ntable_speed = [0.0, 0.1]\ntable_mu = [0.2, 0.1]\n"
     ],
 )
 def test_a_fault_is_one_line(tmp_path, text, csv, says):
-    line = fault(tmp_path, text, csv)
+    line = one_line(ScenarioError, read_scenario, scenario(tmp_path, text, csv))
     for words in says:
         assert words in line

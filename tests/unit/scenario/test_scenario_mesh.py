@@ -1,7 +1,4 @@
-import pytest
-
-from cosim.scenario import Scenario, read_scenario
-from cosim.scenario.validation import ScenarioError
+from cosim.scenario import read_scenario
 
 
 def scenario(folder, mesh):
@@ -26,18 +23,3 @@ def test_an_absolute_mesh_stays_what_it_is_and_is_written_back(tmp_path):
     copy = tmp_path / "elsewhere" / "copy.toml"
     copy.write_text(first.to_toml())
     assert read_scenario(copy).ice.mesh == str(tmp_path / "sample.msh")
-
-
-@pytest.mark.parametrize(
-    ("tables", "says"),
-    [
-        ({"ice": {"mesh": 3}}, r"ice\.mesh: not a text \(3\), allowed is a text"),
-        (
-            {"ice": {"mesh": "a.msh"}, "contact": {"length": 0.05}},
-            r"contact\.length: 0\.05 m and ice\.mesh are both given",
-        ),
-    ],
-)
-def test_refused(tables, says):
-    with pytest.raises(ScenarioError, match=says):
-        Scenario.from_tables(tables)

@@ -66,24 +66,6 @@ def test_stable_for_any_step_and_conductance(duration, conductance):
         assert temperature.min() >= -8.0 - 0.05 * (hottest + 8.0)
 
 
-def test_state_continues_bit_for_bit():
-    steps = [(0.01, 0.02 * (n % 3), 0.004 * math.sin(n)) for n in range(60)]
-    model = BeltIceModel(COARSE)
-    for step in steps[:30]:
-        model.step(*step)
-    state = model.state()
-    kept = state.copy()
-    for step in steps[30:]:
-        model.step(*step)
-    assert np.array_equal(state, kept), "state must be a copy"
-    other = BeltIceModel(COARSE)
-    other.restore(state)
-    for step in steps[30:]:
-        other.step(*step)
-    assert np.array_equal(other.state(), model.state())
-    assert other.outputs() == model.outputs()
-
-
 def test_state_of_another_mesh_is_refused():
     with pytest.raises(ValueError, match="another mesh"):
         BeltIceModel(COARSE).restore(BeltIceModel().state())

@@ -1,4 +1,5 @@
 import pytest
+from refusals import one_line
 
 from thermal import ParameterError, ThermalParameters
 from thermal.belt.air import moving_belt
@@ -44,10 +45,7 @@ def test_every_number_states_its_unit():
     ],
 )
 def test_bad_input_is_refused_in_one_line(blocks, says):
-    with pytest.raises(ParameterError) as refused:
-        ThermalParameters.checked(blocks)
-    assert says in str(refused.value)
-    assert "\n" not in str(refused.value)
+    assert says in one_line(ParameterError, ThermalParameters.checked, blocks)
 
 
 def test_air_of_a_moving_belt_takes_the_place_of_the_number():

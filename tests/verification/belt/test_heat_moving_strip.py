@@ -40,15 +40,12 @@ def jaeger(x):
 
 
 def parameters(cell, elements=30):
-    """A belt so thick and long that it is a half-space; uniform flux, no ice."""
+    """A belt so thick and long that it is a half-space; uniform flux, no ice. Default material."""
     return ThermalParameters(
         belt=Belt(
             length=LOOP * HALF_LENGTH,
             thickness=30.0 * HALF_LENGTH,
             width=0.005,
-            conductivity=K,
-            density=RHO,
-            heat_capacity=C,
             air_heat_transfer=0.0,
             cell_length=cell,
             elements=elements,

@@ -21,19 +21,9 @@ ASYMPTOTIC = 0.25
 
 
 def slab(elements=6, h=0.0, cells=8, length=1.0):
-    return BeltField(
-        Belt(
-            thickness=D,
-            conductivity=K,
-            density=RHO,
-            heat_capacity=C,
-            air_heat_transfer=h,
-            elements=elements,
-            length=length,
-            cell_length=length / cells,
-        ),
-        LANE,
-    )
+    """A belt of the default's material."""
+    size = {"length": length, "cell_length": length / cells, "elements": elements}
+    return BeltField(Belt(air_heat_transfer=h, **size), LANE)
 
 
 def uniform_flux(belt, flux):

@@ -8,11 +8,10 @@ sigma_0 = mu_s N / z_0, sigma_1 = 2 zeta sqrt(sigma_0 m), u the sliding velocity
 
 import numpy as np
 import pytest
+from line_rig import GRAVITY, MU_K, MU_S, ONE_LINE
 from scipy.integrate import solve_ivp
 from stickslip import Parameters, simulate
 
-GRAVITY, MU_S, MU_K = 9.81, 0.3, 0.2
-ONE_LINE = (180.0, 0.0, 180.0, 0.0)  # the springs along it, so that they are linear
 RIG = {
     "mass": 0.67, "stiffness": 80.0, "speed": 0.05, "start": 0.05,
     "transition_speed": 3e-3, "transition_exponent": 1.0,

@@ -17,6 +17,11 @@ from stickslip.kernel.bristles.law import (
 from stickslip.kernel.friction.force import friction_in_slip
 
 GRAVITY = 9.81
+#: Of scratch space: (x, y, turning) of the shear, of friction, of sliding, and of the shear's rate.
+SHEAR = slice(layout.W_STATE + layout.SHEAR_X, layout.W_STATE + layout.SHEAR_X + 3)
+FRICTION, SLIDING, SHEARING = (
+    slice(at, at + 3) for at in (layout.W_FRICTION, layout.W_SLIDING, layout.W_SHEARING)
+)
 BRISTLES = {"transition_speed": 3e-3, "presliding_distance": 5e-5}
 
 
@@ -28,7 +33,7 @@ def rig(kappa=1.0, **friction):
 def sliding(p, motion):
     """Scratch space of a contact that slides with (U_x, U_y, Omega)."""
     w = [0.0] * layout.W_SIZE
-    w[layout.W_SLIDING : layout.W_SLIDING + 3] = motion
+    w[SLIDING] = motion
     w[layout.W_STATE + layout.MODE] = layout.SLIP
     return w
 
@@ -48,18 +53,14 @@ def test_in_steady_sliding_friction_is_the_disc_s(kappa, motion):
     u[layout.U_TEMPERATURE] = -8.0
     w, z = sliding(p, motion), [0.0] * layout.INSTANT
     set_sliding_shear(p, u, z, w, 0)
-    w[layout.W_STATE + layout.SHEAR_X : layout.W_STATE + layout.SHEAR_X + 3] = z[
-        layout.SHEAR_X : layout.SHEAR_X + 3
-    ]
+    w[SHEAR] = z[layout.SHEAR_X : layout.SHEAR_X + 3]
     set_bristle_friction(p, u, w)
-    found = w[layout.W_FRICTION : layout.W_FRICTION + 3]
+    found = w[FRICTION]
     speed = max(abs(motion[0]), abs(motion[1]), 0.04 * abs(motion[2]))
-    assert np.abs(w[layout.W_SHEARING : layout.W_SHEARING + 3]).max() < 1e-11 * speed
+    assert np.abs(w[SHEARING]).max() < 1e-11 * speed
     scaled = motion[0], kappa * motion[1], kappa * p[layout.P_RADIUS] * motion[2]
     friction_in_slip(p, u, w, *scaled)
-    np.testing.assert_allclose(
-        found, w[layout.W_FRICTION : layout.W_FRICTION + 3], rtol=1e-9, atol=1e-11
-    )
+    np.testing.assert_allclose(found, w[FRICTION], rtol=1e-9, atol=1e-11)
 
 
 def test_a_small_shear_is_that_of_a_uniform_layer():
@@ -69,14 +70,14 @@ def test_a_small_shear_is_that_of_a_uniform_layer():
     a, stiffness = p[layout.P_RADIUS], p[layout.P_BRISTLE_STIFFNESS]
     w = sliding(p, (0.0, 0.0, 0.0))
     scale = np.array([1.0, kappa, kappa * a])
-    w[layout.W_STATE + layout.SHEAR_X : layout.W_STATE + layout.SHEAR_X + 3] = scale * shear
+    w[SHEAR] = scale * shear
     set_bristle_friction(p, u, w)
     expected = -stiffness * shear * np.array([1.0, kappa**2, 0.5 * (kappa * a) ** 2])
-    np.testing.assert_allclose(w[layout.W_FRICTION : layout.W_FRICTION + 3], expected, rtol=1e-12)
+    np.testing.assert_allclose(w[FRICTION], expected, rtol=1e-12)
     z = w[layout.W_STATE :]
     energy = -0.5 * np.dot(expected, shear)
     assert bristle_energy(p, z, 0) == pytest.approx(energy, rel=1e-12)
-    w[layout.W_SHEARING : layout.W_SHEARING + 3] = scale * np.array([1e-3, 2e-3, 0.05])
+    w[SHEARING] = scale * np.array([1e-3, 2e-3, 0.05])
     power = -np.dot(expected, [1e-3, 2e-3, 0.05])
     assert storing_power(p, w) == pytest.approx(power, rel=1e-12)
 
@@ -89,11 +90,9 @@ def test_it_takes_up_more_than_it_gives_back():
         w = sliding(p, 10.0 ** draw.uniform(-5, -1) * draw.normal(size=3) * [1.0, 1.0, 25.0])
         shear = draw.normal(size=3)
         shear *= least * draw.uniform(0.0, 0.6) / np.linalg.norm(shear)
-        w[layout.W_STATE + layout.SHEAR_X : layout.W_STATE + layout.SHEAR_X + 3] = shear
+        w[SHEAR] = shear
         set_bristle_friction(p, u, w)
-        power = np.dot(
-            w[layout.W_FRICTION : layout.W_FRICTION + 3], w[layout.W_SLIDING : layout.W_SLIDING + 3]
-        )
+        power = np.dot(w[FRICTION], w[SLIDING])
         assert -power - storing_power(p, w) > 0.0
 
 

@@ -6,33 +6,19 @@ breaks away where K x = mu_s N, unless the surface is slower than the creep at t
 
 import numpy as np
 import pytest
+from line_rig import GRAVITY, MASS, MU_K, MU_S, STIFFNESS, line
 from scipy.integrate import solve_ivp
 from stickslip import Parameters, simulate
 from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import layout
 
-GRAVITY = 9.81
-MASS, STIFFNESS, MU_S, MU_K, SPEED, CREEP = 0.67, 4.0 * 20.17, 0.3, 0.2, 0.02, 2e-3
+SPEED, CREEP = 0.02, 2e-3
 HOLD = MU_S * MASS * GRAVITY
 RATE = CREEP * STIFFNESS / HOLD  # of the exponential, 1/s
-#: The springs along one line, so that they are linear, and the block on the surface at the start.
-LINE = {
-    "rig": {"mass": MASS, "degrees_of_freedom": ("x",),
-            "attachment_angles_deg": (180.0, 0.0, 180.0, 0.0)},
-    "friction": {"mu_s": MU_S, "mu_k": MU_K, "stick_creep": CREEP},
-    "surface": {"speed": SPEED},
-    "initial": {"vx": SPEED},
-}  # fmt: skip
-
-
-def line(**tables):
-    return Parameters(
-        **{name: LINE.get(name, {}) | tables.get(name, {}) for name in {**LINE, **tables}}
-    )
 
 
 def on_a_line(duration=3.0, interval=0.01, **tables):
-    return simulate(line(**tables), duration, interval)
+    return simulate(line(SPEED, {"stick_creep": CREEP}, **tables), duration, interval)
 
 
 def way(time, rate=RATE):
@@ -78,7 +64,7 @@ def test_what_a_stick_that_creeps_shows():
 def test_a_surface_slower_than_the_creep_never_loses_the_block():
     """As the FMU can be told at any time; a scenario is refused."""
     slow = 0.5 * CREEP
-    quick = line(surface={"speed": 2.0 * CREEP}, initial={"vx": slow})
+    quick = line(2.0 * CREEP, {"stick_creep": CREEP}, initial={"vx": slow})
     surface = quick.surface.model_copy(update={"speed": slow})
     run = simulate(quick.model_copy(update={"surface": surface}), 40.0, 0.1)
     assert len(run.events) == 0
@@ -189,8 +175,7 @@ def test_loads_that_change_at_every_step_do_not_tear_the_stick():
     that of the middle.
     """
     kernel = CATALOGUE.compiled
-    blocks = LINE | {"surface": {"speed": SPEED, "run_up_time": 0.0}}
-    p, u = np.array(Parameters(**blocks).pack()), np.zeros(layout.U_SIZE)
+    p, u = np.array(line(SPEED, {"stick_creep": CREEP}).pack()), np.zeros(layout.U_SIZE)
     u[layout.U_SPEED], growth = SPEED, 0.15 * HOLD
     ends = []
     for count in (100, 200):

@@ -7,29 +7,18 @@ the block, grows by e in tau = m v_s / (N (mu_s - mu_k)), and ends where it come
 import numpy as np
 import pytest
 from disc_integral import law_over_disc
+from line_rig import GRAVITY, MASS, MU_K, MU_S, STIFFNESS, line
 from scipy.integrate import solve_ivp
 from stickslip import Parameters, friction_coefficient, simulate
 from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
 
-GRAVITY = 9.81
-MASS, STIFFNESS, MU_S, MU_K, SPEED = 0.67, 4.0 * 20.17, 0.3, 0.2, 0.05
-NORMAL = MASS * GRAVITY
-#: The springs along one line, so that they are linear, and the block on the surface at the start.
-LINE = {
-    "rig": {"mass": MASS, "degrees_of_freedom": ("x",),
-            "attachment_angles_deg": (180.0, 0.0, 180.0, 0.0)},
-    "friction": {"mu_s": MU_S, "mu_k": MU_K},
-    "surface": {"speed": SPEED},
-    "initial": {"vx": SPEED},
-}  # fmt: skip
+SPEED, NORMAL = 0.05, MASS * GRAVITY
 
 
 def on_a_line(duration, interval=0.01, transition_speed=0.0, **tables):
-    friction = LINE["friction"] | {"transition_speed": transition_speed}
-    tables["friction"] = friction | tables.get("friction", {})
-    blocks = {name: LINE.get(name, {}) | tables.get(name, {}) for name in {**LINE, **tables}}
-    return simulate(Parameters(**blocks), duration, interval)
+    rig = line(SPEED, {"transition_speed": transition_speed}, **tables)
+    return simulate(rig, duration, interval)
 
 
 def by_scipy(times, transition_speed, exponent, creep=0.0):

@@ -8,46 +8,28 @@ melts and refreezes, and hardly anything happens for most of the time.
 
 import numpy as np
 import pytest
+from heated_block import ON_A_LINE, ORDER, coupled
 from part import Restorable
 
 from cosim import read_scenario
 from cosim.coupling import (
     AdaptiveStep,
     Connection,
-    CoupledSystem,
     Doubling,
-    FmuParticipant,
     GaussSeidel,
     Tolerance,
     outputs,
     port_table,
-    run,
 )
-from cosim.coupling.case import CONNECTIONS, MECHANICS, RESIDUALS, THERMAL
-from cosim.coupling.case.thermal_participant import ThermalParticipant
-from cosim.fmu.build import own_fmu
-from thermal import BeltIceModel
 
-ORDER = ("drive", MECHANICS, THERMAL)
 RAMP, RUN, PAUSE, SPEED = 0.5, 1.0, 180.0, 3.0  # s, s, s, m/s
 LENGTHS = 2 * (RAMP, RUN, RAMP, PAUSE)
 KINKS = np.concatenate([[0.0], np.cumsum(LENGTHS)])
 SPEEDS = np.array([0.0, *(2 * (SPEED, SPEED, 0.0, 0.0))])
 #: With these fixed steps the temperature is off by no less than with the adaptive ones.
 FIXED_STEP = 0.08
-CASE = read_scenario("meltwater").changed(
-    {
-        "rig.degrees_of_freedom": ("x",),
-        "initial.y": 0.0,
-        "initial.phi": 0.0,
-        "surface.speed": 0.0,
-        "surface.run_up_time": 0.0,
-        "belt.length": 1.0,
-        "belt.cell_length": 4e-3,
-        "ice.radial_elements": 3,
-        "ice.axial_elements": 6,
-    }
-)
+STILL = {"surface.speed": 0.0, "surface.run_up_time": 0.0, "belt.length": 1.0}
+CASE = read_scenario("meltwater").changed(ON_A_LINE | STILL)
 
 
 class Drive(Restorable):
@@ -65,19 +47,16 @@ class Drive(Restorable):
         self.time = time + size
 
 
-def belt(macro_step=None, control=None):
-    mechanics = FmuParticipant(own_fmu(), MECHANICS, parameters=CASE.mechanics.flat())
-    heat = ThermalParticipant(BeltIceModel(CASE.thermal), THERMAL)
-    links = [*CONNECTIONS, Connection("drive.speed", f"{MECHANICS}.surface_speed")]
-    with CoupledSystem([Drive(), mechanics, heat], links, RESIDUALS) as system:
-        result = run(
-            system,
-            GaussSeidel(ORDER, "linear"),
-            stop=float(KINKS[-1]),
-            macro_step=macro_step,
-            control=control,
-            events=KINKS[1:-1].tolist(),
-        )
+def belt(**how):
+    result = coupled(
+        CASE,
+        GaussSeidel(("drive", *ORDER), "linear"),
+        Drive(),
+        links=[Connection("drive.speed", "mechanics.surface_speed")],
+        stop=float(KINKS[-1]),
+        events=KINKS[1:-1].tolist(),
+        **how,
+    )
     assert result.status == "complete", result.reason
     return result
 
@@ -97,7 +76,7 @@ def errors(result, reference):
 
 def steps_made(result):
     """Of the heat model: those taken back and made again count."""
-    return result.statistics.participants[THERMAL].steps
+    return result.statistics.participants["thermal"].steps
 
 
 @pytest.mark.slow
@@ -108,7 +87,7 @@ def test_adaptive_steps_are_a_fifth_of_fixed_ones_at_equal_error():
     where rounding makes an adaptive step stand or be repeated, its error changes, even twofold.
     The reference has a third of the tolerance; by fixed steps of 5 ms the errors are of one size.
     """
-    reference, chosen, fixed = adaptive(1e-3), adaptive(3e-3), belt(FIXED_STEP)
+    reference, chosen, fixed = adaptive(1e-3), adaptive(3e-3), belt(macro_step=FIXED_STEP)
     for adapted, plain in zip(errors(chosen, reference), errors(fixed, reference), strict=True):
         assert adapted <= plain
     assert 5 * steps_made(chosen) <= steps_made(fixed)

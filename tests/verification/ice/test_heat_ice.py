@@ -19,19 +19,9 @@ ASYMPTOTIC = 0.5
 
 
 def cylinder(radial=6, axial=10, h=0.0, **other):
-    return Cylinder(
-        Ice(
-            height=HEIGHT,
-            conductivity=K,
-            density=RHO,
-            heat_capacity=C,
-            air_heat_transfer=h,
-            radial_elements=radial,
-            axial_elements=axial,
-        ),
-        A,
-        **other,
-    )
+    """Of the default's ice."""
+    elements = {"radial_elements": radial, "axial_elements": axial}
+    return Cylinder(Ice(air_heat_transfer=h, **elements), A, **other)
 
 
 @pytest.mark.parametrize(("t", "error"), [(1e-3, 6e-3), (1e-2, 2e-3), (1.0, 5e-4), (30.0, 5e-4)])

@@ -2,36 +2,19 @@
 
 from __future__ import annotations
 
-import subprocess
 import zipfile
 from pathlib import Path
 
-import fmpy
 import numpy as np
-from c_library import compiler
+from c_units import made
 
 from cosim.coupling import Connection, CoupledSystem, FmuParticipant
-from cosim.fmu.native import native_folder
 
 NAMES = ("first", "second")
-STARTS = {"first": 1.0, "second": 0.0}
+STARTS = {"first": "1.0", "second": "0.0"}
 LINKS = (("first.x", "second.other"), ("second.x", "first.other"))
 SYSTEM = "oscillators.ssp"
 
-DESCRIPTION = """<?xml version="1.0" encoding="UTF-8"?>
-<fmiModelDescription fmiVersion="2.0" modelName="{name}" guid="{name}">
-  <CoSimulation modelIdentifier="oscillator" canGetAndSetFMUstate="true"
-    canHandleVariableCommunicationStepSize="true" canInterpolateInputs="true"/>
-  <DefaultExperiment startTime="0" stopTime="1" stepSize="0.01"/>
-  <ModelVariables>
-    <ScalarVariable name="other" valueReference="0" causality="input" variability="continuous">
-      <Real start="0"/></ScalarVariable>
-    <ScalarVariable name="x" valueReference="1" causality="output" variability="continuous"
-      initial="exact"><Real start="{start}"/></ScalarVariable>
-  </ModelVariables>
-  <ModelStructure><Outputs><Unknown index="2"/></Outputs></ModelStructure>
-</fmiModelDescription>
-"""
 STRUCTURE = """<?xml version="1.0" encoding="UTF-8"?>
 <ssd:SystemStructureDescription name="oscillators" version="1.0"
     xmlns:ssd="http://ssp-standard.org/SSP1/SystemStructureDescription"
@@ -54,17 +37,13 @@ COMPONENT = """
 
 
 def build(folder: Path) -> list[Path]:
-    """Compile the unit, write `first.fmu`, `second.fmu` and the system of them; the two units."""
-    library = folder / f"oscillator{fmpy.sharedLibraryExtension}"
-    command = [*compiler(), "-O2", "-shared", "-fPIC", "-I", str(native_folder() / "headers")]
-    source = Path(__file__).with_name("oscillator.c")
-    subprocess.run([*command, str(source), "-o", str(library), "-lm"], check=True)
-    units = [folder / f"{name}.fmu" for name in NAMES]
-    for unit in units:
-        text = DESCRIPTION.format(name=unit.stem, start=STARTS[unit.stem])
-        with zipfile.ZipFile(unit, "w") as archive:
-            archive.writestr("modelDescription.xml", text)
-            archive.write(library, f"binaries/{fmpy.platform}/{library.name}")
+    """Write `first.fmu`, `second.fmu` and the system of them; the two units."""
+    units = [
+        made("oscillator", folder, **{"{name}": name, "{start}": start}).rename(
+            folder / f"{name}.fmu"
+        )
+        for name, start in STARTS.items()
+    ]
     links = [(*source.split("."), *sink.split(".")) for source, sink in LINKS]
     text = STRUCTURE.format(
         components="".join(COMPONENT.format(name=name) for name in NAMES),

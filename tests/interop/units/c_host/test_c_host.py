@@ -3,13 +3,12 @@
 import shutil
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import fmpy
 import numpy as np
 import pytest
-from c_library import SANITIZERS, Host, compiled, compiler, host_in
+from c_library import SANITIZERS, Host, compiled, compiler, host_in, unpacked
 from native_unit import library_of, references
 from plain_start import PLAIN
 from stickslip import Parameters, simulate
@@ -29,12 +28,7 @@ pytestmark = [
 @pytest.fixture(scope="module")
 def sources(fmu, tmp_path_factory):
     """Folder of the sources that the unit brings along."""
-    folder = tmp_path_factory.mktemp("unit")
-    with zipfile.ZipFile(fmu) as archive:
-        archive.extractall(
-            folder, [name for name in archive.namelist() if name.startswith("sources/")]
-        )
-    return folder / "sources"
+    return unpacked(fmu, tmp_path_factory.mktemp("unit"), "sources")
 
 
 @pytest.fixture(scope="module")
@@ -51,14 +45,12 @@ def test_the_motion_is_that_of_the_kernel_to_the_last_bit(run, output):
     assert run(output, 256, STEP, **PLANAR) == kernel[output][1:].tolist()
 
 
-def test_a_hundred_instances_are_each_as_alone(run):
-    alone = run("x", 200, STEP)[-1]
-    assert run("x", 200, STEP, 100) == [alone] * 100
-
-
-def test_instances_in_eight_threads_are_each_as_alone(run):
-    alone = run("x", 500, STEP, **PLANAR)[-1]
-    assert run("x", 500, STEP, 4, 8, **PLANAR) == [alone] * 32
+@pytest.mark.parametrize(
+    ("steps", "instances", "threads", "values"), [(200, 100, 1, {}), (500, 4, 8, PLANAR)]
+)
+def test_instances_are_each_as_alone_also_in_threads(run, steps, instances, threads, values):
+    alone = run("x", steps, STEP, **values)[-1]
+    assert run("x", steps, STEP, instances, threads, **values) == [alone] * instances * threads
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from pathlib import Path
 import fmpy
 import numpy as np
 import pytest
-from c_library import HOST, Host
+from c_library import HOST, Host, unpacked
 from native_unit import references
 from plain_start import PLAIN
 from stickslip import Parameters, simulate
@@ -124,9 +124,8 @@ def heat(host, made, tmp_path_factory):
     """The heat's unit as a file, and its library for Windows."""
     folder = tmp_path_factory.mktemp("heat")
     fmu, library = made(THERMAL, native_unit, folder)
-    with zipfile.ZipFile(fmu) as archive:
-        archive.extractall(folder, [n for n in archive.namelist() if n.startswith("resources/")])
-    return fmu, host(library, native_unit, folder / "resources", references(reduced()))
+    resources = unpacked(fmu, folder, "resources")
+    return fmu, host(library, native_unit, resources, references(reduced()))
 
 
 PLANAR = {"lateral_friction": {"ratio": 1.0}, "initial": {"phi": 0.05}}

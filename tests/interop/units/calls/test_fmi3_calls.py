@@ -4,23 +4,7 @@ import ctypes
 from ctypes import byref, c_double, c_uint, c_void_p
 
 import pytest
-from c_instance import ERROR
 from fmi3_unit import references
-
-
-@pytest.mark.parametrize(
-    ("changed", "said"),
-    [
-        ({"token": b"{0}"}, "the instantiation token is not that of this unit"),
-        ({"name": None}, "has no name"),
-        ({"required": 1}, "has no intermediate update"),
-    ],
-)
-def test_an_instance_that_cannot_be_is_none(unit3, changed, said):
-    block = unit3.instance(**changed)
-    ((status, category, text),) = block.messages
-    assert block.handle is None
-    assert (status, category) == (ERROR, "logStatusError") and said in text
 
 
 def test_scheduled_execution_is_refused(unit3):

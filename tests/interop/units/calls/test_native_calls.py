@@ -46,21 +46,31 @@ def running(block):
         ({"kind": NO_KIND}, "this unit is for"),
         ({"name": None}, "has no name"),
         ({"name": b""}, "has no name"),
+        ({"token": b"{0}"}, "the instantiation token is not that of this unit"),
+        ({"required": 0, "name": None}, "has no name"),
+        ({"required": 1}, "has no intermediate update"),
     ],
 )
-def test_an_instance_that_cannot_be_is_none(unit, changed, said):
-    one = unit.instance(**changed)
+def test_an_instance_that_cannot_be_is_none(unit, unit3, changed, said):
+    one = (unit3 if {*changed} & {"token", "required"} else unit).instance(**changed)
     assert one.handle is None
     ((status, category, text),) = one.messages
     assert (status, category) == (ERROR, "logStatusError") and said in text
 
 
-@pytest.mark.parametrize("function", functions(2))
-def test_without_an_instance_a_call_is_an_error(unit, function):
-    nothing = [kind() for kind in functions(2)[function]]
-    assert getattr(unit.library, f"fmi2{function}")(None, *nothing) == ERROR
-    unit.library.fmi2FreeInstance.argtypes = (c_void_p,)
-    unit.library.fmi2FreeInstance(None)
+@pytest.mark.parametrize(("version", "count"), [(2, 40), (3, 70)])
+def test_every_function_of_the_standard_is_there_and_wants_an_instance(unit, unit3, version, count):
+    found, library = functions(version), (unit if version == 2 else unit3).library
+    assert len(found) == count
+    for name, arguments in found.items():
+        nothing = [kind() for kind in arguments]
+        assert getattr(library, f"fmi{version}{name}")(None, *nothing) == ERROR, name
+    free, told = (
+        getattr(library, f"fmi{version}{name}") for name in ("FreeInstance", "GetVersion")
+    )
+    free.argtypes, told.restype = (c_void_p,), c_char_p
+    free(None)
+    assert told() == f"{version}.0".encode()
 
 
 # --- calls that are refused in the run ---

@@ -12,12 +12,11 @@ step to follow.
 import random
 from functools import cache
 
-import fmpy
 import numpy as np
 import pytest
-from exchange_host import PLANE, values
 from fmpy import simulate_fmu, sundials
-from fmpy.fmi2 import FMU2Slave
+from fmpy_slave import fmpy_slave
+from plain_start import values
 
 STOP, STEP, SHOWN = 6.0, 1e-3, 0.01
 #: Pretension and the finest own steps: what is compared is the hosts'.
@@ -43,7 +42,11 @@ DRIVES = {
     "kinks": table([0.0, 1.0, 2.5, 3.0, 4.0, STOP], [0.05, 0.15, 0.02, 0.2, -0.05, 0.1]),
     "steps": table([0.0, 2.0, 2.0, 4.0, 4.0, STOP], [0.1, 0.1, 0.05, 0.05, 0.2, 0.2]),
 }
-SLAB = {**PLANE, "turning_surface": {"curvature": 1.0}, "initial": {"phi": 0.05, "y": 0.005}}
+SLAB = {
+    "lateral_friction": {"ratio": 1.0},
+    "turning_surface": {"curvature": 1.0},
+    "initial": {"phi": 0.05, "y": 0.005},
+}
 CASES = {
     **{name: (name, {}) for name in DRIVES},
     "slab": ("sine", SLAB),
@@ -91,39 +94,25 @@ def exchanged(unit, drive, tables, tolerance):
 
 def own(unit, folder, drive, tables):
     """The same in co-simulation, with the derivative of the table."""
-    description = fmpy.read_model_description(str(unit))
-    at = {each.name: each for each in description.modelVariables}
-    slave = FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(fmpy.extract(str(unit), unzipdir=str(folder))),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-    )
-    slave.instantiate()
-    for name, value in starts(drive, tables).items():
-        of = slave.setReal if at[name].type == "Real" else slave.setInteger
-        of([at[name].valueReference], [value if at[name].type == "Real" else int(value)])
-    slave.setupExperiment()
-    slave.enterInitializationMode()
-    slave.exitInitializationMode()
-    times, speeds = drive["time"], drive["surface_speed"]
-    speed, rows = [at["surface_speed"].valueReference], []
+    times, speeds, rows = drive["time"], drive["surface_speed"], []
+    shown = ("x", "heat", "vx", "slip_count")
+    with fmpy_slave(unit, folder) as block:
+        block.begin(**starts(drive, tables))
+        speed = [block.variables["surface_speed"].valueReference]
 
-    def show():
-        real = slave.getReal([at[name].valueReference for name in ("x", "heat", "vx")])
-        rows.append((*real, *slave.getInteger([at["slip_count"].valueReference])))
+        def show():
+            rows.append([block.get(name) for name in shown])
 
-    show()
-    for n in range(round(STOP / STEP)):
-        piece = min(np.searchsorted(times, n * STEP + STEP / 2.0) - 1, len(times) - 2)
-        rate = (speeds[piece + 1] - speeds[piece]) / (times[piece + 1] - times[piece])
-        slave.setReal(speed, [speeds[piece] + rate * (n * STEP - times[piece])])
-        slave.setRealInputDerivatives(speed, [1], [rate])
-        slave.doStep(n * STEP, STEP)
-        if (n + 1) % round(SHOWN / STEP) == 0:
-            show()
-    slave.terminate()
-    slave.freeInstance()
-    return dict(zip(("x", "heat", "vx", "slip_count"), np.array(rows).T, strict=True))
+        show()
+        for n in range(round(STOP / STEP)):
+            piece = min(np.searchsorted(times, n * STEP + STEP / 2.0) - 1, len(times) - 2)
+            rate = (speeds[piece + 1] - speeds[piece]) / (times[piece + 1] - times[piece])
+            block.slave.setReal(speed, [speeds[piece] + rate * (n * STEP - times[piece])])
+            block.slave.setRealInputDerivatives(speed, [1], [rate])
+            block.march(n, 1, STEP)
+            if (n + 1) % round(SHOWN / STEP) == 0:
+                show()
+    return dict(zip(shown, np.array(rows).T, strict=True))
 
 
 @pytest.fixture(scope="module")

@@ -1,19 +1,7 @@
-"""The two units of the heat, native and whole, and an instance of each."""
+"""Both units of the heat, reduced and whole, one after the other, and an instance of each."""
 
 import pytest
 from heat_instance import instance
-
-from cosim.fmu.build import THERMAL, THERMAL_PYTHON
-
-
-@pytest.fixture(scope="session")
-def native(once):
-    return once(THERMAL)
-
-
-@pytest.fixture(scope="session")
-def whole(once):
-    return once(THERMAL_PYTHON)
 
 
 @pytest.fixture(params=["native", "whole"])

@@ -3,13 +3,11 @@
 import struct
 import sys
 import urllib.parse
-import zipfile
 from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_uint, c_void_p
 
 import pytest
 from c_instance import ERROR, OK
-from c_library import SANITIZERS, Host, compiled, compiler, host_in
-from command_line import python
+from c_library import SANITIZERS, Host, compiled, compiler, host_in, unpacked
 from heat_instance import H
 from native_unit import MODEL_EXCHANGE, Unit, references
 
@@ -17,19 +15,6 @@ from cosim.fmu.thermal import native_unit, resources
 from cosim.fmu.thermal.variables import NAME, reduced
 
 # --- the native unit's sources and resources ---
-
-
-def test_a_wheel_s_libraries_are_made_without_the_heat_model(tmp_path):
-    """Where a wheel is made there are pydantic and a compiler; the unit is the same."""
-    missing = ("numpy", "scipy", "skfem", "meshio", "jinja2", "fmpy", "pythonfmu", "thermal")
-    program = """
-import sys
-sys.modules.update(dict.fromkeys(sys.argv[1:]))
-from cosim.fmu.thermal import native_unit
-print(len(native_unit.sources()), native_unit.guid())
-"""
-    told = [python(program, *blocked, cwd=tmp_path).split() for blocked in (missing, ())]
-    assert told[0] == told[1] and int(told[0][0]) > 20
 
 
 @pytest.fixture(scope="module")
@@ -40,12 +25,7 @@ def library(native, tmp_path_factory):
 @pytest.fixture
 def folder(native, tmp_path):
     """Resources in a folder with a name that has to be escaped."""
-    with zipfile.ZipFile(native) as archive:
-        content = archive.read(f"resources/{resources.FILE}")
-    place = tmp_path / "räum 1 %20#?[x]"
-    place.mkdir()
-    (place / resources.FILE).write_bytes(content)
-    return place
+    return unpacked(native, tmp_path, "resources").rename(tmp_path / "räum 1 %20#?[x]")
 
 
 def locations(folder):
@@ -158,9 +138,7 @@ def test_a_state_of_other_bytes_is_refused(library, place):
 def test_a_host_in_c_finds_no_fault(native, place, tmp_path):
     """Sanitizers over sources and host: two threads of two instances, melting, states."""
     options = [*SANITIZERS, "-std=c99", "-Wall", "-Wextra", "-Werror"]
-    with zipfile.ZipFile(native) as archive:
-        archive.extractall(tmp_path, [n for n in archive.namelist() if n.startswith("sources/")])
-    sources = sorted((tmp_path / "sources").glob("*.c"))
+    sources = sorted(unpacked(native, tmp_path, "sources").glob("*.c"))
     library = tmp_path / "unit.so"
     compiled(*options, "-fPIC", "-shared", *sources, "-o", library, "-lm")
     host = Host(

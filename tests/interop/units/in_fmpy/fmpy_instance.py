@@ -1,45 +1,24 @@
 """A unit in fmpy, its variables addressed by their names."""
 
-from contextlib import contextmanager
-
 import pytest
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import fmi2Error
-from fmpy_slave import fmpy_slave
+from fmpy_slave import Slave, fmpy_slave
 from plain_start import PLAIN
 
 SPEED = 0.15
 SLIDING = {"surface_speed": SPEED, **PLAIN}
 
 
-class Instance:
-    """One FMU instance, addressed by variable names."""
+class Instance(Slave):
+    """One of the block's units."""
 
-    def __init__(self, description, slave, log):
-        self.description, self.slave, self.log = description, slave, log
-        self.variables = {v.name: v for v in description.modelVariables}
-        self.is_python = "pythonfmu" in description.generationTool
-
-    def get(self, name):
-        variable = self.variables[name]
-        get = getattr(self.slave, f"get{variable.type}")
-        return get([variable.valueReference])[0]
-
-    def set(self, name, value):
-        variable = self.variables[name]
-        call = getattr(self.slave, f"set{variable.type}")
-        call([variable.valueReference], [value])
+    @property
+    def is_python(self):
+        return "pythonfmu" in self.description.generationTool
 
     def initialise(self, start=0.0, tolerance=None, **values):
-        for name, value in {**SLIDING, **values}.items():
-            self.set(name, value)
-        self.slave.setupExperiment(startTime=start, tolerance=tolerance)
-        self.slave.enterInitializationMode()
-        self.slave.exitInitializationMode()
-
-    def march(self, first, steps, size):
-        for n in range(first, first + steps):
-            self.slave.doStep(n * size, size)
+        self.begin(start, tolerance, **{**SLIDING, **values})
 
     def everything(self):
         return [float(self.get(name)).hex() for name in self.variables]
@@ -58,11 +37,9 @@ class Instance:
         return self.log.take_errors()
 
 
-@contextmanager
 def instance(fmu, directory, logging=True):
     directory.mkdir(exist_ok=True)
-    with fmpy_slave(fmu, directory, logging) as made:
-        yield Instance(*made)
+    return fmpy_slave(fmu, directory, logging, Instance)
 
 
 def refused(call, *arguments, **values):

@@ -37,16 +37,10 @@ fmi2Status fmi2SetupExperiment(fmi2Component unit, fmi2Boolean has_tolerance, fm
     return fmi2OK;
 }
 
-#define NOTHING(function)                                                                          \
-    fmi2Status function(fmi2Component unit)                                                        \
-    {                                                                                              \
-        (void)unit;                                                                                \
-        return fmi2OK;                                                                             \
-    }
-NOTHING(fmi2EnterInitializationMode)
-NOTHING(fmi2ExitInitializationMode)
-NOTHING(fmi2Terminate)
-NOTHING(fmi2Reset)
+fmi2Status fmi2EnterInitializationMode(fmi2Component unit) { return fmi2OK; }
+fmi2Status fmi2ExitInitializationMode(fmi2Component unit) { return fmi2OK; }
+fmi2Status fmi2Terminate(fmi2Component unit) { return fmi2OK; }
+fmi2Status fmi2Reset(fmi2Component unit) { return fmi2OK; }
 
 fmi2Status fmi2SetDebugLogging(fmi2Component unit, fmi2Boolean on, size_t count,
                                const fmi2String categories[])
@@ -140,35 +134,4 @@ const char *fmi2GetTypesPlatform(void)
 const char *fmi2GetVersion(void)
 {
     return fmi2Version;
-}
-
-/* What else hosts look for, and do not call. */
-#define REFUSED(function, ...)                                                                     \
-    fmi2Status function(fmi2Component unit, __VA_ARGS__)                                           \
-    {                                                                                              \
-        return fmi2Error;                                                                          \
-    }
-#define SOME const fmi2ValueReference r[], size_t n
-REFUSED(fmi2GetInteger, SOME, fmi2Integer v[])
-REFUSED(fmi2GetBoolean, SOME, fmi2Boolean v[])
-REFUSED(fmi2GetString, SOME, fmi2String v[])
-REFUSED(fmi2SetInteger, SOME, const fmi2Integer v[])
-REFUSED(fmi2SetBoolean, SOME, const fmi2Boolean v[])
-REFUSED(fmi2SetString, SOME, const fmi2String v[])
-REFUSED(fmi2GetRealOutputDerivatives, SOME, const fmi2Integer o[], fmi2Real v[])
-REFUSED(fmi2GetDirectionalDerivative, SOME, const fmi2ValueReference k[], size_t m,
-        const fmi2Real d[], fmi2Real v[])
-REFUSED(fmi2SerializedFMUstateSize, fmi2FMUstate s, size_t *n)
-REFUSED(fmi2SerializeFMUstate, fmi2FMUstate s, fmi2Byte b[], size_t n)
-REFUSED(fmi2DeSerializeFMUstate, const fmi2Byte b[], size_t n, fmi2FMUstate *s)
-REFUSED(fmi2GetStatus, const fmi2StatusKind k, fmi2Status *s)
-REFUSED(fmi2GetRealStatus, const fmi2StatusKind k, fmi2Real *v)
-REFUSED(fmi2GetIntegerStatus, const fmi2StatusKind k, fmi2Integer *v)
-REFUSED(fmi2GetBooleanStatus, const fmi2StatusKind k, fmi2Boolean *v)
-REFUSED(fmi2GetStringStatus, const fmi2StatusKind k, fmi2String *v)
-
-fmi2Status fmi2CancelStep(fmi2Component unit)
-{
-    (void)unit;
-    return fmi2Error;
 }
