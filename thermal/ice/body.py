@@ -1,25 +1,24 @@
 """A standing block of ice as eigenmodes: warmed at its contact face, cooled by the air, melting.
 
 Its Galerkin space is diagonalised, so a constant flux is advanced exactly, whatever the step.
-Melting lowers the block (see `space`). Within a step the ice sinks at a constant speed and the
-heat that this moves is a constant load, taken at the mean of the temperatures at the step's ends:
-second order in the step. The modes belong to one height; they are formed anew when the present one
-is off by `TOLERANCE` of itself. Temperatures are rises above the air.
+Melting lowers the block (see `thermal.assembly`). Within a step the ice sinks at a constant speed
+and the heat that this moves is a constant load, taken at the mean of the temperatures at the step's
+ends: second order in the step. The modes belong to one height; they are formed anew when the
+present one is off by `TOLERANCE` of itself. Temperatures are rises above the air.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache, partial
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 
+from thermal.assembly import HeatSpace
+from thermal.eigenmodes import eigenmodes
 from thermal.relaxation import STEP_SIZES, decay, mean_decay, mean_response
-
-from .space import IceSpace
 
 Array = NDArray[np.float64]
 
@@ -29,9 +28,6 @@ TOLERANCE = 2e-4
 
 #: Part of the first height that has to be left.
 _LEAST_HEIGHT = 0.05
-
-#: Modes that carry the heat of long times; see `_modes`.
-_SLOWEST = 40
 
 # Heights whose modes are kept: a step that is taken back goes from one to another and returns.
 _MOST_KNOWN = 4
@@ -56,33 +52,19 @@ class Response(NamedTuple):
     loss_forced: float  # J lost to the air for load 1 W on the contact
 
 
-def _modes(space: IceSpace, height_ratio: float) -> tuple[Array, Array]:
-    """Rates (n,) 1/s and shapes (n, n) in the trial space, shapes^T capacity shapes = 1.
-
-    A dense eigensolver errs by rounding times the fastest rate, which over long runs is not small
-    against the slowest. A Rayleigh-Ritz step with the form's factor among the slowest modes, and
-    Rayleigh quotients for all, err by rounding.
-    """
-    factor = space.factor(height_ratio)
-    shapes = eigh(factor.T @ factor, space.capacity)[1]
-    slow = shapes[:, :_SLOWEST]
-    powers = factor @ slow
-    slow[:] = slow @ eigh(powers.T @ powers, slow.T @ space.capacity @ slow)[1]
-    shapes /= np.sqrt(np.sum(shapes * (space.capacity @ shapes), axis=0))
-    return np.sum(np.square(factor @ shapes), axis=0), shapes
-
-
 class IceBody:
     """Temperature of a block of ice in a Galerkin space; `amplitudes` (n,), `rates` (n,) 1/s.
 
     `melted_depth`: how far the face has receded, m.
     """
 
-    def __init__(self, space: IceSpace) -> None:
+    def __init__(self, space: HeatSpace) -> None:
         self.space = space
         self.melted_depth: float = 0.0
         self._fitted_depth = 0.0
-        self._modes = lru_cache(_MOST_KNOWN)(partial(_modes, space))
+        self._modes = lru_cache(_MOST_KNOWN)(
+            lambda height_ratio: eigenmodes(space.factor(height_ratio), space.capacity)
+        )
         self._diagonalise()
         self.amplitudes: Array = np.zeros(self.rates.size)
 

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 from skfem import CellBasis, ElementQuad2, FacetBasis, MeshQuad
 
+from thermal.assembly import Body
 from thermal.grids import graded, grid_points, quadrilaterals
 from thermal.materials import Medium
 
 from .body import IceBody
 from .parameters import Ice
-from .space import Body
 
 Array = NDArray[np.float64]
 

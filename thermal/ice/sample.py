@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from skfem import CellBasis, ElementTetP2, FacetBasis, MeshTet
 
+from thermal.assembly import Body
 from thermal.grids import graded
 from thermal.materials import Medium
 
@@ -27,7 +28,6 @@ from .body import IceBody
 from .krylov import response_space
 from .mesh_file import FLAT, MeshError, read_sample
 from .parameters import Ice
-from .space import Body
 
 Array = NDArray[np.float64]
 
