@@ -26,3 +26,14 @@ def grid_points(x: Array, z: Array) -> Array:
     grid[..., 0] = x[:, None]
     grid[..., 2] = z
     return grid.reshape(-1, 3)
+
+
+def interpolated(field: Array, place: Array) -> Array:
+    """Linearly, of nodes (n, ...) of which the last is followed by the first, at places (m,).
+
+    A place is counted in nodes; it may lie loops ahead or behind.
+    """
+    node = np.floor(place).astype(np.int64)
+    part = (place - node).reshape(-1, *[1] * (field.ndim - 1))
+    found: Array = (1.0 - part) * field[node % len(field)] + part * field[(node + 1) % len(field)]
+    return found

@@ -116,15 +116,10 @@ class SteadySliding:
         self._fluxes: Fluxes | None = None
 
     def _ice_face(self, duration: float) -> IceFace:
-        mean, end = self.ice.free_face(duration)
-        response, area = self.ice.response(duration), self.footprint.area
-        return IceFace(
-            mean,
-            end,
-            response.face_mean * area,
-            response.face_end * area,
-            self.parameters.melting_rise,
-        )
+        area, free = self.footprint.area, self.ice.free_face(duration)
+        mean_response, end_response = self.ice.face_response(duration)
+        melting = self.parameters.melting_rise
+        return IceFace(*free, mean_response * area, end_response * area, melting)
 
     def step(self, duration: float, speed: float | None = None, lifted: bool = False) -> None:
         """Advance by duration (s, > 0) with constant fluxes.
@@ -156,15 +151,8 @@ class SteadySliding:
                 body.warm(-0.5 * self.air_warming * duration)
 
     def _together(self, belt: BeltFace, duration: float, friction: float) -> Fluxes:
-        contact = self.parameters.contact
-        return exchange(
-            belt,
-            self._ice_face(duration),
-            contact.conductance,
-            self.belt.film,
-            friction,
-            contact.belt_side,
-        )
+        ice, contact = self._ice_face(duration), self.parameters.contact
+        return exchange(belt, ice, contact, self.belt.film, friction)
 
     def _apart(self, duration: float) -> Fluxes:
         """Nothing into the belt; the ice's base cools with the mean temperature of the step."""

@@ -21,16 +21,14 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from skfem import BilinearForm, CellBasis, ElementLineP1, MeshLine
 
-from thermal.relaxation import STEP_SIZES, decay, mean_decay, mean_response
+from thermal.relaxation import STEP_SIZES, step
 
 from .parameters import Belt
+from .supports import CONTACT
 from .thickness import thickness_of
 
 Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
-
-#: The faces of the belt.
-CONTACT, BACK = 0, 1
 
 
 def periodic_stiffness(cells: int, cell: float) -> Array:
@@ -95,17 +93,16 @@ class BeltField:
         self.response: Callable[[float], Response] = lru_cache(STEP_SIZES)(self._response)
 
     def _response(self, duration: float) -> Response:
-        x = self.rates * duration
-        mean, response = mean_decay(x), mean_response(x)
+        decay, mean, held, held_mean = step(self.rates, duration)
         entering = self._faces[:, :, None] / self.cell
-        pairs = np.einsum("am,bm,mk->abk", self._faces, entering[..., 0], duration * response)
+        pairs = np.einsum("am,bm,mk->abk", self._faces, entering[..., 0], held_mean)
         return Response(
-            decay=decay(x),
+            decay=decay,
             free_mean=self._faces[:, :, None] * mean,
-            forced=entering * duration * mean,
+            forced=entering * held,
             kernels=irfft(pairs, self.cells, axis=-1),
-            loss_free=self._air * duration * mean[:, 0],
-            loss_forced=np.sum(self._air * entering[..., 0] * response[:, 0], axis=1) * duration**2,
+            loss_free=self._air * held[:, 0],
+            loss_forced=duration * np.sum(self._air * entering[..., 0] * held_mean[:, 0], axis=1),
         )
 
     def periodic_response(self, duration: float, shift: int) -> Response:

@@ -85,16 +85,17 @@ class Thickness:
 
     def __init__(self, layers: tuple[Layer, ...], h: float, elements: int, lane: float) -> None:
         body = section(layers, h, elements, lane)
-        places = body.basis.doflocs[0]
-        order = np.argsort(places)
-        space = body.space(np.eye(places.size)[:, order])
-        self.depth: Array = places[order]
-        self.rates, self.shapes = eigenmodes(space.factor(1.0), space.capacity)
+        space = body.space(np.eye(body.basis.N))
+        rates, shapes = eigenmodes(space.factor(1.0), space.capacity)
+        along = body.weighted(body.medium.conductivity)
+        order = np.argsort(body.basis.doflocs[0])
+        self.depth: Array = body.basis.doflocs[0][order]
+        self.rates: Array = rates
+        self.shapes: Array = shapes[order]
         self.faces: Array = self.shapes[[0, -1]]
-        self.heat: Array = space.heat @ self.shapes
-        self.air: Array = space.side_air @ self.shapes
-        along = body.weighted(body.medium.conductivity) @ space.trial @ self.shapes
-        self.along: Array = np.sum((space.trial @ self.shapes) * along, axis=0)
+        self.heat: Array = space.heat @ shapes
+        self.air: Array = space.side_air @ shapes
+        self.along: Array = np.sum(shapes * (along @ shapes), axis=0)
 
 
 @lru_cache(maxsize=32)

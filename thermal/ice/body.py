@@ -10,15 +10,14 @@ present one is off by `TOLERANCE` of itself. Temperatures are rises above the ai
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
-from typing import NamedTuple
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from thermal.assembly import HeatSpace
 from thermal.eigenmodes import eigenmodes
-from thermal.relaxation import STEP_SIZES, decay, mean_decay, mean_response
+from thermal.relaxation import STEP_SIZES, Step, step
 
 Array = NDArray[np.float64]
 
@@ -35,21 +34,6 @@ _MOST_KNOWN = 4
 
 class IceMelted(RuntimeError):
     """So much ice has melted that there is no block any more."""
-
-
-class Response(NamedTuple):
-    """What a step of given duration does, per mode unless said."""
-
-    decay: Array
-    mean: Array  # mean of the decay
-    forced: Array  # amplitude at the end for load 1 W on the contact
-    held: Array  # amplitude at the end for load 1 on the mode
-    held_mean: Array  # mean amplitude for load 1 on the mode
-    face_mean: float  # step-mean of the face for 1 W, K/W
-    face_end: float  # end of the face for 1 W, K/W
-    loss_free: Array  # J lost to the air per amplitude
-    loss_held: Array  # J lost to the air for load 1 on the mode
-    loss_forced: float  # J lost to the air for load 1 W on the contact
 
 
 class IceBody:
@@ -77,39 +61,24 @@ class IceBody:
         self._heat = space.heat @ self._shapes
         self._air = space.air(height_ratio) @ self._shapes
         self._sinking = self._shapes.T @ space.sinking @ self._shapes
-        self.response: Callable[[float], Response] = lru_cache(STEP_SIZES)(self._response)
+        self._step: Callable[[float], Step[Array]] = lru_cache(STEP_SIZES)(partial(step, rates))
 
     @property
     def height_ratio(self) -> float:
         """Present height over that at the start, J of `space`: 1 until ice melts."""
         return 1.0 - self.melted_depth / self.space.height
 
-    def _response(self, duration: float) -> Response:
-        x = self.rates * duration
-        mean, response = mean_decay(x), mean_response(x)
-        held, held_mean = duration * mean, duration * response
-        forced = self._face * held
-        return Response(
-            decay=decay(x),
-            mean=mean,
-            forced=forced,
-            held=held,
-            held_mean=held_mean,
-            face_mean=float(np.sum(self._face**2 * held_mean)),
-            face_end=float(self._face @ forced),
-            loss_free=self._air * held,
-            loss_held=self._air * duration * held_mean,
-            loss_forced=float(np.sum(self._air * self._face * held_mean) * duration),
-        )
-
     def face_response(self, duration: float, recession: float = 0.0) -> tuple[float, float]:
         """Contact face for 1 W on the contact, K/W: mean over the step and at its end.
 
         recession: how far the face recedes in the step, m.
         """
-        response = self.response(duration)
+        held, held_mean = self._step(duration)[2:]
         middle, end = self._height_ratios(recession)
-        return response.face_mean / middle, response.face_end / end
+        return (
+            float(np.sum(self._face**2 * held_mean)) / middle,
+            float(self._face @ (self._face * held)) / end,
+        )
 
     def free_face(
         self, duration: float, sinking: Array | None = None, recession: float = 0.0
@@ -118,11 +87,7 @@ class IceBody:
 
         sinking: load on the modes from `sinking`; recession: of the face in the step, m.
         """
-        response = self.response(duration)
-        mean, end = self.amplitudes * response.mean, self.amplitudes * response.decay
-        if sinking is not None:
-            mean = mean + response.held_mean * sinking
-            end = end + response.held * sinking
+        mean, end = self._under(duration, 0.0, sinking)
         ratio_middle, ratio_end = self._height_ratios(recession)
         return float(self._face @ mean) / ratio_middle, float(self._face @ end) / ratio_end
 
@@ -138,15 +103,18 @@ class IceBody:
 
         load: W on the contact; before: an estimate of what is returned.
         """
-        end = self._after(duration, load, before)
+        _, end = self._under(duration, load, before)
         speed = recession / (duration * self._height_ratios(recession)[0])
         return speed * (self._sinking @ (0.5 * (self.amplitudes + end)))
 
-    def _after(self, duration: float, load: float, sinking: Array | None) -> Array:
-        """Amplitudes at the end of a step."""
-        response = self.response(duration)
-        end = self.amplitudes * response.decay + response.forced * load
-        return end if sinking is None else end + response.held * sinking
+    def _under(self, duration: float, load: float, sinking: Array | None) -> tuple[Array, Array]:
+        """Amplitudes in a step under a load (W) on the contact: their mean, and at its end."""
+        loads = self._face * load
+        if sinking is not None:
+            loads = loads + sinking
+        of_step = self._step(duration)
+        mean = self.amplitudes * of_step.mean + of_step.held_mean * loads
+        return mean, self.amplitudes * of_step.decay + of_step.held * loads
 
     def advance(
         self, duration: float, load: float, sinking: Array | None = None, recession: float = 0.0
@@ -156,14 +124,11 @@ class IceBody:
         sinking: load on the modes; recession: of the face in the step, m. IceMelted when less than
         5 % of the height is left.
         """
-        response = self.response(duration)
-        loss = self.amplitudes @ response.loss_free + load * response.loss_forced
-        if sinking is not None:
-            loss += response.loss_held @ sinking
-        self.amplitudes[:] = self._after(duration, load, sinking)
+        mean, self.amplitudes[:] = self._under(duration, load, sinking)
+        loss = duration * float(self._air @ mean)
         if recession != 0.0:
             self._recede(recession)
-        return float(loss)
+        return loss
 
     def _recede(self, depth: float) -> None:
         self.melted_depth += depth

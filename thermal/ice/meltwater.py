@@ -24,8 +24,6 @@ Array = NDArray[np.float64]
 class Meltwater:
     """`melted`: ice that the block has lost, kg; `film` under it; `on_belt`; taken off that by a
     wiper, `wiped` water and `wiped_ice`, kg.
-
-    melting: the melting point, K above the air.
     """
 
     def __init__(
@@ -34,9 +32,9 @@ class Meltwater:
         footprint: Footprint,
         ice: IceBody,
         belt: BeltField,
-        melting: float,
     ) -> None:
         of_ice, contact = parameters.ice, parameters.contact
+        melting = parameters.melting_rise
         self._footprint = footprint
         self._latent = of_ice.latent_heat
         self._wiper = contact.wiper
