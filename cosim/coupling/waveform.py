@@ -83,7 +83,4 @@ def through(points: Sequence[tuple[float, float]], size: float) -> Waveform:
     t2, u2 = points[2]
     bend = ((u2 - u1) / (t2 - t1) - slope) / (t2 - t0)
     # u0 + slope (t - t0) + bend (t - t0)(t - t1)
-    return Waveform(
-        (u0 - slope * t0 + bend * t0 * t1, slope - bend * (t0 + t1), bend),
-        size,
-    )
+    return Waveform((u0 - slope * t0 + bend * t0 * t1, slope - bend * (t0 + t1), bend), size)

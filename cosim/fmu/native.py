@@ -28,12 +28,7 @@ from stickslip.status import WHY_NOT
 from cosim.files import write_bytes
 from cosim.fmu import c_tables
 from cosim.fmu.archive import digest_of, guid_of, packed
-from cosim.fmu.description import (
-    UnitFacts,
-    build_description,
-    fmi2_description,
-    fmi3_description,
-)
+from cosim.fmu.description import UnitFacts, build_description, fmi2_description, fmi3_description
 from cosim.fmu.exchange import INDICATORS, variables
 from cosim.fmu.extras import extras
 from cosim.fmu.libraries import FMI2, FMI3, Sources, of_platforms

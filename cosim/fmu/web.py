@@ -45,11 +45,7 @@ def sources(name: str = NAME, catalogue: Catalogue = CATALOGUE) -> dict[str, byt
 def guid(name: str = NAME, catalogue: Catalogue = CATALOGUE) -> str:
     """Of what a module is made from, by which a wheel's is known to be of today's content."""
     unit = native.guid(catalogue) if name == NAME else native_unit.guid()
-    made_from = {
-        "unit": unit.encode(),
-        "maker": Path(__file__).read_bytes(),
-        **_written(name),
-    }
+    made_from = {"unit": unit.encode(), "maker": Path(__file__).read_bytes(), **_written(name)}
     return guid_of(name, digest_of(made_from).hexdigest())
 
 

@@ -125,8 +125,7 @@ class Scenario(Parameters):
         pattern=r'^[^\s./\\:*?"<>|\x00-\x1f][^/\\:*?"<>|\x00-\x1f]*$',
     )
     effects: tuple[str, ...] = Field(
-        (),
-        description="files of custom effects, beside the scenario's file: their code is run",
+        (), description="files of custom effects, beside the scenario's file: their code is run"
     )
     defaults: Literal["rig", "plain"] = Field(
         "plain",

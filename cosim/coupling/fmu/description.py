@@ -78,6 +78,17 @@ def is_fmi3(description: ModelDescription) -> bool:
     return found
 
 
+def takes_waveforms(description: ModelDescription) -> bool:
+    """Whether a unit interpolates its inputs by their derivatives; FMI 3.0 has none."""
+    return not is_fmi3(description) and bool(description.coSimulation.canInterpolateInputs)
+
+
+def may_end_early(description: ModelDescription) -> bool:
+    """Whether a unit can end a step before its end; none of FMI 2.0 can."""
+    able = description.coSimulation
+    return is_fmi3(description) and bool(able.mightReturnEarlyFromDoStep or able.hasEventMode)
+
+
 def _check(path: Path, description: ModelDescription) -> None:
     version = description.fmiVersion
     if version != "2.0" and not re.fullmatch(r"3\.\d+(\.\d+)?", version):

@@ -51,11 +51,6 @@ class Fmi2(Instance):
         self.free_state = fmu.freeFMUstate
         self._rates: dict[tuple[int, ...], tuple[Any, Any, Any]] = {}
 
-    @staticmethod
-    def takes_waveforms(description: ModelDescription) -> bool:
-        """Whether a unit interpolates its inputs by their derivatives."""
-        return bool(description.coSimulation.canInterpolateInputs)
-
     def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
         """From start to stop, s; before anything is set: some units then forget what was."""
         self._fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)

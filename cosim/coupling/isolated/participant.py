@@ -42,11 +42,7 @@ class IsolatedParticipant(Closing):
     """
 
     def __init__(
-        self,
-        factory: Callable[..., Any],
-        *arguments: Any,
-        time_limit: float = 60.0,
-        **named: Any,
+        self, factory: Callable[..., Any], *arguments: Any, time_limit: float = 60.0, **named: Any
     ):
         if not (math.isfinite(time_limit) and time_limit > 0.0):
             raise CouplingError(f"time_limit = {time_limit:g} s: must be greater than 0, finite")

@@ -180,9 +180,7 @@ def _listen(process: subprocess.Popen[bytes], lines: Lines) -> None:
 
 
 def _end(
-    process: subprocess.Popen[bytes],
-    line: Connection,
-    scratch: tempfile.TemporaryDirectory[str],
+    process: subprocess.Popen[bytes], line: Connection, scratch: tempfile.TemporaryDirectory[str]
 ) -> None:
     if process.poll() is None:
         process.kill()
