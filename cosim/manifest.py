@@ -1,7 +1,5 @@
 """Whose the files of a result folder are: those of one run, listed there, and everybody else's."""
 
-from __future__ import annotations
-
 import json
 import logging
 import shlex

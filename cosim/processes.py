@@ -3,8 +3,6 @@
 By joblib's loky, one thread each: two processes of BLAS on two cores would else be four.
 """
 
-from __future__ import annotations
-
 import multiprocessing
 import os
 import pickle

@@ -20,8 +20,6 @@ Quadratic forms are kept as factors F with F^T F the form. Rates that are sums o
 rounding relative to themselves, not to the fastest rate.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial

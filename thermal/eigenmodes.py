@@ -4,8 +4,6 @@ With the eigenmodes K phi = lambda C phi, phi^T C phi = 1, of C u' + K u = 0 any
 load is propagated exactly.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import eigh

@@ -1,7 +1,5 @@
 """Tensor grids: where their lines lie, and their quadrilaterals as files for ParaView hold them."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

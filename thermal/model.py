@@ -1,7 +1,5 @@
 """Belt and ice, joined by the contact: the thermal model that a coupled run advances."""
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -10,8 +10,6 @@ no mere line to the eye. A file appears under its name only when it is complete 
 replaced as a whole, so whatever interrupts a run, what was written before stays readable.
 """
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Sequence

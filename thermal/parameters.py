@@ -1,7 +1,5 @@
 """What belt, ice, contact and ambient air are together: checked numbers with units and sources."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches

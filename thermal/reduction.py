@@ -10,8 +10,6 @@ Modes of the operators, as many, with a static correction for those that are lef
 times as much: what is left out has a memory of milliseconds, and a step is as short.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

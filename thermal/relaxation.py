@@ -1,7 +1,5 @@
 """Exact time integrals of u' = -rate u + p with p constant over a step; rates may be complex."""
 
-from __future__ import annotations
-
 from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np

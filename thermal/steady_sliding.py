@@ -12,8 +12,6 @@ The strips of the contact, the supports and the heat exchange with the ice are t
 travel with the belt.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

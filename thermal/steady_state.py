@@ -6,8 +6,6 @@ a' = decay a + forced p from one step, and a' = a exp(i k d) from the belt's tra
 that go with it solve the conditions of the contact as in any step.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .contact.exchange import IceFace, exchange

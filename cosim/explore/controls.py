@@ -4,8 +4,6 @@ Name, unit, bounds, words and typical range are those that scenarios, the FMU an
 show, too; a new effect has its sliders at once.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from typing import Any, Literal, get_args, get_origin

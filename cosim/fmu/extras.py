@@ -4,8 +4,6 @@ A terminal groups what is connected together; two of the same kind fit each othe
 (FMI 3.0, section 2.4.9).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from importlib.metadata import distribution
 from importlib.resources import files

@@ -6,8 +6,6 @@ was compiled while the package was made into a wheel (see `build/hook.py`) is ta
 today's content; else it is compiled here.
 """
 
-from __future__ import annotations
-
 import json
 import zipfile
 import zlib

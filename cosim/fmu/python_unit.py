@@ -9,8 +9,6 @@ What travels inside StickSlip3DOF is pure Python of the standard library: the sl
 effects' declarations stay behind, and pydantic with them.
 """
 
-from __future__ import annotations
-
 import json
 import pprint
 import re

@@ -1,7 +1,5 @@
 """What StickSlip3DOF has for variables: ports and parameters, in the order of their references."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass, replace

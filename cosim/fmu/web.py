@@ -5,8 +5,6 @@ and packed, random numbers drawn and refusals said by the same C. Compiled by zi
 brings sin, exp and the others: nothing is asked of the browser.
 """
 
-from __future__ import annotations
-
 from functools import cache, partial
 from pathlib import Path
 

@@ -4,8 +4,6 @@ The set is `defaults.toml` beside this file. The FMU starts from it, too; `Scena
 and `Parameters()` in Python begin from the plain model, in which every effect is off.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from functools import cache

@@ -8,8 +8,6 @@ is off; what a file leaves out is as of a rig (`cosim.scenario.defaults`), unles
 `defaults = "plain"`.
 """
 
-from __future__ import annotations
-
 import logging
 import math
 import os

@@ -3,8 +3,6 @@
 Scenarios, campaigns and the keys of a sweep go through here.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal, TypeVar, get_args, get_origin

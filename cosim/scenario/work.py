@@ -5,8 +5,6 @@ factor of ten or so. It decides between minutes and days; a run.patience that is
 anything through that the models can do.
 """
 
-from __future__ import annotations
-
 from stickslip import Parameters
 from stickslip.status import (
     MOST_STEPS_PER_SECOND,

@@ -9,8 +9,6 @@ which is advanced exactly for loads that are constant over a step. Temperatures 
 the air.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import NamedTuple

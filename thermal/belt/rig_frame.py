@@ -9,8 +9,6 @@ loops the belt makes. The contact's strips and the supports are rows: places wit
 own, whose loads are exact Fourier coefficients. Temperatures are rises above the air.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import NamedTuple
 

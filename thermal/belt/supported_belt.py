@@ -1,7 +1,5 @@
 """The belt with what touches it: the ice on the contact face, railing and rollers at the back."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 

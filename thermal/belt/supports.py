@@ -11,8 +11,6 @@ to the air over the whole back, which a support covers. The strips of all suppor
 before the contact is solved, so that the contact sees a belt that knows its supports.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -11,8 +11,6 @@ conduction along the layers couples the modes: second order in a term that itsel
 temperatures by less than 1 %.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np

@@ -24,8 +24,6 @@ exactly, and m is what remains. A film of water on the face freezes before the f
 is then negative, down to what the film holds.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import partial
 

@@ -14,8 +14,6 @@ on the hat functions of a uniform mesh, and their mean over a movement, are diff
 repeated integrals of the rectangle, and therefore exact wherever the edges fall.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 

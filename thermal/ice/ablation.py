@@ -10,8 +10,6 @@ and the sinking of the ice that it causes depend on each other: both are found b
 iteration within the step.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import NamedTuple

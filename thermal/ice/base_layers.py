@@ -7,8 +7,6 @@ as high. The sample's shape stays exactly what it is. Under a constant flux such
 elements err by 0.07 % of the face's rise, layers cut at a third by 0.16 %, at a half by 0.02 %.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

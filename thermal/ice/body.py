@@ -7,8 +7,6 @@ ends: second order in the step. The modes belong to one height; they are formed 
 present one is off by `TOLERANCE` of itself. Temperatures are rises above the air.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import lru_cache, partial
 

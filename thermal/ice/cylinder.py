@@ -5,8 +5,6 @@ cooling on side and top, a flux on the part of the bottom that lies on the belt,
 rest of the bottom. All eigenmodes are kept. Temperatures are rises above the air.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

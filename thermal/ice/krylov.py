@@ -8,8 +8,6 @@ Systems, 2005). The error falls geometrically with the number of shifts in a dec
 constant in the space, heat is conserved to rounding.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix, diags

@@ -1,7 +1,5 @@
 """What becomes of ice that melts: film under the block, water and ice on the belt."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np

@@ -5,8 +5,6 @@ tetrahedra the corners are taken. What would give wrong temperatures is refused:
 piece, is folded or flat somewhere, has a hollow inside, or is in another unit.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 from pathlib import Path

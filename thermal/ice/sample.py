@@ -10,8 +10,6 @@ mesh to 1e-6. The mesh's own error remains, as does that of a base facet that th
 crosses: it counts by quadrature.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

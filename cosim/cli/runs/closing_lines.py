@@ -1,7 +1,5 @@
 """What a run says on the terminal when it has ended, in a few lines of its summary's numbers."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`stickslip couple`: any system of units, from an SSP or a TOML file."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import sys

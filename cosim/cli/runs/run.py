@@ -1,7 +1,5 @@
 """`stickslip run`: the coupled case, begun or resumed."""
 
-from __future__ import annotations
-
 import shlex
 import time
 from argparse import Namespace

@@ -1,7 +1,5 @@
 """A run on the command line: its scenario, its progress, its files, its last lines."""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping

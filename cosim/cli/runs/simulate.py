@@ -1,7 +1,5 @@
 """`stickslip simulate`: the mechanics alone."""
 
-from __future__ import annotations
-
 import time
 from argparse import Namespace
 

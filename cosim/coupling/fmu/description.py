@@ -1,7 +1,5 @@
 """What a unit declares about itself, and whether it is one that can be coupled here."""
 
-from __future__ import annotations
-
 import os
 import re
 from functools import lru_cache

@@ -1,7 +1,5 @@
 """An instance of FMI 2.0."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from ctypes import c_char_p, c_double, c_int, c_uint

@@ -1,7 +1,5 @@
 """An instance of FMI 3.0: its steps may end early, its events are handled where it has any."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Mapping, Sequence
 from ctypes import byref, c_bool, c_char_p, c_double, c_float, c_int64

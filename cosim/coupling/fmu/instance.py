@@ -3,8 +3,6 @@
 A participant asks of `Fmi2` and `Fmi3` the same, whichever it has.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
 

@@ -1,7 +1,5 @@
 """An FMI 2.0 or 3.0 co-simulation FMU as a participant, through fmpy."""
 
-from __future__ import annotations
-
 import copy
 import json
 import os

@@ -1,7 +1,5 @@
 """A participant that lives in a process of its own, and looks from here as if it did not."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import pickle

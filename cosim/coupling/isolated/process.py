@@ -1,7 +1,5 @@
 """The other process: started unheard by signals, heard in all it says, ended whatever happens."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import pickle

@@ -1,7 +1,5 @@
 """What a unit says of itself, whatever the version of FMI."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -6,8 +6,6 @@ which libcosim takes by itself, and ecos by its name; fmpy takes one from a file
 there as well, with the components' names before the parameters'.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any

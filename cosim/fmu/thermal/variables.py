@@ -3,8 +3,6 @@
 Nothing here imports the heat model: where a wheel is made there is no scikit-fem.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
