@@ -26,13 +26,12 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import spmatrix
 from skfem import BilinearForm, CellBasis, FacetBasis, LinearForm
 
+from .arrays import Array
 from .materials import Medium
 
-Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 
 #: Elements whose gradients are held at a time.

@@ -5,10 +5,9 @@ load is propagated exactly.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
 
-Array = NDArray[np.float64]
+from .arrays import Array
 
 #: Modes that carry the heat of long times; see `eigenmodes`.
 _SLOWEST = 40

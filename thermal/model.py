@@ -3,8 +3,8 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Array
 from .belt.material_frame import BeltField
 from .belt.supported_belt import SupportedBelt
 from .contact.exchange import Fluxes, IceFace, exchange
@@ -16,8 +16,6 @@ from .ice.meltwater import Meltwater
 from .ice.sample import Sample
 from .ledger import HeatLedger
 from .parameters import ThermalParameters
-
-Array = NDArray[np.float64]
 
 #: Longest movement of the patch in one internal step, as a share of the contact's length; longer
 #: macro steps are cut. At 1/16 the temperatures err by 0.1 % of their rise, at 1/8 by 0.3 %.

@@ -19,12 +19,10 @@ from xml.etree import ElementTree
 
 import meshio
 import numpy as np
-from numpy.typing import NDArray
 
+from .arrays import Array
 from .grids import grid_points, interpolated, quadrilaterals
 from .model import BeltIceModel
-
-Array = NDArray[np.float64]
 
 
 class RigView(NamedTuple):

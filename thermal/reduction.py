@@ -13,10 +13,10 @@ times as much: what is left out has a memory of milliseconds, and a step is as s
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
 
+from .arrays import Array
 from .assembly import HeatSpace
 from .belt.parameters import Belt
 from .belt.thickness import section
@@ -25,8 +25,6 @@ from .ice.block import standing_block
 from .ice.krylov import response_space
 from .materials import GRAVITY
 from .parameters import ParameterError, ThermalParameters
-
-Array = NDArray[np.float64]
 
 #: Shifts (1/s) at which the belt's answer is that of all its functions: from the tenth part of a
 #: short step to the slowest of its modes, each at most so many times the next; and, over the rate

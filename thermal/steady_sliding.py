@@ -18,6 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Array
 from .belt.rig_frame import BeltSeries
 from .contact.exchange import BeltFace, Fluxes, IceFace, exchange
 from .contact.footprint import Footprint
@@ -25,8 +26,6 @@ from .ice.block import standing_block
 from .ice.body import IceBody
 from .parameters import ThermalParameters
 from .steady_state import FOREVER, check_gives_heat
-
-Array = NDArray[np.float64]
 
 #: First steps of a transient: parts of the usual one, since fluxes start like the root of time.
 _START = (1 / 32, 1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2)

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from thermal.arrays import Array
 from thermal.contact.footprint import Footprint
 from thermal.relaxation import step
 
@@ -22,7 +23,6 @@ from .parameters import Belt
 from .supports import Eliminated, Places
 from .thickness import thickness_of
 
-Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
 
 #: Steps whose response is kept: those of a ramp, for the next one.

@@ -3,17 +3,14 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
 from numpy.fft import rfft
-from numpy.typing import NDArray
 
+from thermal.arrays import Array
 from thermal.contact.footprint import Footprint, strip_loads
 
 from .material_frame import BeltField, FluxPatch, Response
 from .parameters import Belt
 from .supports import CONTACT, Eliminated, Places
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

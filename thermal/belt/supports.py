@@ -14,14 +14,12 @@ before the contact is solved, so that the contact sees a belt that knows its sup
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from thermal.arrays import Array
 from thermal.contact.exchange import BeltFace
 from thermal.contact.footprint import Footprint
 
 from .parameters import Belt
-
-Array = NDArray[np.float64]
 
 #: The faces of the belt.
 CONTACT, BACK = 0, 1

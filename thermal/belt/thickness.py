@@ -17,14 +17,13 @@ import numpy as np
 from numpy.typing import NDArray
 from skfem import CellBasis, ElementLineP2, FacetBasis, MeshLine
 
+from thermal.arrays import Array
 from thermal.assembly import Body
 from thermal.eigenmodes import eigenmodes
 from thermal.grids import graded
 from thermal.materials import Medium
 
 from .parameters import Belt, Layer
-
-Array = NDArray[np.float64]
 
 #: Last element through the thickness over the first, which lies at the contact face.
 _STRETCH = 10.0

@@ -14,11 +14,10 @@ belt, but a wiper in front of the contact may take water and ice off it.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+
+from thermal.arrays import Array
 
 from .footprint import strip_loads
-
-Array = NDArray[np.float64]
 
 
 class BeltWater:

@@ -28,11 +28,10 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
+
+from thermal.arrays import Array
 
 from .parameters import Contact
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

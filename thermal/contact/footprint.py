@@ -15,9 +15,8 @@ repeated integrals of the rectangle, and therefore exact wherever the edges fall
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from thermal.arrays import Array
 
 
 def disc_on_strip(radius: float, width: float) -> float:

@@ -12,7 +12,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from thermal.arrays import Array
+
 Cells = NDArray[np.int64]
 Nodes = NDArray[np.bool_]
 

@@ -11,13 +11,11 @@ from collections.abc import Callable
 from functools import lru_cache, partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from thermal.arrays import Array
 from thermal.assembly import HeatSpace
 from thermal.eigenmodes import eigenmodes
 from thermal.relaxation import STEP_SIZES, Step, step
-
-Array = NDArray[np.float64]
 
 #: Change of the height, relative, that the modes bear; the conductance upwards then errs by twice
 #: that, to one side and the other in turn.

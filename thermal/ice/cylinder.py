@@ -11,14 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 from skfem import CellBasis, ElementQuad2, FacetBasis, MeshQuad
 
+from thermal.arrays import Array
 from thermal.assembly import Body
 from thermal.grids import graded, grid_points, quadrilaterals
 from thermal.materials import Medium
 
 from .body import IceBody
 from .parameters import Ice
-
-Array = NDArray[np.float64]
 
 #: Largest element over smallest: the smallest lie at the contact (height), at the side (radius).
 _AXIAL_STRETCH = 500.0

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from thermal.arrays import Array
 from thermal.belt.material_frame import BeltField
 from thermal.contact.belt_water import BeltWater
 from thermal.contact.exchange import Fluxes, IceFace
@@ -15,8 +15,6 @@ from thermal.parameters import ThermalParameters
 
 from .ablation import Ablation, Receding
 from .body import IceBody
-
-Array = NDArray[np.float64]
 
 
 class Meltwater:

@@ -16,9 +16,9 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 from skfem import MeshTet
 
+from thermal.arrays import Array
 from thermal.parameters import ParameterError
 
-Array = NDArray[np.float64]
 Cells = NDArray[np.int64]
 
 #: Largest and smallest extent of a sample, m: outside lies a slip of the unit.

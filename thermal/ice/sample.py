@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from skfem import CellBasis, ElementTetP2, FacetBasis
 
+from thermal.arrays import Array
 from thermal.assembly import Body
 from thermal.grids import graded
 from thermal.materials import Medium
@@ -26,8 +27,6 @@ from .body import IceBody
 from .krylov import response_space
 from .mesh_file import FLAT, MeshError, mesh_of, read_sample
 from .parameters import Ice
-
-Array = NDArray[np.float64]
 
 #: Highest layer of elements at the base, m: heat is as deep after 40 ms.
 THIN = 2e-4
