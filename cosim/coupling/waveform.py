@@ -1,7 +1,5 @@
 """An input over one macro step, as a function of time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -51,7 +49,7 @@ class Waveform:
             found.append(factorial * coefficient)
         return tuple(found)
 
-    def after(self, time: float, size: float) -> Waveform:
+    def after(self, time: float, size: float) -> "Waveform":
         """The same function for a part of the step: from a time (s since its start), size s long.
 
         By Taylor's series, which is exact for a polynomial.

@@ -3,8 +3,6 @@
 Without the models and their results: `stickslip couple` starts without them.
 """
 
-from __future__ import annotations
-
 import sys
 import time
 from argparse import Namespace
@@ -12,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, Self, TypeVar
 from xml.etree import ElementTree
 
 from cosim.cli import DONE, FAILED, BadInput, Failed, is_bad_input
@@ -129,7 +127,7 @@ class Job(NamedTuple):
         files: Mapping[str, str],
         resume: str,
         of: Mapping[str, str],
-    ) -> Job:
+    ) -> Self:
         """Of a run from its start; wanted, files: what else is kept to go on with it."""
         command, drawn = command_line(), shown(arguments)
         asked = {"resume": resume, "command": command, "shown": drawn, **wanted}
@@ -139,7 +137,7 @@ class Job(NamedTuple):
     @classmethod
     def found(
         cls, folder: RunFolder, asked: Mapping[str, Any], resume: str, of: Mapping[str, str]
-    ) -> Job:
+    ) -> Self:
         """Of a run that was cut off, as it was begun."""
         command = f"{asked.get('command', '')} (interrupted and resumed)"
         return cls(folder, asked.get("shown", PAGE_ALONE), command, False, resume, of)
