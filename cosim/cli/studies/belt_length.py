@@ -17,40 +17,16 @@ from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.scenario import Scenario
-from cosim.studies.belt_length import (
-    Case,
-    Options,
-    Protocol,
-    Study,
-    StudyError,
-    answer_all,
-    cases,
-    check_slides,
-    empty_map,
-    fill_map,
-    ignored_keys,
-    remarks,
-    scenario_case,
-    verdict,
-    with_ranges,
-    work_off,
-)
+from cosim.studies import belt_length as belts
+from cosim.studies.belt_length import cases, work_off
 from cosim.studies.belt_length.lengths import length_text
 from cosim.studies.belt_length.result import PRINTED
-from cosim.studies.belt_length.show.page import (
-    CHANGES,
-    DOUBT,
-    PAGE,
-    RESULT,
-    TABLE,
-    write_numbers,
-    write_page,
-)
+from cosim.studies.belt_length.show import page
 from cosim.studies.belt_length.show.wording import two_digits
 from cosim.studies.belt_length.study import BOUNDS, check_case, check_options, steps
 
 #: The study's rig: speeds and lengths are varied, the rest is a case's default.
-STUDY = Case(1.0, 0.82)
+STUDY = belts.Case(1.0, 0.82)
 
 #: The printed columns in words.
 LEGEND = (
@@ -73,20 +49,21 @@ def execute(arguments: Namespace) -> int:
     began = time.perf_counter()
     scenario, wanted, options = _asked(arguments)
     numbers = numbers_asked(arguments, ("limit", "cases", "verdict"))
-    own_files = (RESULT, TABLE, PAGE, CHANGES, DOUBT)
+    own_files = (page.RESULT, page.TABLE, page.PAGE, page.CHANGES, page.DOUBT)
     folder = own_folder(arguments.output, own_files, arguments.force)
     if scenario is not None:
         _note(scenario)
-    study, status = Study(options, scenario="" if scenario is None else scenario.to_toml()), DONE
+    text, status = "" if scenario is None else scenario.to_toml(), DONE
+    study = belts.Study(options, scenario=text)
     own = None if scenario is None else wanted[0]
-    study.grid = empty_map(arguments.map, own) if arguments.map else None
+    study.grid = belts.empty_map(arguments.map, own) if arguments.map else None
     try:
         with Bar(total=steps(study, wanted, own is not None), unit="run") as bar:
             if own is not None:
-                answer_all(study, wanted, arguments.jobs, bar.update)
+                belts.answer_all(study, wanted, arguments.jobs, bar.update)
             work_off(study, wanted, arguments.jobs, bar.update)
             if study.grid is not None:
-                fill_map(study.grid, wanted[0], arguments.jobs, bar.update)
+                belts.fill_map(study.grid, wanted[0], arguments.jobs, bar.update)
     except KeyboardInterrupt:
         print(
             f"error: interrupted; {len(study.rows)} of {len(wanted)} cases are kept in {folder}",
@@ -95,25 +72,25 @@ def execute(arguments: Namespace) -> int:
         status = FAILED
     made = made_by(scenario=study.scenario or None)
     with results_in(folder, made, force=arguments.force) as results:
-        write_numbers(study, folder)
+        page.write_numbers(study, folder)
         if status == DONE:
-            write_page(study, folder, made["command"])
+            page.write_page(study, folder, made["command"])
             results.complete = True
     _print(study, numbers, folder, time.perf_counter() - began)
     return status
 
 
-def _asked(arguments: Namespace) -> tuple[Scenario | None, list[Case], Options]:
+def _asked(arguments: Namespace) -> tuple[Scenario | None, list[belts.Case], belts.Options]:
     """Scenario, cases and options, all of them checked before anything is computed."""
     check_options(arguments)
     scenario, base, source = None, STUDY, arguments.scenario
     if source is not None:
         scenario = given_scenario(source, arguments.changes)
         with _of_file(source):
-            base = scenario_case(scenario)
+            base = belts.scenario_case(scenario)
     elif arguments.changes:
         raise BadInput("--set: changes keys of a scenario, so a SCENARIO is needed with it")
-    base = with_ranges(replace(base, protocol=_protocol(base, arguments)), arguments.doubt)
+    base = belts.with_ranges(replace(base, protocol=_protocol(base, arguments)), arguments.doubt)
     given = scenario is not None
     if arguments.map is None:
         arguments.map = 12 if given else 30
@@ -128,8 +105,8 @@ def _asked(arguments: Namespace) -> tuple[Scenario | None, list[Case], Options]:
         check_case(case, arguments)
         with _of_file(source):
             if scenario is not None:
-                check_slides(scenario, case)
-    options = Options(arguments.limit, arguments.sensitivity, arguments.samples)
+                belts.check_slides(scenario, case)
+    options = belts.Options(arguments.limit, arguments.sensitivity, arguments.samples)
     return scenario, wanted, options
 
 
@@ -138,23 +115,23 @@ def _of_file(source: str) -> Iterator[None]:
     """Let faults of a scenario begin with its file."""
     try:
         yield
-    except StudyError as error:
-        raise StudyError(f"{source}: {error}") from None
+    except belts.StudyError as error:
+        raise belts.StudyError(f"{source}: {error}") from None
 
 
 def _note(scenario: Scenario) -> None:
     """What was taken, and what is computed otherwise."""
     note_taken(scenario)
-    for remark in remarks(scenario):
+    for remark in belts.remarks(scenario):
         note(remark)
-    if keys := ignored_keys(scenario):
+    if keys := belts.ignored_keys(scenario):
         note(
             f"{', '.join(keys)}: ignored, belt-length has a resolution of its own;"
             " `stickslip run` heeds them"
         )
 
 
-def _protocol(base: Case, arguments: Namespace) -> Protocol:
+def _protocol(base: belts.Case, arguments: Namespace) -> belts.Protocol:
     """The base's, with what the options say."""
     said = {
         name: getattr(arguments, name)
@@ -164,7 +141,7 @@ def _protocol(base: Case, arguments: Namespace) -> Protocol:
     return replace(base.protocol, runs=arguments.runs, lifted=arguments.lifted, **said)
 
 
-def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None:
+def _print(study: belts.Study, asked: Numbers, folder: Path, wall_time: float) -> None:
     if asked.give(json.dumps(study.summary(), indent=1)):
         return
     if study.answers:
@@ -177,45 +154,45 @@ def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None
         print(LEGEND)
         _print_shortest(study)
     if not study.answers:
-        for sentence in verdict(study):
+        for sentence in belts.verdict(study):
             print(sentence)
     if study.rows:
         _print_changes(study)
     cases = f"{len(study.rows)} case{'s' * (len(study.rows) != 1)}"
-    print(f"{cases} in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
+    print(f"{cases} in {wall_time:.1f} s; {folder / page.PAGE}, {folder / page.RESULT}")
 
 
-def _print_answers(study: Study) -> None:
+def _print_answers(study: belts.Study) -> None:
     """Of an own rig: the answer, then its numbers."""
-    for sentence in verdict(study):
+    for sentence in belts.verdict(study):
         print(sentence)
     print("Lengths are rounded up to two digits.")
-    belts = []
+    rows = []
     for answer in study.answers:
         for name, question, ever in (
             (COLD, answer.run, length_text(answer.run.for_ever)),
             (STEADY, answer.interface, "-"),
         ):
             levels = [level.says if level else "-" for level in question.levels]
-            belts.append((name, answer.case.speed, length_text(question.shortest), *levels, ever))
-    _print_belts("shortest belt [m]", ("as said", "5 %", "median", "95 %", "for ever"), belts)
+            rows.append((name, answer.case.speed, length_text(question.shortest), *levels, ever))
+    _print_belts("shortest belt [m]", ("as said", "5 %", "median", "95 %", "for ever"), rows)
 
 
-def _print_shortest(study: Study) -> None:
+def _print_shortest(study: belts.Study) -> None:
     """The shortest belts of the nominal rig, and at the levels of its doubt."""
     print(
         "Shortest belt [m], rounded up to two digits: as the rig is given; in half and in 95 % of"
         " the sampled rigs; for ever"
     )
-    doubted, belts = study.shortest_in_doubt(), []
+    doubted, rows = study.shortest_in_doubt(), []
     for case, row in {row.case.with_length(1.0): row for row in study.rows}.items():
         for name, rise, said, ever in (
             (COLD, "run", row.shortest_run, length_text(row.shortest_steady)),
             (STEADY, "interface", row.shortest_interface, "-"),
         ):
             levels = [doubted[case][rise][level].says or "-" for level in ("median", "high")]
-            belts.append((name, case.speed, length_text(said), *levels, ever))
-    _print_belts("question", ("as said", "median", "95 %", "for ever"), belts)
+            rows.append((name, case.speed, length_text(said), *levels, ever))
+    _print_belts("question", ("as said", "median", "95 %", "for ever"), rows)
 
 
 def _print_belts(what: str, headings: Sequence[str], belts: Iterable[tuple[Any, ...]]) -> None:
@@ -225,7 +202,7 @@ def _print_belts(what: str, headings: Sequence[str], belts: Iterable[tuple[Any, 
         print(f"{name:<22} {speed:11g} " + " ".join(f"{one:>8}" for one in lengths))
 
 
-def _print_changes(study: Study) -> None:
+def _print_changes(study: belts.Study) -> None:
     """What would help, in the case that drifts most."""
     row = study.worst
     print(
