@@ -86,7 +86,4 @@ class SupportedBelt:
         areas = duration * places.areas
         times = areas * (found.free + found.response @ fluxes)
         warmer = times[self._strips :] - areas[self._strips :] * places.rises
-        return (
-            everywhere - self._air * float(times.sum()),
-            float(places.conductances @ warmer),
-        )
+        return everywhere - self._air * float(times.sum()), float(places.conductances @ warmer)

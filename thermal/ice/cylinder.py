@@ -51,10 +51,7 @@ def _radii(radius: float, elements: int, touching: float | None) -> Array:
 
 
 def assembled(
-    parameters: Ice,
-    r: Array,
-    z: Array,
-    arc_share: Callable[[Array], Array] = np.ones_like,
+    parameters: Ice, r: Array, z: Array, arc_share: Callable[[Array], Array] = np.ones_like
 ) -> Body:
     """P2 elements between the radii r and the heights z (m)."""
     mesh = MeshQuad.init_tensor(r, z).with_boundaries(

@@ -23,11 +23,7 @@ class Meltwater:
     """
 
     def __init__(
-        self,
-        parameters: ThermalParameters,
-        footprint: Footprint,
-        ice: IceBody,
-        belt: BeltField,
+        self, parameters: ThermalParameters, footprint: Footprint, ice: IceBody, belt: BeltField
     ) -> None:
         of_ice, contact = parameters.ice, parameters.contact
         melting = parameters.melting_rise
