@@ -1,9 +1,9 @@
 """Processes of this machine that end in good order, however the work is left.
 
-By joblib's loky, one thread each: two processes of BLAS on two cores would else be four.
+Each is a Python of its own, which is told its calls through a pipe and ends with it. It has one
+thread: two processes of BLAS on two cores would else be four.
 """
 
-import multiprocessing
 import os
 import pickle
 import signal
@@ -12,31 +12,20 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
-from concurrent.futures import Future, wait
+from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from itertools import starmap
-from multiprocessing.connection import Connection
-from queue import Empty, Queue, SimpleQueue
+from queue import SimpleQueue
 from typing import Any, TypeVar
-
-from joblib.externals.loky import BrokenProcessPool, ProcessPoolExecutor
 
 from cosim.interrupts import REQUESTS, held_interrupts, unheard_by_children
 
-__all__ = [
-    "BrokenProcessPool",
-    "Map",
-    "apart",
-    "as_finished",
-    "stop_if_told",
-    "pool",
-    "processes",
-]
+__all__ = ["BrokenProcessPool", "Map", "apart", "as_finished", "cores", "pool", "processes",
+           "stop_if_told"]  # fmt: skip
 
 #: A process that has not stopped after this time (s) is killed; one that was just started imports.
 STOP_SECONDS = 10.0
-#: How often (s) a process that has stopped looks whether the one that started it is still there.
-LOOK_SECONDS = 1.0
 ONE_THREAD = dict.fromkeys(
     (
         "OMP_NUM_THREADS",
@@ -53,10 +42,15 @@ Result = TypeVar("Result")
 Map = Callable[[Callable[..., Any], Iterable[tuple[Any, ...]]], Iterator[Any]]
 
 
+def cores() -> int:
+    """Those that this process may use."""
+    return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
+
+
 @contextmanager
 def processes(jobs: int) -> Iterator[Map]:
-    """A map over ``jobs`` processes; over this one for 1, or where it must not have children."""
-    if _alone(jobs):
+    """A map over ``jobs`` processes; over this one for 1."""
+    if jobs <= 1:
         yield starmap
         return
     with pool(jobs) as submit:
@@ -64,8 +58,7 @@ def processes(jobs: int) -> Iterator[Map]:
         def mapped(
             function: Callable[..., Any], arguments: Iterable[tuple[Any, ...]]
         ) -> Iterator[Any]:
-            with held_interrupts(), unheard_by_children():
-                futures = [submit(function, *each) for each in arguments]
+            futures = [submit(function, *each) for each in arguments]
             return (future.result() for future in futures)
 
         yield mapped
@@ -78,59 +71,52 @@ def as_finished(
 
     BrokenProcessPool where one of them died.
     """
-    if _alone(jobs):
-        for each in arguments:
-            yield function(*each)
+    if jobs <= 1:
+        yield from starmap(function, arguments)
         return
     finished: SimpleQueue[Future[Result]] = SimpleQueue()
     with pool(jobs) as submit:
-        with held_interrupts(), unheard_by_children():
-            for each in arguments:
-                submit(function, *each).add_done_callback(finished.put)
+        for each in arguments:
+            submit(function, *each).add_done_callback(finished.put)
         for _ in arguments:
             yield finished.get().result()
-
-
-def _alone(jobs: int) -> bool:
-    """Whether this process does the work: a daemon, of somebody else's pool, has no children."""
-    return jobs <= 1 or multiprocessing.current_process().daemon
 
 
 @contextmanager
 def pool(jobs: int) -> Iterator[Callable[..., Future[Any]]]:
     """What submits work to processes; all of them have ended after the block, however it is left.
 
-    Not by joblib.Parallel, whose folders for shared arrays, of no use here, are removed twice when
-    it is interrupted, nor by killing processes that could end by themselves: what keeps track of
-    their folders and semaphores would complain on the terminal.
+    A thread waits for each of them. Calls under way are told to end, see `stop_if_told`.
     """
-    futures: list[Future[Any]] = []
-    heard, line = multiprocessing.Pipe(duplex=False)
     with held_interrupts():
-        executor = ProcessPoolExecutor(
-            jobs, initializer=_listen, initargs=(heard, os.getpid()), env=ONE_THREAD
-        )
+        workers = [_Worker() for _ in range(jobs)]
+        threads = ThreadPoolExecutor(jobs)
+    idle: SimpleQueue[_Worker] = SimpleQueue()
+    for worker in workers:
+        idle.put(worker)
 
-    def submit(*call: Any) -> Future[Any]:
-        futures.append(executor.submit(*call))
-        return futures[-1]
+    def call(function: Callable[..., Any], *arguments: Any) -> Any:
+        worker = idle.get()
+        try:
+            return worker.call(function, *arguments)
+        finally:
+            idle.put(worker)
+
+    def submit(*work: Any) -> Future[Any]:
+        with held_interrupts():
+            return threads.submit(call, *work)
 
     try:
         yield submit
     finally:
         with held_interrupts():
-            line.close()  # which stops them
-            for future in futures:
-                future.cancel()
-            late = wait(futures, timeout=STOP_SECONDS).not_done
-            _forget_waiting(executor)
-            executor.shutdown(kill_workers=bool(late))
-            heard.close()
-
-
-def _places() -> list[str]:
-    """Where modules are looked for; not in a unit, whose own pythonfmu is without its libraries."""
-    return [place for place in sys.path if os.path.basename(place) != "resources"]
+            threads.shutdown(wait=False, cancel_futures=True)
+            for worker in workers:
+                worker.stop()
+            until = time.monotonic() + STOP_SECONDS
+            for worker in workers:
+                worker.end(max(until - time.monotonic(), 0.0))
+            threads.shutdown()
 
 
 def apart(function: Callable[..., Result], *arguments: Any) -> Result:
@@ -140,64 +126,59 @@ def apart(function: Callable[..., Result], *arguments: Any) -> Result:
     process with it. ``function`` is one of a module, and all that is handed over can be pickled.
     RuntimeError where the process ended without an answer.
     """
-    with held_interrupts(), unheard_by_children():
-        process = subprocess.Popen(
-            [sys.executable, "-c", f"from {__name__} import _answer; _answer()"],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, env={**os.environ, **ONE_THREAD,
-            "PYTHONPATH": os.pathsep.join(_places())},
-        )  # fmt: skip
-    with process:
-        assert process.stdin is not None and process.stdout is not None  # they are pipes
-        try:
-            pickle.dump((function, arguments), process.stdin)
-            process.stdin.flush()  # and stays open: its end is that of whoever waits
-            done, answer = pickle.load(process.stdout)
-        except (EOFError, BrokenPipeError, pickle.UnpicklingError):
-            ended = process.wait()
-            raise RuntimeError(
-                f"the process of {function.__name__} ended without an answer (status {ended}): was "
-                "there not enough memory?"
-            ) from None
-        finally:
-            process.kill()
-    if not done:
-        raise answer
-    result: Result = answer
-    return result
-
-
-def _answer() -> None:
-    """The whole life of the process of `apart`."""
-    answers = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what a library prints is no answer
-    for number in REQUESTS:
-        signal.signal(number, signal.SIG_IGN)
-    function, arguments = pickle.load(sys.stdin.buffer)
-
-    def listen() -> None:
-        os.read(0, 1)  # nothing more is said
-        os._exit(1)
-
-    threading.Thread(target=listen, daemon=True).start()
+    worker = _Worker()
     try:
-        answer = True, function(*arguments)
-    except Exception as error:  # noqa: BLE001 - raised again where it is waited for
-        answer = False, error
-    pickle.dump(answer, answers, protocol=pickle.HIGHEST_PROTOCOL)
-    answers.close()
-    os._exit(0)
+        result: Result = worker.call(function, *arguments)
+        return result
+    finally:
+        worker.end(0.0)
 
 
-def _forget_waiting(executor: ProcessPoolExecutor) -> None:
-    """Drop what no process has: cancelled calls make loky fail where it kills, and then hang.
+class _Worker:
+    """One process. It never gets the signals that ask to end: they are for us."""
 
-    Two attributes of loky's that are not public; `joblib` has an upper bound for their sake.
-    """
-    numbers: Queue[int] = executor._work_ids
-    calls: dict[int, object] = executor._pending_work_items
-    with suppress(Empty):
-        while True:
-            calls.pop(numbers.get_nowait(), None)
+    def __init__(self) -> None:
+        # modules are looked for as here; not in a unit, whose pythonfmu is without its libraries
+        places = [place for place in sys.path if os.path.basename(place) != "resources"]
+        with held_interrupts(), unheard_by_children():
+            self._process = subprocess.Popen(
+                [sys.executable, "-c", f"from {__name__} import _answer; _answer()"],
+                stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                env={**os.environ, **ONE_THREAD, "PYTHONPATH": os.pathsep.join(places)},
+            )  # fmt: skip
+        assert self._process.stdin is not None and self._process.stdout is not None  # pipes
+        self._calls, self._answers = self._process.stdin, self._process.stdout
+
+    def call(self, function: Callable[..., Any], *arguments: Any) -> Any:
+        """Its result; BrokenProcessPool, a RuntimeError, where the process has ended."""
+        work = pickle.dumps((function, arguments), pickle.HIGHEST_PROTOCOL)
+        try:
+            pickle.dump(work, self._calls, pickle.HIGHEST_PROTOCOL)
+            self._calls.flush()
+            done, answer = pickle.load(self._answers)
+        except (EOFError, OSError, pickle.UnpicklingError):
+            self.end(STOP_SECONDS)
+            raise BrokenProcessPool(
+                f"the process of {function.__name__} ended without an answer (status "
+                f"{self._process.returncode}): was there not enough memory?"
+            ) from None
+        if not done:
+            raise answer
+        return answer
+
+    def stop(self) -> None:
+        """Ask it to end."""
+        with suppress(OSError):
+            self._calls.close()
+
+    def end(self, patience: float) -> None:
+        """patience : s until it is killed"""
+        self.stop()
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(patience)
+        self._process.kill()
+        self._process.wait()
+        self._answers.close()
 
 
 _STOPPED = threading.Event()
@@ -209,20 +190,34 @@ def stop_if_told(time: float = 0.0) -> None:
         raise KeyboardInterrupt
 
 
-def _listen(line: Connection, parent: int) -> None:
-    """Begin the life of a process of the pool: it stops when the line breaks."""
+def _answer() -> None:
+    """The whole life of a process: a call, its answer, the next."""
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints is no answer
     for number in REQUESTS:  # where they could not be blocked
         signal.signal(number, signal.SIG_IGN)
+    calls: SimpleQueue[bytes] = SimpleQueue()
+    threading.Thread(target=_listen, args=(calls,), daemon=True).start()
+    answer: tuple[bool, Any]
+    while call := calls.get():
+        try:
+            function, arguments = pickle.loads(call)
+            answer = True, function(*arguments)
+        except Exception as error:  # noqa: BLE001 - raised again where it is waited for
+            answer = False, error
+        except KeyboardInterrupt:  # told to stop
+            break
+        pickle.dump(answer, answers, pickle.HIGHEST_PROTOCOL)
+        answers.flush()
+    os._exit(0)
 
-    def listen() -> None:
-        line.poll(None)  # nothing is ever said
-        _STOPPED.set()
-        _outlive_no(parent)
 
-    threading.Thread(target=listen, daemon=True).start()
-
-
-def _outlive_no(parent: int) -> None:
-    while os.getppid() == parent:
-        time.sleep(LOOK_SECONDS)
-    os._exit(1)  # the parent was killed; it would be waited for, for ever
+def _listen(calls: SimpleQueue[bytes]) -> None:
+    """Take calls until the pipe breaks; by what is then under way nobody is waited for."""
+    with suppress(EOFError):
+        while True:
+            calls.put(pickle.load(sys.stdin.buffer))
+    _STOPPED.set()
+    calls.put(b"")
+    time.sleep(STOP_SECONDS)
+    os._exit(1)

@@ -12,6 +12,7 @@ from cosim.gap.judge import (
     MUCH_MORE,
     NOTHING_MISSING,
     SURE,
+    TURNED,
     explains,
     findings_by_rounds,
     halves,
@@ -28,6 +29,7 @@ from cosim.gap.laws import LawFit
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
 from cosim.gap.result import Rejected, Score
+from cosim.gap.weak_form.camera_faults import SMOOTHING, likeliest_filters
 from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
 from cosim.gap.weak_form.ladder import Finding, price_of
 from cosim.gap.windows.run_model import LOADING
@@ -69,6 +71,7 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
         if unsure := fitting.unsure(named):
             rejected += unsure
             continue
+        named = fitting.with_likeliest_filter(named)
         parts = [fitting.part(named, finding) for finding in named.findings]
         most = max((part.finding.gain for part in parts), default=0.0)
         faint = {part.finding.name for part in parts
@@ -112,6 +115,28 @@ class Fitting:
         """What a finding puts into the model."""
         return part_of(self.campaign, named.system, named.rung, finding, law)
 
+    def with_likeliest_filter(self, named: Named) -> Named:
+        """With a tracker's filter of the kind, and in the runs, that simulated runs prefer.
+
+        Rows are told of it by corners alone: these hardly tell kinds from one another, and nothing
+        of runs whose sticks are shorter than the filter.
+        """
+        if [finding.name for finding in named.findings] != [SMOOTHING]:
+            return named
+        (finding,), rows = named.findings, named.ladder.system.rung()
+        offers = likeliest_filters(rows, named.unknowns[SMOOTHING])
+        forms = [_with_alone(named, replace(finding, gain=gain, added=(added,)))
+                 for gain, added in offers if gain > finding.gain - TURNED]  # fmt: skip
+
+        def missed(form: Named) -> float:
+            parts = [self.part(form, form.findings[0])]
+            left = self._fitted(form, parts, is_shown=False, scatters=False).unscattered
+            return max(left.fit, judged(left))
+
+        chosen = min(forms, key=missed)
+        rung = named.ladder.system.rung(chosen.findings[0].added)
+        return replace(chosen, ladder=replace(named.ladder, findings=chosen.findings, rung=rung))
+
     def unsure(self, named: Named) -> list[Rejected]:
         """Beside coarse steps, whose errors go together from sample to sample, what is not sure."""
         if rounding_of(self.campaign) is None:
@@ -133,8 +158,8 @@ class Fitting:
         gained = self._gained(self.part(aged, finding), without, aged, MUCH_MORE)
         if not much_more(gained):
             return [], named
-        finding = replace(finding, gain=gained)
-        return [self.part(aged, finding)], replace(aged, findings=(finding,))
+        aged = _with_alone(named, replace(finding, gain=gained))
+        return [self.part(aged, aged.findings[0])], aged
 
     def _gained(
         self, part: Part, without: Models, named: Named, enough: float = LEAST_GAIN
@@ -371,7 +396,7 @@ class Fitting:
 
 def _with_alone(named: Named, finding: Finding) -> Named:
     """The same rows with this finding in place of all others."""
-    return replace(named, rung=named.system.rung(finding.added))
+    return replace(named, findings=(finding,), rung=named.system.rung(finding.added))
 
 
 def _lone(parts: Sequence[Part]) -> Part | None:

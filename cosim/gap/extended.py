@@ -331,14 +331,14 @@ def _wave(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
         numbers.append(set_point(campaign))
         starts |= {f"offset.speed@{run}": part for run, part in wave.faster.items()}
     turn = math.degrees(np.angle(first))
-    for run in rung.system.runs:
-        angle = turn - math.degrees(wave.phases.get(run.track.run.name, 0.0))
+    for run in campaign.runs:  # also those of too few samples for rows
+        angle = turn - math.degrees(wave.phases.get(run.name, 0.0))
         phase = -angle if pattern else angle + 90.0
-        starts[f"{name}.phase_deg@{run.track.run.name}"] = (phase + 180.0) % 360.0 - 180.0
+        starts[f"{name}.phase_deg@{run.name}"] = (phase + 180.0) % 360.0 - 180.0
         if name == "speed_ripple":
-            faster = 1.0 + wave.faster.get(run.track.run.name, 0.0)
-            pace = faster * abs(run.track.run.surface_speed) if wave.kind.unit == "m" else 1.0
-            settings[f"{name}.frequency@{run.track.run.name}"] = wave.wavenumber * pace
+            pace = 1.0 + wave.faster.get(run.name, 0.0)
+            pace *= abs(run.surface_speed) if wave.kind.unit == "m" else 1.0
+            settings[f"{name}.frequency@{run.name}"] = wave.wavenumber * pace
     for order, which in enumerate(("second", "third", "fourth"), 2):
         size = complex(sizes[order - 1], -sizes[HARMONICS + order - 1])
         # b of cos(n a + b), or sin(n a + b), a the angle of the first

@@ -9,7 +9,7 @@ from cosim.gap.data import Campaign
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.arguments import Arguments
 from cosim.gap.weak_form.camera_faults import SMOOTHING, camera_faults, filters
-from cosim.gap.weak_form.constants import MOST_FINDINGS
+from cosim.gap.weak_form.constants import MOST_FINDINGS, UNDECIDED
 from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Finding, Ladder, Search
 from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
@@ -17,7 +17,7 @@ from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.surface import best_phase, tracks_of
 from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
-from cosim.gap.weak_form.track import thinned
+from cosim.gap.weak_form.track import thinned, with_rows
 from cosim.gap.weak_form.unknowns import Unknown
 
 #: effect, fault or other finding -> its variants.
@@ -65,7 +65,7 @@ class Naming:
     @classmethod
     def of(cls, campaign: Campaign) -> Naming:
         """Rows along x; where the block moves across, of both directions."""
-        runs = [thinned(run) for run in campaign.runs if run.track is not None]
+        runs = with_rows([thinned(run) for run in campaign.runs if run.track is not None])
         tracks = tracks_of(campaign, runs)
         rows = [rows_of(track, campaign.rig) for track in tracks]
         planar = planar_effects(campaign, rows)
@@ -107,7 +107,8 @@ class Naming:
         """Whether a tracker smooths: where nothing else is missing, or where that explains more.
 
         A filter shows where break-aways and re-sticks are rounded, as what any other finding leaves
-        there would be: of its rows it then takes more than that does of its own, and than any.
+        there would be: of its rows it then takes more than that does of its own, and no less than
+        any by so much that the rows decide.
         """
         cornered = [with_corners(run) for run in self.rows]
         system = System(self.campaign, cornered, every=True)
@@ -118,7 +119,8 @@ class Naming:
             if gain > max((other.gain for other in ladder.findings), default=0.0):
                 rivals = unknowns if ladder.findings else {}
                 offers = Search(system, {**rivals, **smoothing}, ()).offers(system.rung())
-                if offers[SMOOTHING] == max(offers.values(), key=lambda offer: offer[0]):
+                most = max(evidence for evidence, _ in offers.values())
+                if offers[SMOOTHING][0] > most - UNDECIDED:  # simulated runs will tell
                     return cornered, found, {**unknowns, **smoothing}
         return self.rows, ladder, unknowns
 

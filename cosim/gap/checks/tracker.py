@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,13 +13,12 @@ from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.data.units import swing
 from cosim.gap.judge import NOTHING_MISSING
 from cosim.gap.result import Doubt
+from cosim.gap.weak_form.constants import COARSEST
+from cosim.gap.weak_form.track import is_coarse, with_rows
 from cosim.gap.windows.sticks import sticks_of
 
 from .level import LEVEL
 
-#: Most of omega times the interval: a quintic over one radian to either side, which smooths the
-#: motion in slip to 1e-3, needs seven samples.
-COARSEST = 1.0 / 3.0
 #: Noise that is so many times too large, or too small, hides as much misfit as any effect makes.
 HIDES = 1.35
 #: Most of a vibration's third difference, in parts of the noise, where noise is told from motion.
@@ -39,17 +38,18 @@ _THIRD = 20.0
 
 def doubts_of_sampling(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
     """One for all the runs whose samples are too far apart for the motion in slip."""
-    steps = {run.name: run.natural_frequency * run.motion.interval for run in runs}
-    coarse = tuple(name for name, step in steps.items() if step > COARSEST)
+    coarse = [run for run in runs if is_coarse(run)]
     if not coarse:
         return []
-    worst = next(run for run in runs if steps[run.name] == max(steps.values()))
+    worst = max(coarse, key=lambda run: run.natural_frequency * run.motion.interval)
+    names = tuple(run.name for run in coarse)
+    is_severe = worst in with_rows(runs)
     text = (
-        f"{', '.join(coarse)}: {1.0 / worst.motion.interval:.3g} Hz are too few samples for slips "
+        f"{', '.join(names)}: {1.0 / worst.motion.interval:.3g} Hz are too few samples for slips "
         f"that swing in {2.0 * math.pi / worst.natural_frequency:.3g} s: "
         f"{worst.natural_frequency / COARSEST:.3g} Hz at least"
-    )
-    return [Doubt("sampling", text, coarse, True)]
+    ) + ("" if is_severe else "; effects are looked for in the other runs")
+    return [Doubt("sampling", text, names, is_severe)]
 
 
 def doubts_of_noise(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Doubt]:
@@ -136,17 +136,27 @@ def with_rounding(campaign: Campaign) -> Campaign:
 
     Rounding to steps q leaves a variance of q^2 / 12 (Bennett 1948): coarse is what would look like
     something missing by itself. Noise that is stated is larger by it; what was estimated has it.
+    A run of few levels alone does not show the step: its camera is the one of the others.
     """
+    tracks = [run.motion for run in campaign.runs if run.track is not None]
+    others = {
+        channel: max((lattice(track[channel])[0] for track in tracks if channel in track.channels),
+                     default=0.0)
+        for channel in ("x", "y")
+    }  # fmt: skip
     return replace(campaign, runs=tuple(
-        run if run.track is None else _rounded(run, campaign.noise_estimated)
+        run if run.track is None else _rounded(run, campaign.noise_estimated, others)
         for run in campaign.runs
     ))  # fmt: skip
 
 
-def _rounded(run: MeasuredRun, estimated: Collection[str]) -> MeasuredRun:
+def _rounded(
+    run: MeasuredRun, estimated: Collection[str], others: Mapping[str, float]
+) -> MeasuredRun:
     noise, rounding = dict(run.noise), {}
     for channel in {"x", "y"} & set(run.motion.channels):
-        step, _ = lattice(run.motion[channel])
+        values = run.motion[channel]
+        step = lattice(values)[0] or on_lattice(values, others[channel])
         part = (step / run.noise[channel]) ** 2 / 12.0
         if channel in estimated and 1.0 / max(1.0 - part, 1e-9) > NOTHING_MISSING**2:
             rounding[channel] = (step, 1.0)
@@ -191,3 +201,12 @@ def lattice(values: np.ndarray) -> tuple[float, float]:
         if share > ON_LATTICE and np.ptp(levels) > 3.0 * step:
             return float(step), share
     return 0.0, 0.0
+
+
+def on_lattice(values: np.ndarray, step: float) -> float:
+    """A step that others have, where values (n,) lie on it as well; else 0."""
+    values = np.sort(values[np.isfinite(values)])
+    if step == 0.0 or values.size == 0:
+        return 0.0
+    off = (values - values[values.size // 2]) / step
+    return step if float(np.mean(np.abs(off - np.rint(off)) < NEAR)) > ON_LATTICE else 0.0

@@ -20,6 +20,7 @@ m x'' + K x = F in slip, x' = V in stick; x~ is what is written:
 
       Gaussian       J w^2 [(u^2 + 1) / 2 (P(u) - H(u)) + u p(u) / 2],   u = t / w, p = P' normal
       of the past   -J w^2 exp(-u - 1) after it,
+      a mean         J w^2 [(u + r)^3 / (12 r) - H(u) (u^2 + 1) / 2] for |u| < r = sqrt(3),
 
   on the side of the slip; H is the step. A filter of the past is a delay as well, which is not
   seen. A contact that lets go and grips as bristles do leaves gaps alike, up to w of some 10 ms.
@@ -31,8 +32,9 @@ itself: the runs are ordered by it, and the first of the order are asked togethe
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -57,6 +59,12 @@ COURSES: dict[str, Callable[[np.ndarray], np.ndarray]] = {
     "logarithmic": lambda u: np.log1p(20.0 * u) / np.log(21.0),
 }
 DRIFT, SMOOTHING = "measurement.drift", "measurement.smoothing"
+#: Filters of a tracker: their number is a setting of the fault. The last is a mean over a window.
+FILTERS = GAUSSIAN, PAST, WINDOW = ("Gaussian", "of the past", "moving average")
+#: What a variant's words end with that is in no run alone.
+ALL_RUNS = "all runs"
+#: Half the window of a mean, in standard deviations.
+HALF_WINDOW = np.sqrt(3.0)
 #: Every fault that has a name; a turned camera is found in the plane.
 FAULTS = tuple(f"measurement.{name}" for name in (*FAULT_SIZES, "rotation", "quantisation"))
 
@@ -187,8 +195,9 @@ def zero(run: RunRows) -> Response:
     return Response(place=np.ones((run.track.time.size, 1)))
 
 
-def smoothing(width: float, past: bool) -> Respond:
-    """A filter of a standard deviation, s, by how much of w^2 there is."""
+def smoothing(width: float, kind: str) -> Respond:
+    """A filter of a standard deviation, s, by how much of w^2 there is. kind : of FILTERS"""
+    past, rounding = kind == PAST, _ROUNDED[kind]
 
     def respond(run: RunRows) -> Response:
         if not isinstance(run, CornerRows):
@@ -199,8 +208,8 @@ def smoothing(width: float, past: bool) -> Respond:
             at = (run.track.time - corner.time) / width
             forward = at if corner.breaks or past else -at
             size = corner.acceleration * width**2 * (1.0 if corner.breaks or not past else -1.0)
-            rounded += size * (_past(forward) if past else _gaussian(forward))
-        rounded += width * _at_the_ends(run, width, past)
+            rounded += size * rounding(forward)
+        rounded += width * _at_the_ends(run, width, kind)
         lower = -0.5 * (own.natural_frequency * width) ** 2 * sum(_ahead(run))
         return CornerResponse(
             place=column(rounded),
@@ -211,18 +220,24 @@ def smoothing(width: float, past: bool) -> Respond:
     return respond
 
 
-def _at_the_ends(run: RunRows, width: float, past: bool) -> np.ndarray:
+def _at_the_ends(run: RunRows, width: float, kind: str) -> np.ndarray:
     """(n,) m/s: what a filter leaves where a record begins and ends, as it holds the sample there.
 
-    Of a velocity v there: v exp(-u) after the beginning, or v (p(u) - u P(-u)) at either end.
+    Of a velocity v there: v exp(-u) after the beginning; at either end v (p(u) - u P(-u)), or, of
+    a mean, v (r - u)^2 / (4 r).
     """
     time, surface = run.track.time, run.track.run.surface_speed
     velocity = np.where(run.track.slips_mask, run.track.velocity, surface)
     begun, left = (time - time[0]) / width, (time[-1] - time) / width
-    if past:
+    if kind == PAST:
         return np.asarray(velocity[0] * np.exp(-begun))
-    ends = [np.exp(-0.5 * u**2) / np.sqrt(2.0 * np.pi) - u * ndtr(-u) for u in (begun, left)]
-    return np.asarray(velocity[0] * ends[0] - velocity[-1] * ends[1])
+
+    def end(u: np.ndarray) -> np.ndarray:
+        if kind == WINDOW:
+            return np.asarray(np.maximum(HALF_WINDOW - u, 0.0) ** 2 / (4.0 * HALF_WINDOW))
+        return np.asarray(np.exp(-0.5 * u**2) / np.sqrt(2.0 * np.pi) - u * ndtr(-u))
+
+    return np.asarray(velocity[0] * end(begun) - velocity[-1] * end(left))
 
 
 def _undone(run: RunRows, width: float) -> np.ndarray:
@@ -246,6 +261,16 @@ def _gaussian(u: np.ndarray) -> np.ndarray:
 def _past(u: np.ndarray) -> np.ndarray:
     """The same of an exponential filter: u = 0 is where curve and line seem to touch, w late."""
     return np.where(u > 0.0, -np.exp(-np.maximum(u, 0.0) - 1.0), 0.0)
+
+
+def _mean(u: np.ndarray) -> np.ndarray:
+    """The same of a mean over a window."""
+    inside = np.clip(u, -HALF_WINDOW, HALF_WINDOW)
+    left = (inside + HALF_WINDOW) ** 3 / (12.0 * HALF_WINDOW) - 0.5 * (u > 0.0) * (inside**2 + 1.0)
+    return np.where(np.abs(u) < HALF_WINDOW, left, 0.0)
+
+
+_ROUNDED = {GAUSSIAN: _gaussian, PAST: _past, WINDOW: _mean}
 
 
 def _at_events(run: RunRows, place: np.ndarray) -> np.ndarray:
@@ -273,39 +298,72 @@ def _ahead(run: RunRows) -> tuple[np.ndarray, np.ndarray]:
 
 
 def filters(rung: Rung) -> list[Unknown]:
-    """Every width in all runs; that which the rows prefer in some; none that would sharpen."""
+    """Every width in all runs; that which the rows prefer in some; none that would sharpen.
+
+    What a filter does is in proportion to no power of its width: the likeliest of a kind is asked
+    for at the width that the rows have it with, too.
+    """
     if not any(isinstance(run, CornerRows) for run in rung.system.fitted):
         return []
     variants: list[Unknown] = []
-    for past, words in ((False, "Gaussian"), (True, "of the past")):
-        forms = [
-            _fault("smoothing", smoothing(width, past), f"{words}, {1e3 * width:.0f} ms",
-                   width=width, past=float(past))
-            for width in FILTER_WIDTHS
-        ]  # fmt: skip
+    for kind in FILTERS:
+        forms = [_filter(kind, width) for width in FILTER_WIDTHS]
         best = max(forms, key=lambda form: rung.offered([replace(form, per_run=True)])[0])
-        for form in forms:
-            variants += _among(rung, form, in_some=form is best)
-    return [variant for variant in variants if _sizes(rung, variant)[0][0] > 0.0]
+        of_kind = [
+            variant for form in forms
+            for variant in _among(rung, form, in_some=form is best)
+            if _sizes(rung, variant)[0][0] > 0.0
+        ]  # fmt: skip
+        if of_kind:
+            likeliest = max(of_kind, key=lambda variant: rung.offered([variant])[0])
+            width = likeliest.settings["width"] * np.sqrt(_sizes(rung, likeliest)[0][0])
+            where = [key.removeprefix("in@") for key, part in likeliest.settings.items() if part]
+            of_kind.append(_in_runs(rung, _filter(kind, width), where))
+        variants += of_kind
+    return variants
+
+
+def likeliest_filters(rung: Rung, variants: Sequence[Unknown]) -> Iterator[tuple[float, Added]]:
+    """Of each kind that in some runs, and that in all, which the rows prefer, and by which ln.
+
+    rung : without any of them
+    """
+    for number, in_all in product(range(len(FILTERS)), (False, True)):
+        of_kind = [variant for variant in variants if variant.settings["kind"] == number
+                   and variant.variant.endswith(ALL_RUNS) == in_all]  # fmt: skip
+        if of_kind:
+            evidence, added = rung.offered(of_kind)
+            yield evidence - rung.evidence, added
+
+
+def _filter(kind: str, width: float) -> Unknown:
+    words = f"{kind}, {1e3 * width:.0f} ms"
+    number = FILTERS.index(kind)
+    return _fault("smoothing", smoothing(width, kind), words, width=width, kind=number)
 
 
 def _among(rung: Rung, unknown: Unknown, in_some: bool = True) -> list[Unknown]:
     """In all runs; and in those where it is largest, or most negative by itself: one, two, ..."""
     names = [run.track.run.name for run in rung.system.fitted]
-    found = {"all runs": frozenset(names)}
+    found = [names]
     if in_some:
         mean, sd = _sizes(rung, replace(unknown, per_run=True))
         order = [names[number] for number in np.argsort(-mean / sd)]
-        for each in (order, order[::-1]):
-            for n in range(1, len(order)):
-                found["in " + ", ".join(sorted(each[:n]))] = frozenset(each[:n])
-    return [
-        replace(unknown, variant=", ".join(filter(None, [unknown.variant, words])),
-                respond=_within(unknown.respond, among) if among < frozenset(names)
-                else unknown.respond,
-                settings=unknown.settings | {f"in@{name}": float(name in among) for name in names})
-        for words, among in found.items()
-    ]  # fmt: skip
+        found += [each[:n] for each in (order, order[::-1]) for n in range(1, len(order))]
+    return [_in_runs(rung, unknown, some) for some in found]
+
+
+def _in_runs(rung: Rung, unknown: Unknown, some: Collection[str]) -> Unknown:
+    """A fault in runs of these names alone."""
+    names = [run.track.run.name for run in rung.system.fitted]
+    among = frozenset(some).intersection(names)
+    is_in_all = len(among) == len(names)
+    words = ALL_RUNS if is_in_all else "in " + ", ".join(sorted(among))
+    return replace(
+        unknown, variant=", ".join(filter(None, [unknown.variant, words])),
+        respond=unknown.respond if is_in_all else _within(unknown.respond, among),
+        settings=unknown.settings | {f"in@{name}": float(name in among) for name in names},
+    )  # fmt: skip
 
 
 def _within(respond: Respond, names: frozenset[str]) -> Respond:

@@ -10,6 +10,9 @@ CUBIC_REACH = 0.65
 QUINTIC_REACH = 1.0
 #: Samples nearer to one another than this, in 1 / omega, are averaged: sixty a swing are left.
 FINE_ENOUGH = 0.1
+#: Most of omega times the interval: that quintic needs seven samples. And the fewest fitted runs as
+#: fine as that of which rows are made without the others: of one, friction has no scatter.
+COARSEST, LEAST_FINE = 1.0 / 3.0, 2
 #: Samples count as even within this part of their interval: cubic interpolation is better below.
 EVEN = 0.01
 #: A hole is longer than so many intervals: interpolation across it is guesswork.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import permutations
@@ -15,12 +15,14 @@ from scipy.signal import savgol_coeffs
 
 from cosim.gap.data import MeasuredRun
 from cosim.gap.weak_form.constants import (
+    COARSEST,
     CUBIC_REACH,
     EVEN,
     FAR_STIFFER,
     FINE_ENOUGH,
     HOLE,
     KNOTS,
+    LEAST_FINE,
     LEAST_SLIDING,
     LEAST_SLIDING_SHARE,
     QUINTIC_REACH,
@@ -287,6 +289,18 @@ def _stretches(inside: np.ndarray) -> list[tuple[int, int]]:
     """(first, last + 1) of every run of true values."""
     steps = np.diff(np.pad(inside.astype(int), 1))
     return list(zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1), strict=True))
+
+
+def is_coarse(run: MeasuredRun) -> bool:
+    """Whether the samples are too far apart for the motion in slip."""
+    return run.natural_frequency * run.motion.interval > COARSEST
+
+
+def with_rows(runs: Sequence[MeasuredRun]) -> list[MeasuredRun]:
+    """Runs whose rows are asked: those of fine samples, all where these are too few."""
+    fine = [run for run in runs if not is_coarse(run)]
+    is_enough = sum(not run.hold_out for run in fine) >= LEAST_FINE
+    return fine if is_enough else list(runs)
 
 
 def thinned(run: MeasuredRun) -> MeasuredRun:

@@ -22,7 +22,15 @@ from scipy.signal import lfilter
 
 from cosim.gap.data import Track
 from cosim.gap.data.noise import GAP
-from cosim.gap.weak_form.camera_faults import COURSES, crept, leaning
+from cosim.gap.weak_form.camera_faults import (
+    COURSES,
+    FILTERS,
+    HALF_WINDOW,
+    PAST,
+    WINDOW,
+    crept,
+    leaning,
+)
 
 #: Faults that can be undone; what a filter took away, or rounding, is gone.
 UNDONE = ("scale", "clock", "rotation", "drift", "latency")
@@ -91,35 +99,37 @@ def _filtered(places: np.ndarray, time: np.ndarray, values: Mapping[str, float])
     width = fault(values, "smoothing") / interval
     if width <= 0.0:
         return places
-    is_past = values.get("measurement.smoothing_past", 0.0) > 0.0
+    kind = FILTERS[int(values.get("measurement.smoothing_kind", 0.0))]
     gaps = np.flatnonzero(np.diff(time) > GAP * interval) + 1
     parts = zip(np.split(places, gaps), np.split(time, gaps), strict=True)
-    return np.concatenate([_evenly_smoothed(*part, width, is_past) for part in parts])
+    return np.concatenate([_evenly_smoothed(*part, width, kind) for part in parts])
 
 
-def _evenly_smoothed(
-    places: np.ndarray, time: np.ndarray, width: float, is_past: bool
-) -> np.ndarray:
+def _evenly_smoothed(places: np.ndarray, time: np.ndarray, width: float, kind: str) -> np.ndarray:
     """A filter is one over time: samples whose times jitter are drawn from an even course."""
     even = np.linspace(time[0], time[-1], time.size)
     is_even = np.allclose(time, even, rtol=0.0, atol=JITTER * (time[-1] - time[0]) / time.size)
     if is_even or np.isnan(places).any():  # a model that is lost is seen nowhere
-        return _smoothed(places, width, is_past)
-    smooth = _smoothed(CubicSpline(time, places)(even), width, is_past)
+        return _smoothed(places, width, kind)
+    smooth = _smoothed(CubicSpline(time, places)(even), width, kind)
     return np.asarray(CubicSpline(even, smooth)(time))
 
 
-def _smoothed(places: np.ndarray, width: float, is_past: bool) -> np.ndarray:
-    """By a Gaussian, or an exponential of the past; the motion goes on beyond the ends as there.
+def _smoothed(places: np.ndarray, width: float, kind: str) -> np.ndarray:
+    """By a filter of `FILTERS`; the motion goes on beyond the ends as there.
 
     width : standard deviation, samples
     """
     reach = min(math.ceil(REACH * width), len(places) - 1)
     padded = np.pad(places, ((reach, reach), (0, 0)), mode="reflect", reflect_type="odd")
-    if is_past:
+    if kind == PAST:
         keeps = math.exp(-1.0 / width)
         held = keeps * padded[:1]
         smooth = lfilter([1.0 - keeps], [1.0, -keeps], padded, axis=0, zi=held)[0]
+    elif kind == WINDOW:  # by its integral: the mean of whole samples would jump with the width
+        half, at = HALF_WINDOW * width, np.arange(len(padded))
+        integral = CubicSpline(at, padded).antiderivative()
+        smooth = (integral(at + half) - integral(at - half)) / (2.0 * half)
     else:
         smooth = gaussian_filter1d(padded, width, axis=0, mode="nearest")
     return np.asarray(smooth[reach : reach + len(places)])

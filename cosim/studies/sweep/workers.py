@@ -8,9 +8,7 @@ from contextlib import closing, contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-import joblib
-
-from cosim.processes import BrokenProcessPool, as_finished
+from cosim.processes import BrokenProcessPool, as_finished, cores
 
 from .axis import SweepError
 from .combination import Row, Run, SweepStopped, Task, Work, compute_chunk
@@ -82,7 +80,7 @@ def _workers(
 ) -> Iterator[tuple[int, Callable[[Work, Chunks], Rows]]]:
     """How many compute at once; and what gives the rows of each chunk as it is finished."""
     if dask is None:
-        count = joblib.cpu_count() if jobs is None else jobs
+        count = cores() if jobs is None else jobs
         yield count, partial(_in_processes, count)
         return
     with _client(dask) as client:

@@ -23,6 +23,7 @@ import tempfile
 import time
 import traceback
 from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,7 +32,6 @@ os.environ.update(dict.fromkeys(ONE_THREAD, "1"))  # read by the processes as th
 
 HERE = Path(__file__).resolve().parent
 
-import joblib  # noqa: E402
 from baseline import Figure, write  # noqa: E402
 from blind.laboratory.__main__ import answer, write_campaign  # noqa: E402
 from blind.laboratory.campaign import make_campaign  # noqa: E402
@@ -161,12 +161,11 @@ def run(tasks: list[Task], out: Path, jobs: int, resume: bool, keep: Path | None
     lines = list(read_lines(file))
     done = {(line["suite"], line["name"]) for line in lines if line["found"] is not None}
     missing = [task for task in tasks if (task.suite, task.name) not in done]
-    work = joblib.Parallel(n_jobs=jobs, return_as="generator_unordered", pre_dispatch=jobs)(
-        joblib.delayed(judge)(task, keep) for task in missing
-    )
-    with open(file, "a", encoding="utf-8") as text:
+    with open(file, "a", encoding="utf-8") as text, ProcessPoolExecutor(jobs) as pool:
         text.write("\n" if lines else "")  # behind a line that was cut off
-        for line in tqdm(work, total=len(missing), disable=not sys.stderr.isatty()):
+        work = as_completed([pool.submit(judge, task, keep) for task in missing])
+        for each in tqdm(work, total=len(missing), disable=not sys.stderr.isatty()):
+            line = each.result()
             lines.append(line)
             text.write(json.dumps(line) + "\n")
             text.flush()

@@ -89,15 +89,18 @@ def test_an_interrupt_ends_a_call_apart(tmp_path):
 
 
 KILLED = """
-import os, time
 from cosim.processes import processes
+from long_work import work
+
+with processes(2) as mapped:
+    list(mapped(work, [(PLACE,)] * 2))
+"""
+LONG_WORK = """
+import os, time
 
 def work(place):
     open(os.path.join(place, str(os.getpid())), "w").close()
     time.sleep(600.0)
-
-with processes(2) as mapped:
-    list(mapped(work, [(PLACE,)] * 2))
 """
 
 
@@ -107,6 +110,7 @@ def test_workers_end_with_a_parent_that_was_killed(tmp_path):
     place, script = tmp_path / "there", tmp_path / "killed.py"
     place.mkdir()
     script.write_text(KILLED.replace("PLACE", repr(str(place))), encoding="utf-8")
+    (tmp_path / "long_work.py").write_text(LONG_WORK, encoding="utf-8")
     with subprocess.Popen([sys.executable, str(script)]) as parent:
         is_soon(lambda: len(list(place.iterdir())) == 2)
         parent.kill()

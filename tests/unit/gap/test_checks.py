@@ -31,6 +31,7 @@ from cosim.gap.checks.tracker import (
 from cosim.gap.checks.units import SHORT_CYCLE, doubts_of_units
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.data.units import COARSEST, MOST_FRICTION, check_units, cycle_of, friction_of, swing
+from cosim.gap.naming import Naming
 
 SPEEDS = (0.03, 0.06, 0.3)
 #: Stated errors of the speed, beside what a sheared contact makes; of springs, beside friction.
@@ -239,6 +240,17 @@ def test_slips_want_samples(step, sound):
     assert [doubt.severe for doubt in doubts] == ([True] if step > 1.0 / 3.0 else [])
 
 
+@pytest.mark.parametrize(("coarse", "severe"), [((3,), False), ((2, 3), True)])
+def test_runs_of_few_samples_are_simulated_and_others_asked(coarse, severe, sound):
+    """Of one run alone nothing can be named."""
+    doubted = changed(sound, lambda run: thinned(run, 15.0), *coarse)
+    (doubt,) = doubts_of_sampling(doubted, doubted.runs)
+    assert doubt.severe == severe
+    assert ("effects are looked for in the other runs" in doubt.text) != severe
+    names = [rows.track.run.name for rows in Naming.of(doubted).rows]
+    assert names == [run.name for run in doubted.runs if severe or run.name not in doubt.runs]
+
+
 @pytest.mark.parametrize("factor", [1.0 / 1.45, 1.0 / 1.25, 1.25, 1.45])
 def test_noise_is_as_stated(factor, sound):
     louder = changed(sound, lambda run: replace(run, noise={"x": factor * NOISE}))
@@ -327,6 +339,19 @@ def test_steps_that_would_look_like_something_missing_are_coarse(noise, estimate
         assert made.rounding["x"] == pytest.approx((1e-3, factor), rel=2e-3)
         assert made.noise["x"] == pytest.approx(1e-3 * noise * factor, rel=2e-3)
         assert doubts_of_noise(campaign, [made]) == []
+
+
+def test_runs_of_few_levels_have_the_step_of_the_others():
+    """Of 4 mm, in a swing of 10 mm: three levels alone are no lattice."""
+    coarse = 4e-3
+    runs = [run_of(0.2, filtered=lambda x: coarse * np.round(x / coarse)),
+            run_of(0.2, 1, filtered=lambda x: coarse * np.round(0.15 * x / coarse)),
+            run_of(0.2, 2)]  # fmt: skip
+    assert lattice(runs[1].track.x) == (0.0, 0.0)
+    made = with_rounding(campaign_of(runs)).runs
+    assert [run.rounding["x"][0] if run.rounding else 0.0 for run in made] == pytest.approx(
+        [coarse, coarse, 0.0]
+    )
 
 
 def test_a_step_is_felt_at_the_stated_level():

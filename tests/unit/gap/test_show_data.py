@@ -169,7 +169,7 @@ def test_a_frame_that_is_read_out_late_and_a_filter_are_of_their_orders():
     gauss = camera.seen(places, time, {"measurement.smoothing": 0.03})[:, 0]
     expected = np.exp(-0.5 * (6.0 * 0.03) ** 2) * x
     np.testing.assert_allclose(gauss[inside], expected[inside], atol=1e-6)
-    past = {"measurement.smoothing": 0.03, "measurement.smoothing_past": 1.0}
+    past = {"measurement.smoothing": 0.03, "measurement.smoothing_kind": 1.0}
     gain = 1.0 / (1.0 + 6.0j * 0.03)
     expected = 0.02 * np.imag(gain * np.exp(6.0j * time))
     found = camera.seen(places, time, past)[:, 0]

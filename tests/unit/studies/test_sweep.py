@@ -1,9 +1,8 @@
 """Sweeps: the product of the varied keys, what is kept, what is run again, what is refused."""
 
 import json
-import multiprocessing
-import os
 import signal
+import subprocess
 from collections import Counter
 
 import numpy as np
@@ -145,16 +144,20 @@ def test_a_damaged_chunk_is_run_again(tmp_path, computed):
 def test_a_killed_process_of_the_pool_is_replaced(tmp_path, monkeypatch):
     monkeypatch.setattr(workers_module, "NOT_WORTH_PROCESSES", 0)
     monkeypatch.setattr(workers_module, "CHUNK_TIME", 0.05)
-    killed = []
+    started, start = [], subprocess.Popen
+
+    def noted(*call, **more):
+        started.append(start(*call, **more))
+        return started[-1]
 
     def kill(done, total):
-        if not killed and done > 10:
-            killed.append(multiprocessing.active_children()[0].pid)
-            os.kill(killed[0], signal.SIGKILL)
+        if done > 10:
+            started[0].kill()
 
+    monkeypatch.setattr(subprocess, "Popen", noted)
     vary = {"rig.mass": np.linspace(0.3, 2.0, 60)}
     done = sweep(BASE, vary, duration=10.0, jobs=2, folder=tmp_path, progress=kill)
-    assert killed and (done.status == 0).all()
+    assert started[0].returncode == -signal.SIGKILL and (done.status == 0).all()
 
 
 def test_failures_are_recorded_and_end_nothing(tmp_path, computed):
