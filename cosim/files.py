@@ -1,7 +1,5 @@
 """Files and folders of results: tried before anything is computed, whole when they are there."""
 
-from __future__ import annotations
-
 import os
 import platform
 import tempfile

@@ -3,8 +3,6 @@
 Outside the main thread signals do not arrive, and none of this changes anything.
 """
 
-from __future__ import annotations
-
 import signal
 import threading
 import time

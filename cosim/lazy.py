@@ -3,8 +3,6 @@
 Type checkers read none of this: beside it the package imports the same names under TYPE_CHECKING.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any

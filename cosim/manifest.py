@@ -1,7 +1,5 @@
 """Whose the files of a result folder are: those of one run, listed there, and everybody else's."""
 
-from __future__ import annotations
-
 import json
 import logging
 import shlex
@@ -71,13 +69,18 @@ class ResultFolder:
         write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", self.folder / MANIFEST)
 
 
+def command_line() -> str:
+    """That of this process."""
+    return shlex.join(["stickslip", *sys.argv[1:]])
+
+
 def made_by(command: str | None = None, **what: Any) -> dict[str, Any]:
     """Command line, version of the package and time (UTC), and what else made a result.
 
     command: None for that of this process. what: key -> value for JSON, as the scenario.
     """
     return {
-        "command": shlex.join(["stickslip", *sys.argv[1:]]) if command is None else command,
+        "command": command_line() if command is None else command,
         "stickslip": version("stickslip"),
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         **what,

@@ -1,7 +1,5 @@
 """What was meant by a name that does not exist: one search for all that a user may spell wrong."""
 
-from __future__ import annotations
-
 import difflib
 from collections.abc import Iterable
 

@@ -1,11 +1,9 @@
 """Tensor grids: where their lines lie, and their quadrilaterals as files for ParaView hold them."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from .arrays import Array
 
 
 def graded(length: float, elements: int, stretch: float) -> Array:
@@ -26,3 +24,14 @@ def grid_points(x: Array, z: Array) -> Array:
     grid[..., 0] = x[:, None]
     grid[..., 2] = z
     return grid.reshape(-1, 3)
+
+
+def interpolated(field: Array, place: Array) -> Array:
+    """Linearly, of nodes (n, ...) of which the last is followed by the first, at places (m,).
+
+    A place is counted in nodes; it may lie loops ahead or behind.
+    """
+    node = np.floor(place).astype(np.int64)
+    part = (place - node).reshape(-1, *[1] * (field.ndim - 1))
+    found: Array = (1.0 - part) * field[node % len(field)] + part * field[(node + 1) % len(field)]
+    return found

@@ -1,7 +1,5 @@
 """Where steady sliding ends: how warm the interface gets for ever, and when it is nearly there."""
 
-from __future__ import annotations
-
 import math
 from functools import lru_cache
 from typing import NamedTuple

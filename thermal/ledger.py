@@ -1,7 +1,5 @@
 """The heat ledger: what friction produced, and where it went."""
 
-from __future__ import annotations
-
 from dataclasses import astuple, dataclass, fields
 
 import numpy as np

@@ -10,8 +10,6 @@ no mere line to the eye. A file appears under its name only when it is complete 
 replaced as a whole, so whatever interrupts a run, what was written before stays readable.
 """
 
-from __future__ import annotations
-
 import math
 import os
 from collections.abc import Sequence
@@ -21,12 +19,10 @@ from xml.etree import ElementTree
 
 import meshio
 import numpy as np
-from numpy.typing import NDArray
 
-from .grids import grid_points, quadrilaterals
+from .arrays import Array
+from .grids import grid_points, interpolated, quadrilaterals
 from .model import BeltIceModel
-
-Array = NDArray[np.float64]
 
 
 class RigView(NamedTuple):
@@ -51,10 +47,7 @@ def seen_belt(model: BeltIceModel) -> tuple[Array, Array]:
     cells, cell = model.belt.cells, model.belt.cell
     offset = (np.arange(cells + 1, dtype=np.float64) - cells / 2) * cell
     _, _, field = model.belt_field()
-    place = (model.contact_position + offset) / cell
-    node = np.floor(place).astype(np.int64)
-    part = (place - node)[:, None]
-    return offset, (1.0 - part) * field[node % cells] + part * field[(node + 1) % cells]
+    return offset, interpolated(field, (model.contact_position + offset) / cell)
 
 
 def rig_view(model: BeltIceModel) -> RigView:
@@ -104,45 +97,29 @@ class FieldSeries:
         self.name = name
         self._model = model
         self._times = list(times)
-        belt, ice = model.belt, model.ice
-        self._below = grid_points(seen_belt(model)[0], -belt.depth)
-        below = quadrilaterals(belt.cells + 1, belt.depth.size)
-        self._stretch = self._stretched()
-        points = np.concatenate((self._below, ice.points))
+        belt, ice, offset = model.belt, model.ice, seen_belt(model)[0]
+        below = grid_points(offset, -belt.depth)
+        points = np.concatenate((below, ice.points))
+        #: How many times thicker the belt of the stretched view is.
+        self.factor: float = stretch_factor(float(np.ptp(offset)), float(belt.depth.max()))
+        #: Displacements (points, 3) m that thicken the belt; the ice stays.
+        self._stretch = np.zeros_like(points)
+        self._stretch[: len(below), 2] = (self.factor - 1.0) * below[:, 2]
         self._views = {name: points}
         if self.factor > 1.0:
             self._views[f"{name}_belt_{self.factor:g}x"] = points + self._stretch
-        self._cells = [("quad", below), (ice.cell_type, ice.cells + len(self._below))]
+        self._cells = [
+            ("quad", quadrilaterals(belt.cells + 1, belt.depth.size)),
+            (ice.cell_type, ice.cells + len(below)),
+        ]
         self._part = [
             np.full(len(cells), part, dtype=np.int32) for part, (_, cells) in enumerate(self._cells)
         ]
 
     @property
-    def factor(self) -> float:
-        """How many times thicker the belt of the stretched view is."""
-        return stretch_factor(float(np.ptp(self._below[:, 0])), float(-self._below[:, 2].min()))
-
-    @property
     def path(self) -> Path:
         """The collection, the one file to open."""
         return collection(self.folder, self.name)
-
-    def _point_data(self) -> dict[str, Array]:
-        """Arrays over all points, by names with units."""
-        ambient = self._model.parameters.ambient.temperature_degC
-        belt = seen_belt(self._model)[1].ravel() - ambient
-        rise = np.concatenate((belt, self._model.ice.at_points()))
-        return {
-            "temperature_degC": ambient + rise,
-            "rise_K": rise,
-            "stretch_m": self._stretch,
-        }
-
-    def _stretched(self) -> Array:
-        """Displacements (points, 3) m that thicken the belt; the ice stays."""
-        moved = np.zeros((len(self._below) + len(self._model.ice.points), 3))
-        moved[: len(self._below), 2] = (self.factor - 1.0) * self._below[:, 2]
-        return moved
 
     def write(self, time: float) -> Path:
         """Add the model's present fields at time (s); returns the VTU file of the true view.
@@ -152,8 +129,17 @@ class FieldSeries:
         if not math.isfinite(time) or (self._times and time <= self._times[-1]):
             last = f"{self._times[-1]:g} s" if self._times else "none"
             raise ValueError(f"time = {time:g} s of a field must be after the last one ({last})")
-        data = self._point_data()
-        files = [self._write_view(name, data) for name in self._views]
+        ambient = self._model.parameters.ambient.temperature_degC
+        belt = seen_belt(self._model)[1].ravel() - ambient
+        rise = np.concatenate((belt, self._model.ice.at_points()))
+        data = {"temperature_degC": ambient + rise, "rise_K": rise}
+        # what would thicken the stretched view once more is in the true one alone
+        files = [
+            self._write_view(
+                name, data | ({"stretch_m": self._stretch} if name == self.name else {})
+            )
+            for name in self._views
+        ]
         self._times.append(time)
         for name in self._views:
             self._write_collection(name)
@@ -161,8 +147,6 @@ class FieldSeries:
 
     def _write_view(self, name: str, data: dict[str, Array]) -> Path:
         path = self.folder / _file_name(name, len(self._times))
-        if name != self.name:  # what would thicken it once more
-            data = {key: values for key, values in data.items() if key != "stretch_m"}
         mesh = meshio.Mesh(
             self._views[name], self._cells, point_data=data, cell_data={"part": self._part}
         )
@@ -177,14 +161,8 @@ class FieldSeries:
         )
         entries = ElementTree.SubElement(root, "Collection")
         for number, time in enumerate(self._times):
-            ElementTree.SubElement(
-                entries,
-                "DataSet",
-                timestep=repr(time),
-                group="",
-                part="0",
-                file=_file_name(name, number),
-            )
+            entry = {"timestep": repr(time), "group": "", "part": "0"}
+            ElementTree.SubElement(entries, "DataSet", entry, file=_file_name(name, number))
         path = collection(self.folder, name)
         partial = path.with_suffix(".partial")
         ElementTree.ElementTree(root).write(partial, encoding="utf-8", xml_declaration=True)

@@ -1,7 +1,5 @@
 """What belt, ice, contact and ambient air are together: checked numbers with units and sources."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from difflib import get_close_matches
@@ -145,19 +143,13 @@ class ThermalParameters(Table, strict=False):
             raise ParameterError(_one_line(report.errors()[0])) from None
 
 
-_TABLES: Mapping[str, type[Table]] = {
-    "ambient": Ambient,
-    "belt": Belt,
-    "ice": Ice,
-    "contact": Contact,
-}
-
-
 def _fields_of(owner: tuple[str | int, ...]) -> Mapping[str, Any]:
     """Names that are allowed in a table, in one of its layers, or at the top."""
+    tables = ThermalParameters.model_fields
     if not owner:
-        return _TABLES
-    return (Layer if isinstance(owner[-1], int) else _TABLES[str(owner[0])]).model_fields
+        return tables
+    table = Layer if isinstance(owner[-1], int) else tables[str(owner[0])].annotation
+    return dict(getattr(table, "model_fields", {}))
 
 
 def _one_line(fault: Mapping[str, Any]) -> str:

@@ -10,26 +10,21 @@ Modes of the operators, as many, with a static correction for those that are lef
 times as much: what is left out has a memory of milliseconds, and a step is as short.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import eigh
 from scipy.sparse import csr_matrix
-from skfem import BilinearForm, CellBasis, ElementLineP2, FacetBasis, MeshLine
 
+from .arrays import Array
+from .assembly import HeatSpace
 from .belt.parameters import Belt
-from .belt.thickness import element_boundaries
+from .belt.thickness import section
 from .contact.footprint import Footprint
 from .ice.block import standing_block
 from .ice.krylov import response_space
-from .ice.space import IceSpace
 from .materials import GRAVITY
 from .parameters import ParameterError, ThermalParameters
-
-Array = NDArray[np.float64]
 
 #: Shifts (1/s) at which the belt's answer is that of all its functions: from the tenth part of a
 #: short step to the slowest of its modes, each at most so many times the next; and, over the rate
@@ -64,7 +59,7 @@ class ReducedBelt:
 
 @dataclass(frozen=True)
 class ReducedIce:
-    """n trial functions of the block; the forms of `thermal.ice.space`, (n, n).
+    """n trial functions of the block; the forms of `thermal.assembly`, (n, n).
 
     across, upwards W/K; side, top m2, to be multiplied by h; sinking W/K for 1 m/s; contact (n,):
     mean over the contact, and load of 1 W there; heat (n,): what amplitude 1 stores, J.
@@ -111,25 +106,13 @@ def reduce(parameters: ThermalParameters) -> Reduction:
 
 
 def _belt(belt: Belt, lane: float) -> ReducedBelt:
-    boundaries, of_element = element_boundaries(belt.stack, belt.elements)
-    basis = CellBasis(MeshLine(boundaries), ElementLineP2())
-    faces = FacetBasis(basis.mesh, ElementLineP2(), facets=basis.mesh.boundary_facets())
-    layers = [belt.stack[i] for i in of_element]
-    capacity = np.array([layer.density * layer.heat_capacity for layer in layers])[:, None]
-    conductivity = np.array([layer.conductivity for layer in layers])[:, None]
-    stored, conduction, along = (
-        lane * form.assemble(basis).toarray()
-        for form in (
-            BilinearForm(lambda u, v, w: capacity * u * v),
-            BilinearForm(lambda u, v, w: conductivity * u.grad[0] * v.grad[0]),
-            BilinearForm(lambda u, v, w: conductivity * u * v),
-        )
-    )
-    film = lane * BilinearForm(lambda u, v, w: u * v).assemble(faces).toarray()
-    contact_face = np.zeros(basis.N)
-    contact_face[np.argmin(basis.doflocs[0])] = 1.0
+    body = section(belt.stack, 1.0, belt.elements, lane)
+    space = body.space(np.eye(body.basis.N))
+    conduction, film = (factor.T @ factor for factor in (space.upwards, space.side))
+    along = body.weighted(body.medium.conductivity).toarray()
+    stored, contact_face = space.capacity, space.contact
     trial = _answers(stored, conduction, conduction + belt.film * film, contact_face)
-    trial, heat = _constant_first(trial, trial.T @ stored.sum(axis=0))
+    trial, heat = _constant_first(trial, trial.T @ space.heat)
     conduction, film, along = (trial.T @ form @ trial for form in (conduction, film, along))
     return ReducedBelt(_conserving(conduction), film, along, face=contact_face @ trial, heat=heat)
 
@@ -147,7 +130,7 @@ def _answers(stored: Array, conduction: Array, loss: Array, load: Array) -> Arra
     return np.asarray(modes @ trial)
 
 
-def _ice(space: IceSpace, air: float, heat_capacity: float) -> ReducedIce:
+def _ice(space: HeatSpace, air: float, heat_capacity: float) -> ReducedIce:
     still = _loss(space, 1.0)
     trial = response_space(csr_matrix(space.capacity), csr_matrix(still), space.contact)
     windy = _loss(space, _WIND / air)
@@ -170,7 +153,7 @@ def _ice(space: IceSpace, air: float, heat_capacity: float) -> ReducedIce:
     )
 
 
-def _loss(space: IceSpace, times: float) -> Array:
+def _loss(space: HeatSpace, times: float) -> Array:
     """Conduction and films, W/K, these so many times as strong."""
     films = [np.sqrt(times) * factor for factor in (space.side, space.top)]
     whole = np.concatenate((space.across, space.upwards, *films))

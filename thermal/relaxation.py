@@ -1,8 +1,6 @@
 """Exact time integrals of u' = -rate u + p with p constant over a step; rates may be complex."""
 
-from __future__ import annotations
-
-from typing import TypeVar
+from typing import Generic, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +11,7 @@ Numbers = TypeVar("Numbers", NDArray[np.float64], NDArray[np.complex128])
 _SERIES_BELOW = 0.7
 _TERMS = 16
 
-#: Step durations of which what a body does in one is kept.
+#: Durations of steps of which what a body does in one is kept.
 STEP_SIZES = 8
 
 
@@ -39,3 +37,23 @@ def mean_response(x: Numbers) -> Numbers:
         series = (1.0 - small * series) / n
     result[is_small] = series
     return result
+
+
+class Step(NamedTuple, Generic[Numbers]):
+    """What a step does to amplitudes.
+
+    decay: what it leaves of them, mean: the mean of that over the step; held, held_mean: amplitude
+    at its end, and mean amplitude, for a load of 1.
+    """
+
+    decay: Numbers
+    mean: Numbers
+    held: Numbers
+    held_mean: Numbers
+
+
+def step(rates: Numbers, duration: float) -> Step[Numbers]:
+    """Of some duration, s; rates in 1/s."""
+    x = rates * duration
+    mean = mean_decay(x)
+    return Step(decay(x), mean, duration * mean, duration * mean_response(x))

@@ -12,14 +12,13 @@ The strips of the contact, the supports and the heat exchange with the ice are t
 travel with the belt.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .arrays import Array
 from .belt.rig_frame import BeltSeries
 from .contact.exchange import BeltFace, Fluxes, IceFace, exchange
 from .contact.footprint import Footprint
@@ -27,8 +26,6 @@ from .ice.block import standing_block
 from .ice.body import IceBody
 from .parameters import ThermalParameters
 from .steady_state import FOREVER, check_gives_heat
-
-Array = NDArray[np.float64]
 
 #: First steps of a transient: parts of the usual one, since fluxes start like the root of time.
 _START = (1 / 32, 1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2)
@@ -116,15 +113,10 @@ class SteadySliding:
         self._fluxes: Fluxes | None = None
 
     def _ice_face(self, duration: float) -> IceFace:
-        mean, end = self.ice.free_face(duration)
-        response, area = self.ice.response(duration), self.footprint.area
-        return IceFace(
-            mean,
-            end,
-            response.face_mean * area,
-            response.face_end * area,
-            self.parameters.melting_rise,
-        )
+        area, free = self.footprint.area, self.ice.free_face(duration)
+        mean_response, end_response = self.ice.face_response(duration)
+        melting = self.parameters.melting_rise
+        return IceFace(*free, mean_response * area, end_response * area, melting)
 
     def step(self, duration: float, speed: float | None = None, lifted: bool = False) -> None:
         """Advance by duration (s, > 0) with constant fluxes.
@@ -156,15 +148,8 @@ class SteadySliding:
                 body.warm(-0.5 * self.air_warming * duration)
 
     def _together(self, belt: BeltFace, duration: float, friction: float) -> Fluxes:
-        contact = self.parameters.contact
-        return exchange(
-            belt,
-            self._ice_face(duration),
-            contact.conductance,
-            self.belt.film,
-            friction,
-            contact.belt_side,
-        )
+        ice, contact = self._ice_face(duration), self.parameters.contact
+        return exchange(belt, ice, contact, self.belt.film, friction)
 
     def _apart(self, duration: float) -> Fluxes:
         """Nothing into the belt; the ice's base cools with the mean temperature of the step."""

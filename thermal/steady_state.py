@@ -6,8 +6,6 @@ a' = decay a + forced p from one step, and a' = a exp(i k d) from the belt's tra
 that go with it solve the conditions of the contact as in any step.
 """
 
-from __future__ import annotations
-
 import numpy as np
 
 from .contact.exchange import IceFace, exchange
@@ -49,21 +47,19 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
             f"displacement = {displacement:g} m: the steady state needs whole cells of"
             f" {model.belt.cell:g} m in a step, at most {model.longest_movement:g} m"
         )
-    check_gives_heat(float(model.belt.rates[0, 0]), model.supported_belt.takes_heat)
+    check_gives_heat(float(model.belt.rates[0, 0]), model.supported_belt.places.take_heat)
     parameters, area = model.parameters, model.footprint.area
     response = model.belt.periodic_response(duration, round(shift))
     found = model.supported_belt.step_response(
         duration, model.contact_position, -displacement, displacement, response
     )
-    ice = model.ice.response(FOREVER)
-    melting = parameters.melting_rise
+    ice_end = model.ice.face_response(FOREVER)[1] * area
     fluxes = exchange(
         found.contact.face,
-        IceFace(0.0, 0.0, ice.face_end * area, ice.face_end * area, melting),
-        parameters.contact.conductance,
+        IceFace(0.0, 0.0, ice_end, ice_end, parameters.melting_rise),
+        parameters.contact,
         parameters.belt.film,
         heat / (duration * area),
-        parameters.contact.belt_side,
     )
     if fluxes.melting > 0.0:
         raise NoSteadyState(
@@ -72,7 +68,8 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
         )
     loads = model.belt.load(found.patches, found.contact.fluxes(fluxes.belt))
     model.belt.amplitudes[:] = sum(response.forced[face] * load for face, load in loads.items())
-    model.ice.amplitudes[:] = ice.forced * (fluxes.ice * area)
+    model.ice.fill(0.0)
+    model.ice.advance(FOREVER, fluxes.ice * area)
     model.ledger.restore(np.zeros_like(model.ledger.array()))
     model.ledger.received = model.belt.heat() + model.ice.heat()
     model.step(duration, heat, displacement)

@@ -4,8 +4,6 @@ The constants are those of a usual core, from runs with meshes of different size
 a factor of two or so, which is what a decision on minutes or days needs.
 """
 
-from __future__ import annotations
-
 import math
 
 from .ice.ablation import LONGEST_RECESSION, melt_heat

@@ -6,8 +6,6 @@ imported when its arguments are known, so that help is quick; Ctrl-C waits for t
 which do not survive it.
 """
 
-from __future__ import annotations
-
 import os
 import sys
 import warnings

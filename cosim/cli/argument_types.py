@@ -3,8 +3,6 @@
 Beside the modules that compute, so that a command's help is there without them.
 """
 
-from __future__ import annotations
-
 import keyword
 import os
 import re

@@ -4,8 +4,6 @@ A command is a table of `commands.toml`, with its arguments, and a module of its
 rooms here, whose `execute(arguments)` computes, writes and prints, and returns the exit status.
 """
 
-from __future__ import annotations
-
 import argparse
 import builtins
 import sys

@@ -1,7 +1,5 @@
 """The bar that a command shows while it computes."""
 
-from __future__ import annotations
-
 import sys
 import threading
 import time

@@ -3,8 +3,6 @@
 Results go to stdout, everything else to stderr. `-q` leaves results, warnings and errors.
 """
 
-from __future__ import annotations
-
 import logging
 import sys
 from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """`--json`: the numbers of a command, printed in place of its lines, or written to a file."""
 
-from __future__ import annotations
-
 from argparse import Namespace
 from collections.abc import Collection
 from dataclasses import dataclass

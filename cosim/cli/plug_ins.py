@@ -4,8 +4,6 @@ A folder of results may be anybody's: only code is run that the command line its
 is as it was when the run began.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 from collections.abc import Sequence

@@ -1,7 +1,5 @@
 """The scenario that a command is given: a file or a packaged one, with what `--set` changes."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 
 from cosim.cli.console import note

@@ -1,7 +1,5 @@
 """Participants around a participant: inputs known beforehand, and steps of its own."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property

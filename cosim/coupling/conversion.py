@@ -4,8 +4,6 @@ Units are compared by what their participants say that they are made of (FMI: va
 units = factor * value + offset), never by a table of spellings here.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -40,7 +38,7 @@ class Affine:
         """A derivative on the other side, of any order."""
         return self.factor * value
 
-    def then(self, after: Affine) -> Affine:
+    def then(self, after: "Affine") -> "Affine":
         """This, and `after` on what it gives."""
         return Affine(after.factor * self.factor, after.factor * self.offset + after.offset)
 

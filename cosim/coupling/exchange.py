@@ -1,7 +1,5 @@
 """The values at the ports: carried along the connections, and taken back with a step."""
 
-from __future__ import annotations
-
 import math
 import sys
 from collections import deque

@@ -1,7 +1,5 @@
 """The exchange before the first step: values that fit each other, loops without delay included."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 

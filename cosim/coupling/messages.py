@@ -1,7 +1,5 @@
 """What participants say while they run: kept for a log file, whoever else hears it."""
 
-from __future__ import annotations
-
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Scheme and step control from what a table [coupling] says."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -21,7 +19,7 @@ if TYPE_CHECKING:
 SMALLEST, LARGEST = 1e-3, 100.0
 
 
-def scheme_of(settings: Method, order: tuple[str, ...]) -> Scheme:
+def scheme_of(settings: "Method", order: tuple[str, ...]) -> Scheme:
     """The scheme; order: participant names, each once."""
     if settings.scheme == "gauss_seidel":
         return GaussSeidel(order, settings.extrapolation)
@@ -38,7 +36,7 @@ def scheme_of(settings: Method, order: tuple[str, ...]) -> Scheme:
 
 
 def control_of(
-    settings: Method, macro_step: float, bonds: Sequence[tuple[str, str]] = ()
+    settings: "Method", macro_step: float, bonds: Sequence[tuple[str, str]] = ()
 ) -> StepControl:
     """The step control; macro_step: of fixed steps, else the first one, s.
 
@@ -55,19 +53,19 @@ def control_of(
     )
 
 
-def smallest_step(settings: Method, macro_step: float) -> float:
+def smallest_step(settings: "Method", macro_step: float) -> float:
     """The shortest step, s, of a control or of halving."""
     return settings.smallest_step or SMALLEST * macro_step
 
 
-def _acceleration(settings: Method) -> Relaxation:
+def _acceleration(settings: "Method") -> Relaxation:
     if settings.acceleration == "none":
         return Relaxation()
     kinds = {"constant": Relaxation, "aitken": Aitken, "iqn_ils": QuasiNewton}
     return kinds[settings.acceleration](settings.relaxation)
 
 
-def _estimate(settings: Method, bonds: Sequence[tuple[str, str]]) -> Estimate:
+def _estimate(settings: "Method", bonds: Sequence[tuple[str, str]]) -> Estimate:
     tolerance = Tolerance(settings.step_tolerance, settings.absolute_tolerances)
     if settings.step_control == "doubling":
         return Doubling(tolerance)

@@ -3,8 +3,6 @@
 A port is all that the master knows of what a participant takes in or gives out.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

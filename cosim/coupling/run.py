@@ -1,7 +1,5 @@
 """A coupled run: initial exchange, macro steps, result."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 
 from cosim.coupling.exchange import Exchange

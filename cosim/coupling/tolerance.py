@@ -1,7 +1,5 @@
 """How much two values of a port may differ and still count as the same."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """An input over one macro step, as a function of time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -51,7 +49,7 @@ class Waveform:
             found.append(factorial * coefficient)
         return tuple(found)
 
-    def after(self, time: float, size: float) -> Waveform:
+    def after(self, time: float, size: float) -> "Waveform":
         """The same function for a part of the step: from a time (s since its start), size s long.
 
         By Taylor's series, which is exact for a polynomial.
@@ -83,7 +81,4 @@ def through(points: Sequence[tuple[float, float]], size: float) -> Waveform:
     t2, u2 = points[2]
     bend = ((u2 - u1) / (t2 - t1) - slope) / (t2 - t0)
     # u0 + slope (t - t0) + bend (t - t0)(t - t1)
-    return Waveform(
-        (u0 - slope * t0 + bend * t0 * t1, slope - bend * (t0 + t1), bend),
-        size,
-    )
+    return Waveform((u0 - slope * t0 + bend * t0 * t1, slope - bend * (t0 + t1), bend), size)

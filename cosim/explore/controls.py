@@ -4,12 +4,8 @@ Name, unit, bounds, words and typical range are those that scenarios, the FMU an
 show, too; a new effect has its sliders at once.
 """
 
-from __future__ import annotations
-
 import math
-import tomllib
 from collections.abc import Iterator
-from importlib.resources import files
 from typing import Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel
@@ -19,6 +15,7 @@ from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.quantity import details
 
 from cosim.fmu.variables import bounds_of
+from cosim.packaged import packaged_tables
 from cosim.report.page import unit_text
 from cosim.scenario import Scenario
 from cosim.scenario.validation import allowed, unit_of
@@ -40,9 +37,7 @@ OF_RUN = ("run.duration", "run.output_interval", "ambient.temperature_degC")
 #: Keys that are no numbers of the motion: the file of a table has been read.
 LEFT_OUT = ("friction.table",)
 #: Where a slider goes to, of keys whose declarations have no range: sizes of a rig on a table.
-RANGES: dict[str, list[float]] = tomllib.loads(
-    (files(__package__) / "ranges.toml").read_text(encoding="utf-8")
-)
+RANGES: dict[str, list[float]] = packaged_tables(__package__, "ranges.toml")
 #: A slider is logarithmic where its ends are further apart than this.
 DECADES = 30.0
 #: A typical range ends where most rigs do; a slider goes on so much further.

@@ -1,7 +1,5 @@
 """The explorer's page: one file with both models, the controls, scenarios and the scripts."""
 
-from __future__ import annotations
-
 import base64
 import json
 import re

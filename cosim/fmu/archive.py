@@ -1,7 +1,5 @@
 """A unit as a file, the same byte for byte for the same content, and known by it."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import uuid
@@ -21,7 +19,7 @@ def packed(files: Mapping[str, bytes]) -> bytes:
     return result.getvalue()
 
 
-def digest_of(files: Mapping[str, bytes]) -> hashlib._Hash:
+def digest_of(files: Mapping[str, bytes]) -> "hashlib._Hash":
     """SHA-256 of name -> content, of which no two can be taken for each other."""
     digest = hashlib.sha256()
     for name, content in sorted(files.items()):

@@ -1,7 +1,5 @@
 """The units by their names: built where they are asked for, and again when they are stale."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Sequence
 from functools import cache

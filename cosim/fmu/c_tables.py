@@ -1,7 +1,5 @@
 """What the C of the mechanical unit looks up: its variables, and its words for what is refused."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from string import Formatter

@@ -4,8 +4,6 @@ They are local variables behind all others, so that no value reference moves. A 
 output has no second variable.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import replace
 

@@ -4,15 +4,12 @@ A terminal groups what is connected together; two of the same kind fit each othe
 (FMI 3.0, section 2.4.9).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping
 from importlib.metadata import distribution
 from importlib.resources import files
 from typing import Any
-from xml.etree.ElementTree import Element, SubElement
 
-from cosim.fmu.description import written
+from cosim.fmu.description import xml_of
 from cosim.fmu.libraries import FMI2, FMI3
 from cosim.fmu.variables import DECLARED, Variable
 
@@ -51,22 +48,12 @@ def _icon(kind: str) -> bytes:
 def terminals(variables: Iterable[Variable]) -> bytes:
     """terminalsAndIcons.xml: those of `TERMINALS` of which a unit has every member."""
     known = {variable.name for variable in variables}
-    root = Element("fmiTerminalsAndIcons", fmiVersion="3.0")
-    picture = SubElement(root, "GraphicalRepresentation")
-    corners = {"x1": "-100", "y1": "-100", "x2": "100", "y2": "100"}
-    SubElement(picture, "CoordinateSystem", corners, suggestedScalingFactorTo_mm="0.1")
-    SubElement(picture, "Icon", corners)
-    place = SubElement(root, "Terminals")
+    found = {}
     for kind, told in TERMINALS.items():
         has = {
             member: next((name for name in names if name in known), None)
             for member, names in told["members"].items()
         }
-        if None in has.values():
-            continue
-        what = {"name": kind, "matchingRule": "plug", "terminalKind": f"stickslip.{kind}"}
-        terminal = SubElement(place, "Terminal", what, description=told["says"])
-        for member, name in has.items():
-            what = {"variableName": name or "", "memberName": member, "variableKind": "signal"}
-            SubElement(terminal, "TerminalMemberVariable", what)
-    return written(root)
+        if None not in has.values():
+            found[kind] = told["says"], has
+    return xml_of("terminals.xml.j2", terminals=found)

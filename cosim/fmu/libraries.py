@@ -3,8 +3,6 @@
 What was compiled once is kept in the user's cache, for whoever builds a unit of the same sources.
 """
 
-from __future__ import annotations
-
 import hashlib
 import zipfile
 from collections.abc import Callable, Mapping, Sequence

@@ -6,8 +6,6 @@ was compiled while the package was made into a wheel (see `build/hook.py`) is ta
 today's content; else it is compiled here.
 """
 
-from __future__ import annotations
-
 import json
 import zipfile
 import zlib
@@ -28,9 +26,7 @@ from stickslip.status import WHY_NOT
 from cosim.files import write_bytes
 from cosim.fmu import c_tables
 from cosim.fmu.archive import digest_of, guid_of, packed
-from cosim.fmu.description import UnitFacts
-from cosim.fmu.description.fmi2 import fmi2_description
-from cosim.fmu.description.fmi3 import build_description, fmi3_description
+from cosim.fmu.description import UnitFacts, build_description, fmi2_description, fmi3_description
 from cosim.fmu.exchange import INDICATORS, variables
 from cosim.fmu.extras import extras
 from cosim.fmu.libraries import FMI2, FMI3, Sources, of_platforms

@@ -9,8 +9,6 @@ What travels inside StickSlip3DOF is pure Python of the standard library: the sl
 effects' declarations stay behind, and pydantic with them.
 """
 
-from __future__ import annotations
-
 import json
 import pprint
 import re
@@ -29,9 +27,8 @@ from stickslip.scratch import scratch_folder
 from cosim.files import write_bytes
 from cosim.fmu import description
 from cosim.fmu.archive import digest_of, guid_of, packed
-from cosim.fmu.description import UnitFacts, fmi2
+from cosim.fmu.description import UnitFacts, fmi2_description
 from cosim.fmu.description.documentation import of_mechanics
-from cosim.fmu.description.fmi2 import fmi2_description
 from cosim.fmu.extras import extras
 from cosim.fmu.native import DESCRIPTION, NAME
 from cosim.fmu.pythonfmu_library import corrected
@@ -104,7 +101,7 @@ RECIPE_FILES = (
     ),
     Path(units.__file__),
     Path(description.__file__),
-    Path(fmi2.__file__),
+    *sorted(Path(description.__file__).parent.glob("*.xml.j2")),
     Path(ports.__file__),
 )
 

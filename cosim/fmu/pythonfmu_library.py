@@ -31,10 +31,10 @@ refused, why there is no instance, or that it could not return as a status. What
 host's wish, `loggingOn != 0`, becomes `true`; the unit says little that is no error.
 """
 
-import tomllib
 import warnings
-from importlib.resources import files
 from typing import Any
+
+from cosim.packaged import packaged_tables
 
 #: First bytes of a library of Linux, of Windows.
 ELF, DLL = b"\x7fELF", b"MZ"
@@ -44,8 +44,7 @@ SYSTEMS = {"linux": ELF, "windows": DLL, "": b""}
 def corrections() -> list[dict[str, Any]]:
     """Those of `pythonfmu.toml`, in its order: machine code (x86-64) that occurs once in the
     libraries it is meant for, and its successor, in hex."""
-    text = (files(__package__) / "pythonfmu.toml").read_text(encoding="utf-8")
-    found: list[dict[str, Any]] = tomllib.loads(text)["correction"]
+    found: list[dict[str, Any]] = packaged_tables(__package__, "pythonfmu.toml")["correction"]
     return found
 
 

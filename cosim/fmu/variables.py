@@ -1,11 +1,8 @@
 """What StickSlip3DOF has for variables: ports and parameters, in the order of their references."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from importlib.resources import files
 from pathlib import Path
 from typing import Any, get_args, get_origin
 
@@ -17,11 +14,12 @@ from stickslip.quantity import details
 from stickslip.units import UNITS
 
 import cosim
+from cosim.packaged import packaged_tables
 
 Entry = dict[str, Any]
 
 #: Guides, terminals, and what the unit has that its model has not.
-DECLARED = tomllib.loads((files(__package__) / "variables.toml").read_text(encoding="utf-8"))
+DECLARED = packaged_tables(__package__, "variables.toml")
 _WITHOUT: Entry = {"unit": None, "nominal": None, "max": None, "above_min": False}
 #: Parameters that the FMU shows otherwise than the parameter models do.
 GUIDES: dict[str, Entry] = {

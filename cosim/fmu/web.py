@@ -5,8 +5,6 @@ and packed, random numbers drawn and refusals said by the same C. Compiled by zi
 brings sin, exp and the others: nothing is asked of the browser.
 """
 
-from __future__ import annotations
-
 from functools import cache, partial
 from pathlib import Path
 
@@ -45,11 +43,7 @@ def sources(name: str = NAME, catalogue: Catalogue = CATALOGUE) -> dict[str, byt
 def guid(name: str = NAME, catalogue: Catalogue = CATALOGUE) -> str:
     """Of what a module is made from, by which a wheel's is known to be of today's content."""
     unit = native.guid(catalogue) if name == NAME else native_unit.guid()
-    made_from = {
-        "unit": unit.encode(),
-        "maker": Path(__file__).read_bytes(),
-        **_written(name),
-    }
+    made_from = {"unit": unit.encode(), "maker": Path(__file__).read_bytes(), **_written(name)}
     return guid_of(name, digest_of(made_from).hexdigest())
 
 

@@ -1,7 +1,5 @@
 """`--set key=value`: what is said on the command line in place of what a file has."""
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any

@@ -4,15 +4,12 @@ The set is `defaults.toml` beside this file. The FMU starts from it, too; `Scena
 and `Parameters()` in Python begin from the plain model, in which every effect is off.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from functools import cache
-from importlib import resources
 from typing import Any
 
-from cosim.scenario.toml_file import parsed
+from cosim.packaged import packaged_tables
 
 #: The sets that a file may name: the stated one, and none.
 RIG, PLAIN = "rig", "plain"
@@ -25,10 +22,10 @@ IN_PROPORTION = {"rig.spring_natural_length": ("rig.spring_length", 0.20)}
 @cache
 def stated() -> Mapping[str, Any]:
     """`table.key` -> value of the set."""
-    text = (resources.files("cosim.scenario") / FILE).read_text(encoding="utf-8")
+    tables = packaged_tables(__package__, FILE)
     return {
         f"{table}.{key}": value
-        for table, entries in parsed(text, FILE).items()
+        for table, entries in tables.items()
         for key, value in entries.items()
     }
 

@@ -1,7 +1,5 @@
 """Times in words."""
 
-from __future__ import annotations
-
 
 def in_words(seconds: float) -> str:
     """A time as somebody would say it: "90 s", "20 min", "5 h", "3 days", "20 years"."""

@@ -1,7 +1,5 @@
 """Whether the heat of a coupled run can be computed in the time that a scenario allows."""
 
-from __future__ import annotations
-
 from stickslip.packing import GRAVITY
 
 from cosim.scenario.durations import in_words

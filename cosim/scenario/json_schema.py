@@ -4,8 +4,6 @@ Draft 7, in the part of it that editors of TOML know (taplo, and with it Even Be
 says what one key may be; what several say together is checked when the file is read.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

@@ -1,7 +1,5 @@
 """Every key of a scenario in words: what it is, its unit, its default, what is allowed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple, get_args, get_origin
 

@@ -1,7 +1,5 @@
 """The keys of a table [coupling] that say by which method: scheme, iteration, step control."""
 
-from __future__ import annotations
-
 from typing import Literal
 
 from pydantic import Field

@@ -8,8 +8,6 @@ is off; what a file leaves out is as of a rig (`cosim.scenario.defaults`), unles
 `defaults = "plain"`.
 """
 
-from __future__ import annotations
-
 import logging
 import math
 import os
@@ -125,8 +123,7 @@ class Scenario(Parameters):
         pattern=r'^[^\s./\\:*?"<>|\x00-\x1f][^/\\:*?"<>|\x00-\x1f]*$',
     )
     effects: tuple[str, ...] = Field(
-        (),
-        description="files of custom effects, beside the scenario's file: their code is run",
+        (), description="files of custom effects, beside the scenario's file: their code is run"
     )
     defaults: Literal["rig", "plain"] = Field(
         "plain",

@@ -1,7 +1,5 @@
 """A TOML file as tables, and what is wrong with one that cannot be read, in one line."""
 
-from __future__ import annotations
-
 import tomllib
 from pathlib import Path
 from typing import Any

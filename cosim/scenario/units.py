@@ -1,7 +1,5 @@
 """Numbers that no rig has, and that another unit would make usual: grams, millimetres."""
 
-from __future__ import annotations
-
 from stickslip import Parameters
 
 #: Key -> least and most of what rigs have, in the unit of the scenario; the unit in which the same

@@ -3,14 +3,13 @@
 Scenarios, campaigns and the keys of a sweep go through here.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping
 from typing import Any, Literal, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
+from stickslip.quantity import details
 from stickslip.units import in_unit
 
 from cosim.names import nearest_key
@@ -171,8 +170,7 @@ def _known_instead(key: str, keys: dict[str, FieldInfo]) -> str:
 
 def unit_of(field: FieldInfo) -> str:
     """The unit that a field was declared with; "1" for a plain number, and for none."""
-    extra = field.json_schema_extra
-    return str(extra.get("unit", "1")) if isinstance(extra, dict) else "1"
+    return str(details(field).get("unit", "1"))
 
 
 def allowed(key: str, field: FieldInfo) -> str:

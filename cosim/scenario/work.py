@@ -5,16 +5,7 @@ factor of ten or so. It decides between minutes and days; a run.patience that is
 anything through that the models can do.
 """
 
-from __future__ import annotations
-
-from stickslip import Parameters
-from stickslip.status import (
-    MOST_STEPS_PER_SECOND,
-    SECONDS_PER_STEP,
-    likely_step,
-    longest_step,
-    time_to_slide,
-)
+from stickslip import Parameters, status
 
 from cosim.scenario.durations import in_words
 from cosim.scenario.scenario import Scenario
@@ -29,17 +20,17 @@ def check_mechanics(parameters: Parameters, duration: float, patience: float) ->
 
     duration: of the run, s; patience: the most that it may take, s.
     """
-    step = longest_step(parameters)
-    if step.per_second > MOST_STEPS_PER_SECOND:
+    step = status.longest_step(parameters)
+    if step.per_second > status.MOST_STEPS_PER_SECOND:
         raise ScenarioError(
             f"{step.reason}, followed in steps of {step.size:.2g} s; allowed are steps from "
-            f"{1.0 / MOST_STEPS_PER_SECOND:.2g} s: make it slower"
+            f"{1.0 / status.MOST_STEPS_PER_SECOND:.2g} s: make it slower"
         )
-    carried = min(time_to_slide(parameters), duration)
+    carried = min(status.time_to_slide(parameters), duration)
     steps = carried * step.per_second
-    step = likely_step(parameters)
+    step = status.likely_step(parameters)
     steps += (duration - carried) * step.per_second
-    seconds = steps * SECONDS_PER_STEP
+    seconds = steps * status.SECONDS_PER_STEP
     if seconds > patience:
         raise ScenarioError(
             f"run.duration: {duration:g} s takes {steps:.2g} steps, some {in_words(seconds)} "

@@ -1,7 +1,5 @@
 """A new scenario file: a commented one to begin from, or a copy of another under its own name."""
 
-from __future__ import annotations
-
 import json
 import re
 from importlib import resources

@@ -35,7 +35,7 @@ MAY_IMPORT = {
     "stickslip.quantity": (),
     "thermal": ("stickslip.quantity",),
     # neither body: only what is between them
-    "thermal.contact": ("stickslip.quantity", "thermal.materials"),
+    "thermal.contact": ("stickslip.quantity", "thermal.arrays", "thermal.materials"),
     **dict.fromkeys(LEAVES, LEAVES),
     "stickslip.scratch": (),
     "cosim.coupling": LEAVES,

@@ -16,8 +16,6 @@ area over perimeter as length (McAdams 1954; Ra from 1e4, used below it, where i
 air adds 4 epsilon sigma T^3, epsilon 0.9 for paper, cloth and grit: 3.8 W/m2K at -8 degC.
 """
 
-from __future__ import annotations
-
 import math
 
 from thermal.materials import GRAVITY, ZERO_DEGC

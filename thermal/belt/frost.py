@@ -12,8 +12,6 @@ below the air (the ice bulb's depression) whether it is rubbed or not, so that i
 ice at -8 degC s is about a half. A dry belt has neither.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

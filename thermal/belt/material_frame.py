@@ -1,15 +1,12 @@
 """The belt in its own frame: x along the loop (periodic), z from the contact face inwards.
 
 The mesh is a tensor product: P1 hat functions on a uniform periodic mesh along x, P2 elements
-through the thickness. Its operators are Kronecker products of two factors, both assembled by
-scikit-fem; the factors along x are circulant, so FFT in x and eigenmodes in z diagonalise the
-whole two-dimensional operator. The mass along x is lumped: with the consistent mass, the edges of
-the contact leave places colder than the air. Every coefficient then obeys a' = -rate a + load,
-which is advanced exactly for loads that are constant over a step. Temperatures are rises above
-the air.
+through the thickness (scikit-fem). Its operators are Kronecker products of two factors; those along
+x are circulant, so FFT in x and eigenmodes in z diagonalise the whole two-dimensional operator. The
+mass along x is lumped: with the consistent mass, the edges of the contact leave places colder than
+the air. Every coefficient then obeys a' = -rate a + load, which is advanced exactly for loads that
+are constant over a step. Temperatures are rises above the air.
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
@@ -18,36 +15,24 @@ from typing import NamedTuple
 import numpy as np
 from numpy.fft import irfft, rfft
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix
-from skfem import BilinearForm, CellBasis, ElementLineP1, MeshLine
 
-from thermal.relaxation import STEP_SIZES, decay, mean_decay, mean_response
+from thermal.arrays import Array
+from thermal.relaxation import STEP_SIZES, step
 
 from .parameters import Belt
+from .supports import CONTACT
 from .thickness import thickness_of
 
-Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
-
-#: The faces of the belt.
-CONTACT, BACK = 0, 1
 
 
 def periodic_stiffness(cells: int, cell: float) -> Array:
     """Symbol (cells // 2 + 1,) of the P1 stiffness on a periodic mesh, 1/m.
 
-    scikit-fem assembles the open mesh; its end nodes are then identified by a projection, which
-    makes the matrix circulant: the real FFT of its first column is its spectrum.
+    That of the circulant matrix of (-1, 2, -1) / cell, by its half angles: without cancelling.
     """
-    basis = CellBasis(MeshLine(np.linspace(0.0, cells * cell, cells + 1)), ElementLineP1())
-    nodes = np.arange(cells + 1)
-    identify = coo_matrix((np.ones(cells + 1), (nodes, nodes % cells))).tocsr()
-    stiffness = BilinearForm(lambda u, v, w: u.grad[0] * v.grad[0]).assemble(basis)
-    circulant = identify.T @ stiffness @ identify
-    symbol: Array = rfft(circulant[:, [0]].toarray().ravel()).real
-    # The stiffness of a constant is zero; assembly leaves rounding.
-    symbol[0] = 0.0
-    return symbol
+    found: Array = 4.0 / cell * np.sin(np.pi / cells * np.arange(cells // 2 + 1)) ** 2
+    return found
 
 
 class FluxPatch(NamedTuple):
@@ -95,17 +80,16 @@ class BeltField:
         self.response: Callable[[float], Response] = lru_cache(STEP_SIZES)(self._response)
 
     def _response(self, duration: float) -> Response:
-        x = self.rates * duration
-        mean, response = mean_decay(x), mean_response(x)
+        decay, mean, held, held_mean = step(self.rates, duration)
         entering = self._faces[:, :, None] / self.cell
-        pairs = np.einsum("am,bm,mk->abk", self._faces, entering[..., 0], duration * response)
+        pairs = np.einsum("am,bm,mk->abk", self._faces, entering[..., 0], held_mean)
         return Response(
-            decay=decay(x),
+            decay=decay,
             free_mean=self._faces[:, :, None] * mean,
-            forced=entering * duration * mean,
+            forced=entering * held,
             kernels=irfft(pairs, self.cells, axis=-1),
-            loss_free=self._air * duration * mean[:, 0],
-            loss_forced=np.sum(self._air * entering[..., 0] * response[:, 0], axis=1) * duration**2,
+            loss_free=self._air * held[:, 0],
+            loss_forced=duration * np.sum(self._air * entering[..., 0] * held_mean[:, 0], axis=1),
         )
 
     def periodic_response(self, duration: float, shift: int) -> Response:

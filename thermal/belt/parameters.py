@@ -1,7 +1,5 @@
 """What a belt is: its layers, what it gives to the air, and what it runs over."""
 
-from __future__ import annotations
-
 from pydantic import Field
 from stickslip.quantity import Table, quantity
 

@@ -9,22 +9,20 @@ loops the belt makes. The contact's strips and the supports are rows: places wit
 own, whose loads are exact Fourier coefficients. Temperatures are rises above the air.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from thermal.arrays import Array
 from thermal.contact.footprint import Footprint
-from thermal.relaxation import decay, mean_decay, mean_response
+from thermal.relaxation import step
 
 from .parameters import Belt
-from .supports import Eliminated, each_strip, eliminate, supports, take_heat
+from .supports import Eliminated, Places
 from .thickness import thickness_of
 
-Array = NDArray[np.float64]
 Spectrum = NDArray[np.complex128]
 
 #: Steps whose response is kept: those of a ramp, for the next one.
@@ -55,26 +53,17 @@ class BeltSeries:
         self._weight = np.where(number == 0, 1.0, 2.0)
         self.railing_heat_factor: float = 1.0
         self.roller_rise_factor: float = 1.0
-        self._supports = supports(belt, footprint.length / footprint.strips, footprint.lane)
-        self._place_rows(footprint)
-        self._diagonalise(belt.film)
-        self.amplitudes: Spectrum = np.zeros(self._rates.shape, dtype=np.complex128)
-
-    def _place_rows(self, footprint: Footprint) -> None:
-        """Faces, areas and Fourier coefficients of all places with a flux of their own."""
-        edges = [footprint.edges, *(s.behind + s.edges for s in self._supports)]
-        middles = np.concatenate([0.5 * (e[1:] + e[:-1]) for e in edges])
-        lengths = np.concatenate([np.diff(e) for e in edges])
-        self._areas = lengths * footprint.lane
-        on = np.repeat([0] + [1] * len(self._supports), [e.size - 1 for e in edges])
-        self._on = [on == face for face in (0, 1) if np.any(on == face)]
-        self._conductances = each_strip(self._supports, lambda support: support.conductance)
-        self._rises = each_strip(self._supports, lambda support: support.rise)
-        self._drags = each_strip(self._supports, lambda support: support.drag)
-        self._rows = self._areas[:, None] * (
-            np.sinc(np.outer(lengths, self._wave) / (2.0 * np.pi))
+        self._places = places = Places(belt, footprint)
+        of_strips = np.repeat(places.faces, [edges.size - 1 for edges in places.edges])
+        self._on = [of_strips == face for face in np.unique(places.faces)]
+        middles = np.concatenate([0.5 * (edges[1:] + edges[:-1]) for edges in places.edges])
+        #: Fourier coefficients of all places.
+        self._rows = places.areas[:, None] * (
+            np.sinc(np.outer(places.lengths, self._wave) / (2.0 * np.pi))
             * np.exp(-1j * np.outer(middles, self._wave))
         )
+        self._diagonalise(belt.film)
+        self.amplitudes: Spectrum = np.zeros(self._rates.shape, dtype=np.complex128)
 
     def _diagonalise(self, film: float) -> None:
         """Modes for a film (W/m2K) on both faces."""
@@ -92,10 +81,10 @@ class BeltSeries:
             self.amplitudes[:] = np.linalg.solve(self._modes.shapes, nodal)
 
     def _respond(self, duration: float, speed: float) -> Response:
-        x = np.asarray(self._rates + 1j * speed * self._wave, dtype=np.complex128) * duration
-        mean, length = mean_decay(x), self._belt.length
-        held = mean_response(x) * (duration / length * self._weight)
-        rows = np.empty((self._areas.size, self._areas.size))
+        rates = np.asarray(self._rates + 1j * speed * self._wave, dtype=np.complex128)
+        of_step, length = step(rates, duration), self._belt.length
+        held = of_step.held_mean * (self._weight / length)
+        rows = np.empty((self._places.areas.size, self._places.areas.size))
         for on_a, face_a in zip(self._on, self._faces, strict=True):
             for on_b, face_b in zip(self._on, self._faces, strict=True):
                 # Re(conj(r) g s) summed, by a real product: half the work of a complex one.
@@ -103,21 +92,19 @@ class BeltSeries:
                 rows[np.ix_(on_a, on_b)] = (
                     self._rows[on_a].view(np.float64) @ right.view(np.float64).T
                 )
-        return Response(decay(x), mean, mean * (duration / length), rows / self._areas[:, None])
+        rows /= self._places.areas[:, None]
+        return Response(of_step.decay, of_step.mean, of_step.held / length, rows)
 
     def step_response(self, duration: float, speed: float) -> Eliminated:
         """The belt as the contact finds it in a step (s) at a speed (m/s)."""
         response = self.response(duration, speed)
+        places = self._places
         given = (
-            self.roller_rise_factor * self._conductances * self._rises
-            + self.railing_heat_factor * self._drags * abs(speed)
+            self.roller_rise_factor * places.conductances * places.rises
+            + self.railing_heat_factor * places.drags * abs(speed)
         )
-        return eliminate(
-            self._means(response.mean * self.amplitudes),
-            response.rows,
-            self._conductances - self.film,
-            given,
-        )
+        means = self._means(response.mean * self.amplitudes)
+        return places.eliminate(means, response.rows, self.film, given)
 
     def advance(self, duration: float, speed: float, fluxes: Array) -> None:
         """Advance by a step that was seen, under the fluxes of all rows, W/m2."""
@@ -131,11 +118,11 @@ class BeltSeries:
 
     def _means(self, amplitudes: Spectrum) -> Array:
         """Means over the rows' areas of a field's faces, K: (rows,)."""
-        means = np.empty(self._areas.size)
+        means = np.empty(self._places.areas.size)
         for on, face in zip(self._on, self._faces, strict=True):
             series = self._weight * (face @ amplitudes)
             means[on] = self._rows[on].view(np.float64) @ series.view(np.float64)
-        return means / self._areas
+        return means / self._places.areas
 
     def strip_means(self) -> Array:
         """Face under the strips of the contact, from entry to exit, K: (strips,)."""
@@ -167,4 +154,4 @@ class BeltSeries:
     @property
     def takes_heat(self) -> bool:
         """Does a support take heat?"""
-        return take_heat(self._conductances)
+        return self._places.take_heat

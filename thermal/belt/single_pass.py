@@ -9,8 +9,6 @@ It counts a single pass; a belt that runs for 20 s passes again and again and ke
 heat each time. The rate kappa = 0.25 1/s is, in the study, a conductivity in W/mK used as a rate.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

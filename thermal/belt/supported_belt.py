@@ -1,21 +1,16 @@
 """The belt with what touches it: the ice on the contact face, railing and rollers at the back."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
-import numpy as np
 from numpy.fft import rfft
-from numpy.typing import NDArray
 
+from thermal.arrays import Array
 from thermal.contact.footprint import Footprint, strip_loads
 
-from .material_frame import BACK, CONTACT, BeltField, FluxPatch, Response
+from .material_frame import BeltField, FluxPatch, Response
 from .parameters import Belt
-from .supports import Eliminated, each_strip, eliminate, supports, take_heat
-
-Array = NDArray[np.float64]
+from .supports import CONTACT, Eliminated, Places
 
 
 @dataclass(frozen=True)
@@ -32,40 +27,14 @@ class StepResponse:
     rubbed: float
 
 
-@dataclass(frozen=True)
-class HeatGiven:
-    """Heat that the belt gave away in a step, J: to the air and to its supports.
-
-    What warm rollers give to the belt counts as negative; what the belt's rubbing makes does not
-    count.
-    """
-
-    to_air: float
-    to_supports: float
-
-
 class SupportedBelt:
     """`belt` and its supports; all of them stand still while the belt runs."""
 
     def __init__(self, parameters: Belt, footprint: Footprint) -> None:
         self.belt: BeltField = BeltField(parameters, footprint.lane)
-        self._footprint = footprint
-        self._supports = supports(parameters, footprint.length / footprint.strips, footprint.lane)
+        self.places: Places = Places(parameters, footprint)
+        self._lane, self._strips = footprint.lane, footprint.strips
         self._air = parameters.film
-        strips = [np.diff(support.edges) for support in self._supports]
-        self._conductances = each_strip(self._supports, lambda support: support.conductance)
-        self._rises = each_strip(self._supports, lambda support: support.rise)
-        self._drags = each_strip(self._supports, lambda support: support.drag)
-        #: Areas of all places with a flux of their own, m2: the contact's strips come first.
-        self._areas = np.concatenate(
-            [np.full(footprint.strips, footprint.strip_area)]
-            + [lengths * footprint.lane for lengths in strips]
-        )
-
-    @property
-    def takes_heat(self) -> bool:
-        """Does a support take heat?"""
-        return take_heat(self._conductances)
 
     def step_response(
         self,
@@ -80,27 +49,17 @@ class SupportedBelt:
         travel: of the belt over its supports, m, signed. belt: how it responds, when not as to
         a step.
         """
-        cell = self.belt.cell
-        patches = [FluxPatch(CONTACT, *self._footprint.loads(centre, movement, cell))]
-        patches += [
-            FluxPatch(
-                BACK,
-                *strip_loads(
-                    support.edges, self._footprint.lane, centre + support.behind, movement, cell
-                ),
-            )
-            for support in self._supports
+        places, cell = self.places, self.belt.cell
+        patches = [
+            FluxPatch(face, *strip_loads(edges, self._lane, centre, movement, cell))
+            for face, edges in zip(places.faces, places.edges, strict=True)
         ]
         means, response = self.belt.face_means(duration, patches, belt)
-        free, response = means / self._areas, response / self._areas[:, None]
-        rubbing = self._drags * (abs(travel) / duration)
-        contact = eliminate(
-            free,
-            response,
-            self._conductances - self._air,
-            self._conductances * self._rises + rubbing,
-        )
-        rubbed = duration * float(rubbing @ self._areas[self._footprint.strips :])
+        free, response = means / places.areas, response / places.areas[:, None]
+        rubbing = places.drags * (abs(travel) / duration)
+        given = places.conductances * places.rises + rubbing
+        contact = places.eliminate(free, response, self._air, given)
+        rubbed = duration * float(rubbing @ places.areas[self._strips :])
         return StepResponse(patches, free, response, contact, rubbed)
 
     def advance(
@@ -109,11 +68,13 @@ class SupportedBelt:
         found: StepResponse,
         contact: Array,
         freezing: Callable[[Array, float], Array] | None = None,
-    ) -> HeatGiven:
+    ) -> tuple[float, float]:
         """Advance by a step that was `found`, with the fluxes of the contact's strips, W/m2.
 
         freezing: power into the contact face (cells,) W per node, from what that face would be
         at the step's end without it, K (cells,), and its rise for 1 W on every node, K/W.
+        Returns the heat that the belt gave to the air, and to its supports, J. What warm rollers
+        give to the belt counts as negative; what the belt's rubbing makes does not count.
         """
         fluxes = found.contact.fluxes(contact)
         loads = self.belt.load(found.patches, fluxes)
@@ -121,9 +82,8 @@ class SupportedBelt:
             power = freezing(*self.belt.face_after(duration, loads))
             loads[CONTACT] = loads[CONTACT] + rfft(power)
         everywhere = self.belt.advance(duration, loads)
-        times = duration * self._areas * (found.free + found.response @ fluxes)
-        own = self._footprint.strips
-        return HeatGiven(
-            everywhere - self._air * float(times.sum()),
-            float(self._conductances @ (times[own:] - duration * self._areas[own:] * self._rises)),
-        )
+        places = self.places
+        areas = duration * places.areas
+        times = areas * (found.free + found.response @ fluxes)
+        warmer = times[self._strips :] - areas[self._strips :] * places.rises
+        return everywhere - self._air * float(times.sum()), float(places.conductances @ warmer)

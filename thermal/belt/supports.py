@@ -11,19 +11,18 @@ to the air over the whole back, which a support covers. The strips of all suppor
 before the contact is solved, so that the contact sees a belt that knows its supports.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from thermal.arrays import Array
 from thermal.contact.exchange import BeltFace
+from thermal.contact.footprint import Footprint
 
 from .parameters import Belt
 
-Array = NDArray[np.float64]
+#: The faces of the belt.
+CONTACT, BACK = 0, 1
 
 
 @dataclass(frozen=True)
@@ -39,21 +38,6 @@ class Support:
     conductance: float
     rise: float = 0.0
     drag: float = 0.0
-
-    @property
-    def strips(self) -> int:
-        """Number of its strips."""
-        return self.edges.size - 1
-
-
-def each_strip(supports: Sequence[Support], value: Callable[[Support], float]) -> Array:
-    """A number of the supports for each of their strips: (strips,)."""
-    return np.concatenate([np.zeros(0)] + [np.full(s.strips, value(s)) for s in supports])
-
-
-def take_heat(conductances: Array) -> bool:
-    """Does a support take heat? conductances (strips,) W/m2K."""
-    return bool(np.any(conductances > 0.0))
 
 
 def supports(belt: Belt, strip: float, lane: float) -> list[Support]:
@@ -96,23 +80,48 @@ class Eliminated:
         return np.concatenate((contact, -self._own - self._answer @ contact))
 
 
-def eliminate(free: Array, response: Array, excess: Array, given: Array) -> Eliminated:
-    """Solve for the supports' strips, the last ones, in terms of the contact's.
+class Places:
+    """Places on a belt with a flux of their own: the contact's strips, then those of its supports.
 
-    free (strips,) K, response (strips, strips) K m2/W of all strips; excess: h - h_air of the
-    supports' strips, W/m2K; given: what they give to a belt at the air's temperature, W/m2.
+    faces, edges: of each row of strips the face of the belt, and the strips' edges, m behind the
+    contact's middle. lengths m and areas m2 of all strips; conductances W/m2K, rises K and drags
+    (W/m2 for 1 m/s) of those of the supports.
     """
-    contact = free.size - excess.size
-    if excess.size == 0:
-        return Eliminated(BeltFace(free, response), np.zeros(0), np.zeros((0, contact)))
-    matrix = np.eye(excess.size) + excess[:, None] * response[contact:, contact:]
-    right = excess[:, None] * np.column_stack((free[contact:], response[contact:, :contact]))
-    right[:, 0] -= given
-    solved = np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
-    own, answer = solved[:, 0], solved[:, 1:]
-    across = response[:contact, contact:]
-    return Eliminated(
-        BeltFace(free[:contact] - across @ own, response[:contact, :contact] - across @ answer),
-        own,
-        answer,
-    )
+
+    def __init__(self, belt: Belt, footprint: Footprint) -> None:
+        found = supports(belt, footprint.length / footprint.strips, footprint.lane)
+        self.faces = [CONTACT] + [BACK] * len(found)
+        self.edges: list[Array] = [footprint.edges, *(s.behind + s.edges for s in found)]
+        self.lengths: Array = np.concatenate([np.diff(edges) for edges in self.edges])
+        self.areas: Array = self.lengths * footprint.lane
+        strips = np.array([s.edges.size - 1 for s in found], dtype=np.intp)
+        self.conductances, self.rises, self.drags = (
+            np.repeat(np.array([getattr(s, name) for s in found], dtype=np.float64), strips)
+            for name in ("conductance", "rise", "drag")
+        )
+
+    @property
+    def take_heat(self) -> bool:
+        """Does a support take heat?"""
+        return bool(np.any(self.conductances > 0.0))
+
+    def eliminate(self, free: Array, response: Array, film: float, given: Array) -> Eliminated:
+        """Solve for the supports' strips in terms of the contact's.
+
+        free (strips,) K, response (strips, strips) K m2/W of all strips; film: to the air, W/m2K;
+        given: what the supports give to a belt at the air's temperature, W/m2.
+        """
+        excess = self.conductances - film
+        contact = free.size - excess.size
+        if excess.size == 0:
+            return Eliminated(BeltFace(free, response), np.zeros(0), np.zeros((0, contact)))
+        matrix = np.eye(excess.size) + excess[:, None] * response[contact:, contact:]
+        right = excess[:, None] * np.column_stack((free[contact:], response[contact:, :contact]))
+        right[:, 0] -= given
+        solved = np.asarray(np.linalg.solve(matrix, right), dtype=np.float64)
+        own, answer = solved[:, 0], solved[:, 1:]
+        across = response[:contact, contact:]
+        face = BeltFace(
+            free[:contact] - across @ own, response[:contact, :contact] - across @ answer
+        )
+        return Eliminated(face, own, answer)

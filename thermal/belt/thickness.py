@@ -11,21 +11,19 @@ conduction along the layers couples the modes: second order in a term that itsel
 temperatures by less than 1 %.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
-from skfem import BilinearForm, CellBasis, ElementLineP2, FacetBasis, MeshLine
+from skfem import CellBasis, ElementLineP2, FacetBasis, MeshLine
 
+from thermal.arrays import Array
+from thermal.assembly import Body
 from thermal.eigenmodes import eigenmodes
 from thermal.grids import graded
 from thermal.materials import Medium
 
 from .parameters import Belt, Layer
-
-Array = NDArray[np.float64]
 
 #: Last element through the thickness over the first, which lies at the contact face.
 _STRETCH = 10.0
@@ -47,6 +45,30 @@ def element_boundaries(layers: tuple[Layer, ...], elements: int) -> tuple[Array,
     return np.concatenate(pieces), np.repeat(np.arange(len(layers)), each)
 
 
+def section(layers: tuple[Layer, ...], h: float, elements: int, lane: float) -> Body:
+    """Elements of a metre of a lane (width m) of belt with films h (W/m2K) on its faces."""
+    boundaries, of_element = element_boundaries(layers, elements)
+    mesh = MeshLine(boundaries)
+    # One row per element, to be broadcast over its quadrature points.
+    medium = Medium(
+        *(
+            np.array([getattr(layers[i], name) for i in of_element])[:, None]
+            for name in ("density", "heat_capacity", "conductivity")
+        )
+    )
+    return Body(
+        basis=CellBasis(mesh, ElementLineP2()),
+        medium=medium,
+        h=h,
+        side=FacetBasis(mesh, ElementLineP2(), facets=mesh.boundary_facets()),
+        top=None,
+        bottom=FacetBasis(mesh, ElementLineP2(), facets=lambda x: x[0] == 0.0),
+        share=lambda x: np.ones_like(x[0]),
+        measure=lambda x: np.full_like(x[0], lane),
+        height=float(boundaries[-1]),
+    )
+
+
 class Thickness:
     """Modes through the thickness of a lane (width m) of belt with films h (W/m2K) on its faces.
 
@@ -59,26 +81,18 @@ class Thickness:
     """
 
     def __init__(self, layers: tuple[Layer, ...], h: float, elements: int, lane: float) -> None:
-        boundaries, of_element = element_boundaries(layers, elements)
-        basis = CellBasis(MeshLine(boundaries), ElementLineP2())
-        # One row per element, to be broadcast over its quadrature points.
-        medium = Medium(
-            *(
-                np.array([getattr(layers[i], name) for i in of_element])[:, None]
-                for name in ("density", "heat_capacity", "conductivity")
-            )
-        )
-        films = [(FacetBasis(basis.mesh, ElementLineP2(), facets=basis.mesh.boundary_facets()), h)]
-        modes = eigenmodes(basis, films, medium, lambda x: lane + 0.0 * x[0])
-        order = np.argsort(basis.doflocs[0])
-        self.depth: Array = basis.doflocs[0][order]
-        self.shapes: Array = modes.shapes[order]
+        body = section(layers, h, elements, lane)
+        space = body.space(np.eye(body.basis.N))
+        rates, shapes = eigenmodes(space.factor(1.0), space.capacity)
+        along = body.weighted(body.medium.conductivity)
+        order = np.argsort(body.basis.doflocs[0])
+        self.depth: Array = body.basis.doflocs[0][order]
+        self.rates: Array = rates
+        self.shapes: Array = shapes[order]
         self.faces: Array = self.shapes[[0, -1]]
-        self.rates: Array = modes.rates
-        self.heat: Array = modes.heat
-        self.air: Array = modes.air
-        along = BilinearForm(lambda u, v, w: medium.conductivity * lane * u * v).assemble(basis)
-        self.along: Array = np.sum(modes.shapes * (along @ modes.shapes), axis=0)
+        self.heat: Array = space.heat @ shapes
+        self.air: Array = space.side_air @ shapes
+        self.along: Array = np.sum(shapes * (along @ shapes), axis=0)
 
 
 @lru_cache(maxsize=32)

@@ -11,16 +11,13 @@ one place does to its neighbours within a step is taken as if all places froze. 
 belt, but a wiper in front of the contact may take water and ice off it.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-from numpy.typing import NDArray
+
+from thermal.arrays import Array
 
 from .footprint import strip_loads
-
-Array = NDArray[np.float64]
 
 
 class BeltWater:

@@ -24,14 +24,14 @@ exactly, and m is what remains. A film of water on the face freezes before the f
 is then negative, down to what the film holds.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from thermal.arrays import Array
+
+from .parameters import Contact
 
 
 @dataclass(frozen=True)
@@ -75,9 +75,9 @@ def _belt_fluxes(
     belt: BeltFace,
     resistance: float,
     free_face_h: float,
+    own: float,
     ice_temperature: float,
     ice_response: float,
-    own: float,
 ) -> tuple[Array, Array]:
     """Solve the strips for an ice face at ice_temperature - ice_response * mean(q).
 
@@ -98,34 +98,21 @@ def _belt_fluxes(
 
 
 def exchange(
-    belt: BeltFace,
-    ice: IceFace,
-    conductance: float,
-    free_face_h: float,
-    friction: float,
-    belt_side: float = 0.5,
+    belt: BeltFace, ice: IceFace, contact: Contact, free_face_h: float, friction: float
 ) -> Fluxes:
     """Fluxes of one step.
 
-    conductance: of the contact, free_face_h: of the belt's film that the ice covers, W/m2K;
-    friction: W/m2; belt_side: share of it that arises on the belt's face.
+    free_face_h: of the belt's film that the ice covers, W/m2K; friction: W/m2.
     """
-    resistance, own = 1.0 / conductance, belt_side * friction
-    given = friction + ice.refreezing
-    into_belt, from_contact = _belt_fluxes(
-        belt,
-        resistance,
-        free_face_h,
-        ice.free_mean + ice.response_mean * given,
-        ice.response_mean,
-        own,
+    solve = partial(
+        _belt_fluxes, belt, 1.0 / contact.conductance, free_face_h, contact.belt_side * friction
     )
+    given = friction + ice.refreezing
+    into_belt, from_contact = solve(ice.free_mean + ice.response_mean * given, ice.response_mean)
     into_ice = given - float(from_contact.mean())
     if ice.free_end + ice.response_end * into_ice <= ice.melting:
         return Fluxes(into_belt, from_contact, into_ice, -ice.refreezing)
     into_ice = (ice.melting - ice.free_end) / ice.response_end
-    into_belt, from_contact = _belt_fluxes(
-        belt, resistance, free_face_h, ice.free_mean + ice.response_mean * into_ice, 0.0, own
-    )
+    into_belt, from_contact = solve(ice.free_mean + ice.response_mean * into_ice, 0.0)
     melting = friction - float(from_contact.mean()) - into_ice
     return Fluxes(into_belt, from_contact, into_ice, melting)

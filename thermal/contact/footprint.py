@@ -14,12 +14,9 @@ on the hat functions of a uniform mesh, and their mean over a movement, are diff
 repeated integrals of the rectangle, and therefore exact wherever the edges fall.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from thermal.arrays import Array
 
 
 def disc_on_strip(radius: float, width: float) -> float:

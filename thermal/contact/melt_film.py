@@ -20,8 +20,6 @@ of eta v / h over it. (Water that moved with the belt, at twice the speed, would
 is thinner by the root of two, and sheared with sqrt(2 eta v rho L / l).)
 """
 
-from __future__ import annotations
-
 import math
 
 from thermal.materials import WATER_DENSITY, WATER_VISCOSITY

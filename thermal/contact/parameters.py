@@ -1,7 +1,5 @@
 """Where ice and belt touch: the contact's size, its conductance, and what arises there."""
 
-from __future__ import annotations
-
 from pydantic import Field
 from stickslip.quantity import Table, quantity
 

@@ -10,21 +10,17 @@ and the sinking of the ice that it causes depend on each other: both are found b
 iteration within the step.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from thermal.arrays import Array
 from thermal.contact.exchange import Fluxes, IceFace
 
 from .body import IceBody
 from .parameters import Ice
-
-Array = NDArray[np.float64]
 
 #: Largest recession of the face in an internal step, m: the iteration then contracts.
 LONGEST_RECESSION = 2e-5

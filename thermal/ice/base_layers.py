@@ -7,14 +7,13 @@ as high. The sample's shape stays exactly what it is. Under a constant flux such
 elements err by 0.07 % of the face's rise, layers cut at a third by 0.16 %, at a half by 0.02 %.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from thermal.arrays import Array
+
 Cells = NDArray[np.int64]
 Nodes = NDArray[np.bool_]
 

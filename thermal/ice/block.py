@@ -1,7 +1,5 @@
 """The block of ice that a set of parameters describes, and its contact with the belt."""
 
-from __future__ import annotations
-
 from typing import TypeAlias
 
 from thermal.contact.footprint import Footprint

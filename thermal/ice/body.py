@@ -1,27 +1,21 @@
 """A standing block of ice as eigenmodes: warmed at its contact face, cooled by the air, melting.
 
 Its Galerkin space is diagonalised, so a constant flux is advanced exactly, whatever the step.
-Melting lowers the block (see `space`). Within a step the ice sinks at a constant speed and the
-heat that this moves is a constant load, taken at the mean of the temperatures at the step's ends:
-second order in the step. The modes belong to one height; they are formed anew when the present one
-is off by `TOLERANCE` of itself. Temperatures are rises above the air.
+Melting lowers the block (see `thermal.assembly`). Within a step the ice sinks at a constant speed
+and the heat that this moves is a constant load, taken at the mean of the temperatures at the step's
+ends: second order in the step. The modes belong to one height; they are formed anew when the
+present one is off by `TOLERANCE` of itself. Temperatures are rises above the air.
 """
-
-from __future__ import annotations
 
 from collections.abc import Callable
 from functools import lru_cache, partial
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
-from scipy.linalg import eigh
 
-from thermal.relaxation import STEP_SIZES, decay, mean_decay, mean_response
-
-from .space import IceSpace
-
-Array = NDArray[np.float64]
+from thermal.arrays import Array
+from thermal.assembly import HeatSpace
+from thermal.eigenmodes import eigenmodes
+from thermal.relaxation import STEP_SIZES, Step, step
 
 #: Change of the height, relative, that the modes bear; the conductance upwards then errs by twice
 #: that, to one side and the other in turn.
@@ -29,9 +23,6 @@ TOLERANCE = 2e-4
 
 #: Part of the first height that has to be left.
 _LEAST_HEIGHT = 0.05
-
-#: Modes that carry the heat of long times; see `_modes`.
-_SLOWEST = 40
 
 # Heights whose modes are kept: a step that is taken back goes from one to another and returns.
 _MOST_KNOWN = 4
@@ -41,48 +32,19 @@ class IceMelted(RuntimeError):
     """So much ice has melted that there is no block any more."""
 
 
-class Response(NamedTuple):
-    """What a step of given duration does, per mode unless said."""
-
-    decay: Array
-    mean: Array  # mean of the decay
-    forced: Array  # amplitude at the end for load 1 W on the contact
-    held: Array  # amplitude at the end for load 1 on the mode
-    held_mean: Array  # mean amplitude for load 1 on the mode
-    face_mean: float  # step-mean of the face for 1 W, K/W
-    face_end: float  # end of the face for 1 W, K/W
-    loss_free: Array  # J lost to the air per amplitude
-    loss_held: Array  # J lost to the air for load 1 on the mode
-    loss_forced: float  # J lost to the air for load 1 W on the contact
-
-
-def _modes(space: IceSpace, height_ratio: float) -> tuple[Array, Array]:
-    """Rates (n,) 1/s and shapes (n, n) in the trial space, shapes^T capacity shapes = 1.
-
-    A dense eigensolver errs by rounding times the fastest rate, which over long runs is not small
-    against the slowest. A Rayleigh-Ritz step with the form's factor among the slowest modes, and
-    Rayleigh quotients for all, err by rounding.
-    """
-    factor = space.factor(height_ratio)
-    shapes = eigh(factor.T @ factor, space.capacity)[1]
-    slow = shapes[:, :_SLOWEST]
-    powers = factor @ slow
-    slow[:] = slow @ eigh(powers.T @ powers, slow.T @ space.capacity @ slow)[1]
-    shapes /= np.sqrt(np.sum(shapes * (space.capacity @ shapes), axis=0))
-    return np.sum(np.square(factor @ shapes), axis=0), shapes
-
-
 class IceBody:
     """Temperature of a block of ice in a Galerkin space; `amplitudes` (n,), `rates` (n,) 1/s.
 
     `melted_depth`: how far the face has receded, m.
     """
 
-    def __init__(self, space: IceSpace) -> None:
+    def __init__(self, space: HeatSpace) -> None:
         self.space = space
         self.melted_depth: float = 0.0
         self._fitted_depth = 0.0
-        self._modes = lru_cache(_MOST_KNOWN)(partial(_modes, space))
+        self._modes = lru_cache(_MOST_KNOWN)(
+            lambda height_ratio: eigenmodes(space.factor(height_ratio), space.capacity)
+        )
         self._diagonalise()
         self.amplitudes: Array = np.zeros(self.rates.size)
 
@@ -95,39 +57,24 @@ class IceBody:
         self._heat = space.heat @ self._shapes
         self._air = space.air(height_ratio) @ self._shapes
         self._sinking = self._shapes.T @ space.sinking @ self._shapes
-        self.response: Callable[[float], Response] = lru_cache(STEP_SIZES)(self._response)
+        self._step: Callable[[float], Step[Array]] = lru_cache(STEP_SIZES)(partial(step, rates))
 
     @property
     def height_ratio(self) -> float:
         """Present height over that at the start, J of `space`: 1 until ice melts."""
         return 1.0 - self.melted_depth / self.space.height
 
-    def _response(self, duration: float) -> Response:
-        x = self.rates * duration
-        mean, response = mean_decay(x), mean_response(x)
-        held, held_mean = duration * mean, duration * response
-        forced = self._face * held
-        return Response(
-            decay=decay(x),
-            mean=mean,
-            forced=forced,
-            held=held,
-            held_mean=held_mean,
-            face_mean=float(np.sum(self._face**2 * held_mean)),
-            face_end=float(self._face @ forced),
-            loss_free=self._air * held,
-            loss_held=self._air * duration * held_mean,
-            loss_forced=float(np.sum(self._air * self._face * held_mean) * duration),
-        )
-
     def face_response(self, duration: float, recession: float = 0.0) -> tuple[float, float]:
         """Contact face for 1 W on the contact, K/W: mean over the step and at its end.
 
         recession: how far the face recedes in the step, m.
         """
-        response = self.response(duration)
+        held, held_mean = self._step(duration)[2:]
         middle, end = self._height_ratios(recession)
-        return response.face_mean / middle, response.face_end / end
+        return (
+            float(np.sum(self._face**2 * held_mean)) / middle,
+            float(self._face @ (self._face * held)) / end,
+        )
 
     def free_face(
         self, duration: float, sinking: Array | None = None, recession: float = 0.0
@@ -136,11 +83,7 @@ class IceBody:
 
         sinking: load on the modes from `sinking`; recession: of the face in the step, m.
         """
-        response = self.response(duration)
-        mean, end = self.amplitudes * response.mean, self.amplitudes * response.decay
-        if sinking is not None:
-            mean = mean + response.held_mean * sinking
-            end = end + response.held * sinking
+        mean, end = self._under(duration, 0.0, sinking)
         ratio_middle, ratio_end = self._height_ratios(recession)
         return float(self._face @ mean) / ratio_middle, float(self._face @ end) / ratio_end
 
@@ -156,15 +99,18 @@ class IceBody:
 
         load: W on the contact; before: an estimate of what is returned.
         """
-        end = self._after(duration, load, before)
+        _, end = self._under(duration, load, before)
         speed = recession / (duration * self._height_ratios(recession)[0])
         return speed * (self._sinking @ (0.5 * (self.amplitudes + end)))
 
-    def _after(self, duration: float, load: float, sinking: Array | None) -> Array:
-        """Amplitudes at the end of a step."""
-        response = self.response(duration)
-        end = self.amplitudes * response.decay + response.forced * load
-        return end if sinking is None else end + response.held * sinking
+    def _under(self, duration: float, load: float, sinking: Array | None) -> tuple[Array, Array]:
+        """Amplitudes in a step under a load (W) on the contact: their mean, and at its end."""
+        loads = self._face * load
+        if sinking is not None:
+            loads = loads + sinking
+        of_step = self._step(duration)
+        mean = self.amplitudes * of_step.mean + of_step.held_mean * loads
+        return mean, self.amplitudes * of_step.decay + of_step.held * loads
 
     def advance(
         self, duration: float, load: float, sinking: Array | None = None, recession: float = 0.0
@@ -174,14 +120,11 @@ class IceBody:
         sinking: load on the modes; recession: of the face in the step, m. IceMelted when less than
         5 % of the height is left.
         """
-        response = self.response(duration)
-        loss = self.amplitudes @ response.loss_free + load * response.loss_forced
-        if sinking is not None:
-            loss += response.loss_held @ sinking
-        self.amplitudes[:] = self._after(duration, load, sinking)
+        mean, self.amplitudes[:] = self._under(duration, load, sinking)
+        loss = duration * float(self._air @ mean)
         if recession != 0.0:
             self._recede(recession)
-        return float(loss)
+        return loss
 
     def _recede(self, depth: float) -> None:
         self.melted_depth += depth

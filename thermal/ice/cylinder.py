@@ -5,22 +5,19 @@ cooling on side and top, a flux on the part of the bottom that lies on the belt,
 rest of the bottom. All eigenmodes are kept. Temperatures are rises above the air.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 from skfem import CellBasis, ElementQuad2, FacetBasis, MeshQuad
 
+from thermal.arrays import Array
+from thermal.assembly import Body
 from thermal.grids import graded, grid_points, quadrilaterals
 from thermal.materials import Medium
 
 from .body import IceBody
 from .parameters import Ice
-from .space import Body
-
-Array = NDArray[np.float64]
 
 #: Largest element over smallest: the smallest lie at the contact (height), at the side (radius).
 _AXIAL_STRETCH = 500.0
@@ -54,10 +51,7 @@ def _radii(radius: float, elements: int, touching: float | None) -> Array:
 
 
 def assembled(
-    parameters: Ice,
-    r: Array,
-    z: Array,
-    arc_share: Callable[[Array], Array] = np.ones_like,
+    parameters: Ice, r: Array, z: Array, arc_share: Callable[[Array], Array] = np.ones_like
 ) -> Body:
     """P2 elements between the radii r and the heights z (m)."""
     mesh = MeshQuad.init_tensor(r, z).with_boundaries(

@@ -8,14 +8,11 @@ Systems, 2005). The error falls geometrically with the number of shifts in a dec
 constant in the space, heat is conserved to rounding.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import csr_matrix, diags
 from scipy.sparse.linalg import cg
 
-Array = NDArray[np.float64]
+from thermal.arrays import Array
 
 #: Shifts, 1/s: from the first tenths of a millisecond to days, 2.5 in a decade.
 SHIFTS = np.geomspace(1e4, 1e-6, 26)

@@ -1,12 +1,10 @@
 """What becomes of ice that melts: film under the block, water and ice on the belt."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from thermal.arrays import Array
 from thermal.belt.material_frame import BeltField
 from thermal.contact.belt_water import BeltWater
 from thermal.contact.exchange import Fluxes, IceFace
@@ -18,25 +16,17 @@ from thermal.parameters import ThermalParameters
 from .ablation import Ablation, Receding
 from .body import IceBody
 
-Array = NDArray[np.float64]
-
 
 class Meltwater:
     """`melted`: ice that the block has lost, kg; `film` under it; `on_belt`; taken off that by a
     wiper, `wiped` water and `wiped_ice`, kg.
-
-    melting: the melting point, K above the air.
     """
 
     def __init__(
-        self,
-        parameters: ThermalParameters,
-        footprint: Footprint,
-        ice: IceBody,
-        belt: BeltField,
-        melting: float,
+        self, parameters: ThermalParameters, footprint: Footprint, ice: IceBody, belt: BeltField
     ) -> None:
         of_ice, contact = parameters.ice, parameters.contact
+        melting = parameters.melting_rise
         self._footprint = footprint
         self._latent = of_ice.latent_heat
         self._wiper = contact.wiper

@@ -5,8 +5,6 @@ tetrahedra the corners are taken. What would give wrong temperatures is refused:
 piece, is folded or flat somewhere, has a hollow inside, or is in another unit.
 """
 
-from __future__ import annotations
-
 import contextlib
 import io
 from pathlib import Path
@@ -16,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
+from skfem import MeshTet
 
+from thermal.arrays import Array
 from thermal.parameters import ParameterError
 
-Array = NDArray[np.float64]
 Cells = NDArray[np.int64]
 
 #: Largest and smallest extent of a sample, m: outside lies a slip of the unit.
@@ -32,7 +31,6 @@ FLAT = 1e-6
 THINNEST = 1e-9
 
 _TETRAHEDRA = {"tetra", "tetra10"}
-_FACETS = ((1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 1, 2))
 
 #: Of a mesh file: ten times what the most unknowns take.
 MOST_BYTES = 256 * 2**20
@@ -129,42 +127,35 @@ def _fault_of_elements(points: Array, cells: Cells) -> str | None:
     return None
 
 
-def facets_of(cells: Cells) -> tuple[Cells, Cells, Cells]:
-    """Facets (facets, 3), sorted nodes; for each side (cells * 4,) its facet, and its cell."""
-    sides = np.sort(np.concatenate([cells[:, list(facet)] for facet in _FACETS]), axis=1)
-    facets, number = np.unique(sides, axis=0, return_inverse=True)
-    return facets, number.ravel(), np.tile(np.arange(len(cells)), 4)
+def mesh_of(points: Array, cells: Cells) -> MeshTet:
+    """Nodes (nodes, 3) and tetrahedra (cells, 4) as scikit-fem has them."""
+    return MeshTet(np.ascontiguousarray(points.T), np.ascontiguousarray(cells.T))
 
 
 def _fault_of_surface(points: Array, cells: Cells) -> str | None:
-    facets, number, owner = facets_of(cells)
-    count = np.bincount(number)
+    mesh = mesh_of(points, cells)
+    count = np.bincount(mesh.t2f.ravel())
     if count.max() > 2:
         return f"{np.count_nonzero(count > 2)} facets belong to more than two tetrahedra"
-    return _fault_of_neighbours(points, cells, facets, number, owner, count) or _fault_of_boundary(
-        points, facets[count == 1]
-    )
+    surface = mesh.facets[:, count == 1].T
+    return _fault_of_neighbours(mesh, count == 2) or _fault_of_boundary(points, surface)
 
 
-def _fault_of_neighbours(
-    points: Array, cells: Cells, facets: Cells, number: Cells, owner: Cells, count: Cells
-) -> str | None:
+def _fault_of_neighbours(mesh: MeshTet, inner: NDArray[np.bool_]) -> str | None:
     """Tetrahedra hang together, and lie on opposite sides of the facet between them."""
-    order = np.argsort(number, kind="stable")
-    starts = np.concatenate(([0], np.cumsum(count)[:-1]))[count == 2]
-    one, two = order[starts], order[starts + 1]
-    graph = coo_matrix((np.ones(one.size), (owner[one], owner[two])), shape=(len(cells),) * 2)
+    facets, (one, two) = mesh.facets[:, inner], mesh.f2t[:, inner]
+    graph = coo_matrix((np.ones(one.size), (one, two)), shape=(mesh.nelements,) * 2)
     pieces = connected_components(graph, directed=False)[0]
     if pieces > 1:
         return (
             f"it falls into {pieces} pieces that share no facet, allowed is one: merge nodes at"
             " the same place, keep one body"
         )
-    a, b, c = (points[facets[count == 2]][:, i] for i in range(3))
+    a, b, c = (mesh.p[:, nodes].T for nodes in facets)
     normal = np.cross(b - a, c - a)
-    # the corner of a tetrahedron that is not on the side of that number
-    apex = cells.T.ravel()
-    heights = [np.einsum("ij,ij->i", points[apex[side]] - a, normal) for side in (one, two)]
+    # of each tetrahedron the corner that is not on the facet
+    apexes = [mesh.t[:, cells].sum(axis=0) - facets.sum(axis=0) for cells in (one, two)]
+    heights = [np.einsum("ij,ij->i", mesh.p[:, apex].T - a, normal) for apex in apexes]
     folded = int(np.count_nonzero(heights[0] * heights[1] >= 0.0))
     return f"{folded} pairs of tetrahedra overlap: the mesh is folded" if folded else None
 

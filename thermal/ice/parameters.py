@@ -1,7 +1,5 @@
 """What the block is, of ice or of another material: its shape and its properties."""
 
-from __future__ import annotations
-
 import math
 from typing import Any, Self
 

@@ -10,26 +10,23 @@ mesh to 1e-6. The mesh's own error remains, as does that of a base facet that th
 crosses: it counts by quadrature.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
-from skfem import CellBasis, ElementTetP2, FacetBasis, MeshTet
+from skfem import CellBasis, ElementTetP2, FacetBasis
 
+from thermal.arrays import Array
+from thermal.assembly import Body
 from thermal.grids import graded
 from thermal.materials import Medium
 
 from .base_layers import cut_at_base, layer_height
 from .body import IceBody
 from .krylov import response_space
-from .mesh_file import FLAT, MeshError, read_sample
+from .mesh_file import FLAT, MeshError, mesh_of, read_sample
 from .parameters import Ice
-from .space import Body
-
-Array = NDArray[np.float64]
 
 #: Highest layer of elements at the base, m: heat is as deep after 40 ms.
 THIN = 2e-4
@@ -127,9 +124,7 @@ class Sample(IceBody):
 def assembled(parameters: Ice, points: Array, cells: NDArray[np.int64], half: float) -> Body:
     """P2 elements of a mesh on a belt that covers |y| <= half (m)."""
     height = float(points[:, 2].max())
-    mesh = MeshTet(np.ascontiguousarray(points.T), np.ascontiguousarray(cells.T)).with_boundaries(
-        {"base": lambda x: x[2] <= FLAT * height}
-    )
+    mesh = mesh_of(points, cells).with_boundaries({"base": lambda x: x[2] <= FLAT * height})
     free = np.setdiff1d(mesh.boundary_facets(), mesh.boundaries["base"])
     normals = FacetBasis(mesh, ElementTetP2(), facets=free, intorder=1).normals
     flat = np.abs(normals[2, :, 0]) > _UPWARDS

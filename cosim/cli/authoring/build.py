@@ -1,7 +1,5 @@
 """`stickslip build`: the units."""
 
-from __future__ import annotations
-
 from argparse import Namespace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`stickslip completion`: a script by which a shell completes commands, options and files."""
 
-from __future__ import annotations
-
 from argparse import Action, ArgumentParser, Namespace, _SubParsersAction
 from collections.abc import Iterator
 from typing import Any

@@ -1,7 +1,5 @@
 """`stickslip docs`: the documentation in the browser."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 import webbrowser

@@ -1,7 +1,5 @@
 """`stickslip effect new`: a custom effect, to begin with."""
 
-from __future__ import annotations
-
 from argparse import Namespace
 from importlib import resources
 from pathlib import Path

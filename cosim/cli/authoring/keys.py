@@ -1,7 +1,5 @@
 """`stickslip keys`: what a scenario can say."""
 
-from __future__ import annotations
-
 import json
 from argparse import Namespace
 

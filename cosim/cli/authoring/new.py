@@ -1,7 +1,5 @@
 """`stickslip new`: a scenario file to begin from."""
 
-from __future__ import annotations
-
 import shlex
 from argparse import Namespace
 

@@ -1,7 +1,5 @@
 """`stickslip schema`: what a TOML file may hold, as JSON Schema."""
 
-from __future__ import annotations
-
 import json
 from argparse import Namespace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`stickslip campaign`: a folder of tracker files becomes a campaign."""
 
-from __future__ import annotations
-
 from argparse import Namespace
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """`stickslip gap`: its arguments, what it asks, what it leaves behind."""
 
-from __future__ import annotations
-
 import sys
 from argparse import Namespace
 from importlib import import_module

@@ -1,7 +1,5 @@
 """The CSV files that a campaign names: what kind and how large they are is asked first."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from pathlib import Path
 

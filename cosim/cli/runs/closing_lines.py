@@ -1,7 +1,5 @@
 """What a run says on the terminal when it has ended, in a few lines of its summary's numbers."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -11,16 +9,9 @@ from stickslip.steady_motion.regimes import CREEPING
 from stickslip.steady_motion.stability import GRAZING, UNSTABLE
 from stickslip.steady_motion.starts import OWN
 
+from cosim.report import motion_text
 from cosim.report.files import results_line
 from cosim.report.material import ICE, of_material
-from cosim.report.motion_text import (
-    WELL_INSIDE,
-    border_sentence,
-    ramp_sentence,
-    regime_sentence,
-    stability_sentence,
-    unstable_line,
-)
 from cosim.report.quantities import FOUND_RISE, ROUNDING, digits
 from cosim.scenario.durations import in_words
 
@@ -55,15 +46,18 @@ def _assessed_lines(numbers: Mapping[str, Any]) -> list[str]:
         return []
     lines = []
     if numbers["stability"]["verdict"] == UNSTABLE:
-        lines.append(f"  unstable     {unstable_line(numbers)}")
+        lines.append(f"  unstable     {motion_text.unstable_line(numbers)}")
     elif numbers["stability"]["verdict"] == GRAZING:
-        lines.append(f"  stability    {stability_sentence(numbers)}")
-    elif ramp := ramp_sentence(numbers):
+        lines.append(f"  stability    {motion_text.stability_sentence(numbers)}")
+    elif ramp := motion_text.ramp_sentence(numbers):
         lines.append(f"  unstable     {ramp}")
     if numbers["other_regimes"] or numbers["regimes"][OWN]["name"] == CREEPING:
-        lines.append(f"  regimes      {regime_sentence(numbers)}")
-    if any((border["margin"] or 1.0) < WELL_INSIDE for border in numbers["nearest_borders"] or ()):
-        lines.append(f"  border       {border_sentence(numbers)}")
+        lines.append(f"  regimes      {motion_text.regime_sentence(numbers)}")
+    if any(
+        (border["margin"] or 1.0) < motion_text.WELL_INSIDE
+        for border in numbers["nearest_borders"] or ()
+    ):
+        lines.append(f"  border       {motion_text.border_sentence(numbers)}")
     return lines
 
 

@@ -1,7 +1,5 @@
 """`stickslip compare`: two results, or two scenarios that are run for it."""
 
-from __future__ import annotations
-
 import os
 import sys
 from argparse import Namespace

@@ -1,7 +1,5 @@
 """`stickslip couple`: any system of units, from an SSP or a TOML file."""
 
-from __future__ import annotations
-
 import os
 import shlex
 import sys
@@ -12,12 +10,12 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from cosim.cli import FAILED, BadInput
+from cosim.cli import DONE, BadInput
 from cosim.cli.arguments import RESULTS
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.runs import run_io
-from cosim.cli.runs.run_io import Job
-from cosim.coupling.record import MessageLog, RunFolder
+from cosim.cli.runs.run_io import Ending, Job
+from cosim.coupling.record import RunFolder
 from cosim.interrupts import Patience
 from cosim.manifest import ResultFolder
 from cosim.report.coupling import doubts
@@ -42,41 +40,29 @@ def execute(arguments: Namespace) -> int:
     def run(patience: Patience, **said: Any) -> SystemRun:
         with (
             units_speak_aside(),
-            run_io.progress_over(stop - start) as show,
+            run_io.progress_over(stop - start, patience, start) as show,
             run_io.refusing_units(True),
         ):
+            return run_system(specification, show, job.folder, **said)
 
-            def progress(reached: float) -> None:
-                patience.hold()
-                show(reached - start)
-
-            return run_system(specification, progress, job.folder, **said)
-
-    def write(
-        done: SystemRun, results: ResultFolder, patience: Patience, resume: str, log: MessageLog
-    ) -> int:
+    def write(done: SystemRun, results: ResultFolder, ending: Ending) -> int:
         def files(written: Callable[[str], None]) -> Mapping[str, Any]:
-            listed = run_io.log_files(log)
+            listed = run_io.log_files(ending.log)
             how: Any = {"command": job.command, "files": listed, "shown": job.shown}
             return write_system(done, job.results, progress=written, **how)
 
         def lines(numbers: Mapping[str, Any]) -> list[str]:
             return [f"warning: {doubt}" for doubt in doubts(numbers["coupling"])]
 
-        numbers, status, tells = run_io.ended(
-            files, lines, job.results, patience, numbers_wanted, resume, log
-        )
-        if status == FAILED:
-            return FAILED
-        for said in in_few_lines(numbers["warnings"]):
+        numbers, status, tells = ending.told(files, lines)
+        for said in in_few_lines(numbers["warnings"]) if status == DONE else ():
             print(f"warning: {said}", file=sys.stderr)
         if tells:
-            wall_time = time.perf_counter() - began
-            print("\n".join(closing_lines(numbers, job.results, wall_time)))
+            print("\n".join(closing_lines(numbers, job.results, ending.wall_time)))
         return status
 
     with specification:
-        return run_io.carried_out(job, arguments.verbose, run, write)
+        return job.carried_out(began, numbers_wanted, arguments.verbose, run, write)
 
 
 def _begun(arguments: Namespace) -> tuple[SystemSpecification, Job]:

@@ -1,7 +1,5 @@
 """`stickslip explore`: a page with a slider for every number, computed in the browser."""
 
-from __future__ import annotations
-
 import webbrowser
 from argparse import Namespace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`stickslip plot`: figures of a result, as PNG files."""
 
-from __future__ import annotations
-
 from argparse import Namespace
 from pathlib import Path
 

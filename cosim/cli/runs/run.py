@@ -1,7 +1,5 @@
 """`stickslip run`: the coupled case, begun or resumed."""
 
-from __future__ import annotations
-
 import shlex
 import time
 from argparse import Namespace
@@ -13,10 +11,10 @@ from cosim.cli import BadInput
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.plug_ins import check_resumed, digests
 from cosim.cli.runs import run_io, running
-from cosim.cli.runs.run_io import Job
+from cosim.cli.runs.run_io import Ending, Job
 from cosim.cli.scenarios import note_taken
 from cosim.coupling.case import CoupledRun, run_scenario
-from cosim.coupling.record import MessageLog, RunFolder
+from cosim.coupling.record import RunFolder
 from cosim.files import writable
 from cosim.fmu.build import own_fmu
 from cosim.interrupts import Patience
@@ -45,39 +43,26 @@ def execute(arguments: Namespace) -> int:
     _ = scenario.catalogue.compiled  # before the bar begins to count
 
     def run(patience: Patience, **said: Any) -> CoupledRun:
-        with run_io.progress_over(scenario.run.duration) as show, run_io.refusing_units(False):
+        duration = scenario.run.duration
+        with run_io.progress_over(duration, patience) as show, run_io.refusing_units(False):
 
             def progress(reached: float) -> None:
-                patience.hold()
+                show(reached)
                 while unsaid:
                     note_taken(unsaid.pop())
-                show(reached)
 
             return run_scenario(scenario, progress=progress, **how, **said)
 
-    def write(
-        done: CoupledRun, results: ResultFolder, patience: Patience, resume: str, log: MessageLog
-    ) -> int:
+    def write(done: CoupledRun, results: ResultFolder, ending: Ending) -> int:
         pictures = done.snapshots
         dataset = run_columns(done.result, scenario, scenario.to_toml(), snapshots=pictures)
-        running.assess_motion(dataset, scenario, patience)
+        running.assess_motion(dataset, scenario, ending.patience)
         for name in run_io.field_files(job.results) if pictures.file else ():
             results.add(job.results / name)
-        return running.finish(
-            dataset,
-            job.results,
-            began,
-            patience,
-            _field_files(done, job.results),
-            views=pictures.views,
-            command=job.command,
-            resume=resume,
-            log=log,
-            asked=numbers,
-            **job.shown,
-        )
+        files = _field_files(done, job.results)
+        return running.finish(dataset, ending, files, pictures.views)
 
-    return run_io.carried_out(job, arguments.verbose, run, write)
+    return job.carried_out(began, numbers, arguments.verbose, run, write)
 
 
 def _begun(arguments: Namespace) -> tuple[Scenario, Mapping[str, Any], Job]:

@@ -3,16 +3,14 @@
 Without the models and their results: `stickslip couple` starts without them.
 """
 
-from __future__ import annotations
-
-import shlex
 import sys
 import time
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, Self, TypeVar
 from xml.etree import ElementTree
 
 from cosim.cli import DONE, FAILED, BadInput, Failed, is_bad_input
@@ -25,7 +23,7 @@ from cosim.coupling.record import LOG, MessageLog, RunFolder
 from cosim.coupling.system import MASTER
 from cosim.files import OutputError, writable
 from cosim.interrupts import Patience, patient_interrupts
-from cosim.manifest import ResultFolder, claim, made_by, require_own, results_in
+from cosim.manifest import ResultFolder, claim, command_line, made_by, require_own, results_in
 from cosim.report.files import PAGE_ALONE, Shown, json_text
 
 Done = TypeVar("Done")
@@ -39,6 +37,67 @@ LAST_OF_DATA = "summary.json"
 def shown(arguments: Namespace) -> Shown:
     """What is drawn of a run, as the command line says it."""
     return {"figures": arguments.figures, "page": not arguments.no_page}
+
+
+@dataclass(frozen=True)
+class Ending:
+    """What becomes of a run on the command line.
+
+    folder: of the results. began: of the command, on time.perf_counter, s. patience: released when
+    the data are on disk; a Ctrl-C then ends the drawing. asked: where the numbers go as JSON.
+    shown: what is drawn. command: as the run was asked for. resume: what goes on with it, "" where
+    nothing does. log: of what was said, which is told of where there are warnings or errors.
+    """
+
+    folder: Path
+    began: float
+    patience: Patience
+    asked: Numbers
+    shown: Shown
+    command: str
+    resume: str = ""
+    log: MessageLog | None = None
+
+    @property
+    def wall_time(self) -> float:
+        """Since the command began, s."""
+        return time.perf_counter() - self.began
+
+    def told(
+        self,
+        write: Callable[[Callable[[str], None]], Mapping[str, Any]],
+        lines: Callable[[Mapping[str, Any]], Iterable[str]],
+    ) -> tuple[Mapping[str, Any], int, bool]:
+        """Write all and say what became of the run, unless that is all well: one line on stderr.
+
+        write: is given what is to be called with the name of each file once it is written, and
+        returns the numbers of the summary; lines: for stderr, of these. Returns the numbers, the
+        exit status, and whether the numbers are still to be told in lines.
+        """
+
+        def written(name: str) -> None:
+            if name == LAST_OF_DATA:
+                self.patience.release()
+
+        goes_on = f", and this goes on from there: {self.resume}" if self.resume else ""
+        try:
+            numbers = write(written)
+        except KeyboardInterrupt:
+            said = f"interrupted while drawing; the data are in {self.folder}{goes_on}"
+            print(f"error: {said}", file=sys.stderr)
+            return {}, FAILED, False
+        printed = self.asked.give(json_text(numbers))
+        for line in lines(numbers):
+            print(line, file=sys.stderr)
+        said = "" if self.log is None else self.log.told()
+        if numbers["status"] == COMPLETE:
+            if said:
+                note(said)
+            return numbers, DONE, not printed
+        where = f"{self.folder}, {said}" if said else str(self.folder)
+        reason = f"{numbers['reason']}; what was computed is in {where}{goes_on}"
+        print(f"error: {reason}", file=sys.stderr)
+        return numbers, FAILED, False
 
 
 class Job(NamedTuple):
@@ -68,9 +127,9 @@ class Job(NamedTuple):
         files: Mapping[str, str],
         resume: str,
         of: Mapping[str, str],
-    ) -> Job:
+    ) -> Self:
         """Of a run from its start; wanted, files: what else is kept to go on with it."""
-        command, drawn = shlex.join(["stickslip", *sys.argv[1:]]), shown(arguments)
+        command, drawn = command_line(), shown(arguments)
         asked = {"resume": resume, "command": command, "shown": drawn, **wanted}
         folder = RunFolder.begun(results, asked, files, force=arguments.force)
         return cls(folder, drawn, command, arguments.force, resume, of)
@@ -78,45 +137,50 @@ class Job(NamedTuple):
     @classmethod
     def found(
         cls, folder: RunFolder, asked: Mapping[str, Any], resume: str, of: Mapping[str, str]
-    ) -> Job:
+    ) -> Self:
         """Of a run that was cut off, as it was begun."""
         command = f"{asked.get('command', '')} (interrupted and resumed)"
         return cls(folder, asked.get("shown", PAGE_ALONE), command, False, resume, of)
 
+    def carried_out(
+        self,
+        began: float,
+        asked: Numbers,
+        verbose: bool,
+        run: Callable[..., Done],
+        write: Callable[[Done, ResultFolder, Ending], int],
+    ) -> int:
+        """Run, then write what came out; the exit status.
 
-def carried_out(
-    job: Job,
-    verbose: bool,
-    run: Callable[..., Done],
-    write: Callable[[Done, ResultFolder, Patience, str, MessageLog], int],
-) -> int:
-    """Run, then write what came out; the exit status.
-
-    run: is given the patience, and `heard` and `debug` as `cosim.coupling` has them; one that does
-    not come to its first step leaves nothing to go on from. write: is given what resumes a run that
-    goes on, "" for one that does not.
-    """
-    logging = message_log(job.folder, verbose)
-    with going_on(job.folder, job.resume), patient_interrupts() as patience, logging as log:
-        try:
-            done: Any = run(patience, heard=hearing(log, verbose), debug=verbose)
-        except BaseException:
-            if not job.folder.checkpoint.is_file():
-                job.folder.finished()
-            raise
-        patience.hold()
-        if is_removed(job.results, done.result.time.tolist()):
-            return FAILED
-        goes_on = done.result.status != COMPLETE and job.folder.checkpoint.is_file()
-        made = made_by(job.command, **job.of)
-        with results_in(job.results, made, force=job.force) as results:
-            for name in log_files(log):
-                results.add(job.results / name)
-            status = write(done, results, patience, job.resume if goes_on else "", log)
-            results.complete = status == DONE
-    # only now: had the results not come to the disk, there would still be what they are made of
-    job.folder.release() if goes_on else job.folder.finished()
-    return status
+        began, asked: of the `Ending` that write is given. run: is given the patience, and `heard`
+        and `debug` as `cosim.coupling` has them; one that does not come to its first step leaves
+        nothing to go on from.
+        """
+        folder = self.folder
+        # behind what the run had said before it was cut off
+        resumed, show = folder.checkpoint.is_file(), _show_line if verbose else None
+        logging = MessageLog(self.results / LOG, resumed, show)
+        with going_on(folder, self.resume), patient_interrupts() as patience, logging as log:
+            try:
+                done: Any = run(patience, heard=hearing(log, verbose), debug=verbose)
+            except BaseException:
+                if not folder.checkpoint.is_file():
+                    folder.finished()
+                raise
+            patience.hold()
+            if is_removed(self.results, done.result.time.tolist()):
+                return FAILED
+            goes_on = done.result.status != COMPLETE and folder.checkpoint.is_file()
+            resume, made = self.resume if goes_on else "", made_by(self.command, **self.of)
+            drawn = (patience, asked, self.shown, self.command, resume, log)
+            with results_in(self.results, made, force=self.force) as results:
+                for name in log_files(log):
+                    results.add(self.results / name)
+                status = write(done, results, Ending(self.results, began, *drawn))
+                results.complete = status == DONE
+        # only now: had the results not come to the disk, there would still be what they are made of
+        folder.release() if goes_on else folder.finished()
+        return status
 
 
 @contextmanager
@@ -172,15 +236,6 @@ def refuse_beside_resume(arguments: Namespace, *called: str) -> None:
             )
 
 
-def message_log(folder: RunFolder, verbose: bool) -> MessageLog:
-    """The log of a run beside its results, behind what the run had said before it was cut off.
-
-    verbose: shown on stderr, too.
-    """
-    resumed = folder.checkpoint.is_file()
-    return MessageLog(folder.results / LOG, resumed, _show_line if verbose else None)
-
-
 def _show_line(line: str) -> None:
     """On stderr, above the bar where there is one."""
     Bar.write(line, file=sys.stderr)
@@ -205,9 +260,10 @@ def hearing(log: MessageLog, verbose: bool) -> Callable[[Message], None]:
     return hear
 
 
-def log_files(log: MessageLog) -> dict[str, str]:
+def log_files(log: MessageLog | None) -> dict[str, str]:
     """The log as the page lists it; it is there where something was said."""
-    return {LOG: "what units and master said, a line each"} if log.path.is_file() else {}
+    there = log is not None and log.path.is_file()
+    return {LOG: "what units and master said, a line each"} if there else {}
 
 
 @contextmanager
@@ -219,48 +275,6 @@ def going_on(folder: RunFolder, resume: str) -> Iterator[None]:
         if not folder.checkpoint.is_file():
             raise
         raise OutputError(f"{error}; this goes on from the newest checkpoint: {resume}") from error
-
-
-def ended(
-    write: Callable[[Callable[[str], None]], Mapping[str, Any]],
-    lines: Callable[[Mapping[str, Any]], Iterable[str]],
-    folder: Path,
-    patience: Patience,
-    asked: Numbers,
-    resume: str = "",
-    log: MessageLog | None = None,
-) -> tuple[Mapping[str, Any], int, bool]:
-    """Write all and say what became of the run, unless that is all well: one line on stderr.
-
-    write: is given what is to be called with the name of each file once it is written, and returns
-    the numbers of the summary; lines: for stderr, of these. A Ctrl-C after the data are on disk
-    ends the drawing. resume: what goes on with the run, "" where nothing does. log: of what was
-    said, which is told of where there are warnings or errors. Returns the numbers, the exit status,
-    and whether the numbers are still to be told in lines.
-    """
-
-    def written(name: str) -> None:
-        if name == LAST_OF_DATA:
-            patience.release()
-
-    goes_on = f", and this goes on from there: {resume}" if resume else ""
-    try:
-        numbers = write(written)
-    except KeyboardInterrupt:
-        said = f"interrupted while drawing; the data are in {folder}{goes_on}"
-        print(f"error: {said}", file=sys.stderr)
-        return {}, FAILED, False
-    printed = asked.give(json_text(numbers))
-    for line in lines(numbers):
-        print(line, file=sys.stderr)
-    said = "" if log is None else log.told()
-    if numbers["status"] == COMPLETE:
-        if said:
-            note(said)
-        return numbers, DONE, not printed
-    where = f"{folder}, {said}" if said else str(folder)
-    print(f"error: {numbers['reason']}; what was computed is in {where}{goes_on}", file=sys.stderr)
-    return numbers, FAILED, False
 
 
 def is_removed(folder: Path, time: Iterable[float]) -> bool:
@@ -280,11 +294,14 @@ def is_removed(folder: Path, time: Iterable[float]) -> bool:
 
 
 @contextmanager
-def progress_over(duration: float) -> Iterator[Callable[[float], None]]:
+def progress_over(
+    duration: float, patience: Patience | None = None, start: float = 0.0
+) -> Iterator[Callable[[float], None]]:
     """A bar over simulated time (s) on stderr, none when that is no terminal.
 
-    Gives a function to be called with the time reached. What remains is by the mean speed since
-    the first step: models are made ready before it, which takes as long as a thousand steps.
+    Gives a function to be called with the time reached, of a run from `start`; from then on there
+    is something to lose. What remains is by the mean speed since the first step: models are made
+    ready before it, which takes as long as a thousand steps.
     """
     layout = "{percentage:3.0f}%|{bar}| {n:.2f}/{total:g} s [{elapsed}<{remaining}]"
     # miniters: a stretch that goes fast is not to keep the bar still in a slow one
@@ -293,10 +310,12 @@ def progress_over(duration: float) -> Iterator[Callable[[float], None]]:
 
         def show(reached: float) -> None:
             nonlocal begun
+            if patience is not None:
+                patience.hold()
             if not (begun or bar.disable):
                 begun = True
-                bar.initial = bar.n = bar.last_print_n = reached
+                bar.initial = bar.n = bar.last_print_n = reached - start
                 bar.start_t = bar.last_print_t = time.time()  # tqdm's clock
-            bar.update(reached - bar.n)
+            bar.update(reached - start - bar.n)
 
         yield show

@@ -1,11 +1,7 @@
 """A run on the command line: its scenario, its progress, its files, its last lines."""
 
-from __future__ import annotations
-
 import json
-import shlex
 import sys
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,11 +14,10 @@ from cosim.cli import FAILED
 from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
-from cosim.cli.numbers import NOT_ASKED, Numbers
 from cosim.cli.runs.closing_lines import closing_lines
-from cosim.cli.runs.run_io import COLLECTION, FIELDS, LAST_OF_DATA, ended, log_files, own_folder
+from cosim.cli.runs.run_io import COLLECTION, FIELDS, LAST_OF_DATA, Ending, log_files, own_folder
 from cosim.cli.scenarios import given_scenario
-from cosim.coupling.record import LOG, MessageLog
+from cosim.coupling.record import LOG
 from cosim.interrupts import Patience
 from cosim.manifest import other_command
 from cosim.report import Views, write_results
@@ -94,11 +89,7 @@ def assess_motion(dataset: Data, scenario: Scenario, patience: Patience) -> None
 
     try:
         found = assess(
-            scenario.mechanics,
-            scenario.run.duration,
-            interface,
-            most_steps=MOST_STEPS,
-            look=check,
+            scenario.mechanics, scenario.run.duration, interface, most_steps=MOST_STEPS, look=check
         )
     except _StoppedError:
         return
@@ -122,30 +113,14 @@ def progress_over_files() -> Iterator[Callable[[str], None]]:
 
 
 def finish(
-    dataset: Data,
-    folder: Path,
-    began: float,
-    patience: Patience,
-    files: Mapping[str, str] | None = None,
-    views: Views = (),
-    command: str | None = None,
-    resume: str = "",
-    log: MessageLog | None = None,
-    asked: Numbers = NOT_ASKED,
-    figures: bool = False,
-    page: bool = True,
+    dataset: Data, ending: Ending, files: Mapping[str, str] | None = None, views: Views = ()
 ) -> int:
     """Write all results and say what came out; 0 when the run is complete, else 1.
 
-    began: of the command, on time.perf_counter, s. patience: released when the data are on
-    disk; a Ctrl-C then ends the drawing. files: further ones to list on the page. views:
-    of belt and ice, for an animation. command: as the run was asked for; None: this one.
-    resume: what goes on with a run that is not complete. log: of what was said in it. asked: where
-    the numbers go as JSON. figures, page: whether they are drawn.
+    files: further ones to list on the page. views: of belt and ice, for an animation.
     """
-    command = shlex.join(["stickslip", *sys.argv[1:]]) if command is None else command
-    files = dict(files or {}) | (log_files(log) if log else {})
-    further: Any = {"files": files, "views": views, "command": command}
+    listed = dict(files or {}) | log_files(ending.log)
+    further: Any = {"files": listed, "views": views, "command": ending.command, **ending.shown}
 
     def write(released: Callable[[str], None]) -> Mapping[str, Any]:
         with progress_over_files() as show:
@@ -154,8 +129,9 @@ def finish(
                 show(name)
                 released(name)
 
-            write_results(dataset, folder, progress=written, figures=figures, page=page, **further)
-        numbers: Mapping[str, Any] = json.loads((folder / LAST_OF_DATA).read_text("utf-8"))
+            write_results(dataset, ending.folder, progress=written, **further)
+        summary = (ending.folder / LAST_OF_DATA).read_text("utf-8")
+        numbers: Mapping[str, Any] = json.loads(summary)
         return numbers
 
     def lines_of(numbers: Mapping[str, Any]) -> Iterator[str]:
@@ -165,8 +141,8 @@ def finish(
         for remark in coupling.get("remarks", ()):
             yield f"note: {remark}"
 
-    numbers, status, tells = ended(write, lines_of, folder, patience, asked, resume, log)
+    numbers, status, tells = ending.told(write, lines_of)
     if tells:
-        lines = closing_lines(numbers, folder, time.perf_counter() - began, material_of(dataset))
-        print("\n".join(lines))
+        material = material_of(dataset)
+        print("\n".join(closing_lines(numbers, ending.folder, ending.wall_time, material)))
     return status if status == FAILED or is_believed(numbers) else FAILED

@@ -1,7 +1,5 @@
 """`stickslip simulate`: the mechanics alone."""
 
-from __future__ import annotations
-
 import time
 from argparse import Namespace
 
@@ -10,7 +8,7 @@ from stickslip import Trajectory
 from cosim.cli import DONE
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.runs import running
-from cosim.cli.runs.run_io import progress_over, shown
+from cosim.cli.runs.run_io import Ending, progress_over, shown
 from cosim.cli.scenarios import note_taken
 from cosim.coupling.record import RunFolder
 from cosim.interrupts import Patience, patient_interrupts
@@ -38,10 +36,9 @@ def execute(arguments: Namespace) -> int:
         dataset = trajectory_columns(trajectory, scenario, scenario.to_toml(), wall_time=stepped)
         running.assess_motion(dataset, scenario, patience)
         made = made_by(scenario=scenario.to_toml())
+        ending = Ending(folder, began, patience, numbers, shown(arguments), made["command"])
         with results_in(folder, made, force=arguments.force) as results:
-            status = running.finish(
-                dataset, folder, began, patience, asked=numbers, **shown(arguments)
-            )
+            status = running.finish(dataset, ending)
             results.complete = status == DONE
         return status
 
@@ -52,10 +49,9 @@ def _simulated(scenario: Scenario, patience: Patience) -> Trajectory:
     Ctrl-C is looked at between two batches of rows only, so that rows and events of a batch are
     both kept or both not there.
     """
-    with progress_over(scenario.run.duration) as show:
+    with progress_over(scenario.run.duration, patience) as show:
 
         def progress(reached: float) -> None:
-            patience.hold()
             show(reached)
             if patience.requested:
                 patience.requested = False  # served

@@ -1,7 +1,5 @@
 """`stickslip effects`: the catalogue, printed, and as a page with figures."""
 
-from __future__ import annotations
-
 import json
 from argparse import Namespace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """`stickslip reproduce`: its arguments, what it runs, what it leaves behind."""
 
-from __future__ import annotations
-
 import re
 import sys
 import time

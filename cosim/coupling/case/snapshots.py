@@ -1,7 +1,5 @@
 """Pictures of the temperature of belt and ice, taken while a coupled run goes on."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Mapping

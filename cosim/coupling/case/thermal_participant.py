@@ -1,7 +1,5 @@
 """Belt and ice as a participant of a coupled run; made ready by another process, if need be."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The file that a unit is: read and unpacked so that it cannot do harm before it even runs."""
 
-from __future__ import annotations
-
 import lzma
 import re
 import shutil

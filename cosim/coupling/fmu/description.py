@@ -1,7 +1,5 @@
 """What a unit declares about itself, and whether it is one that can be coupled here."""
 
-from __future__ import annotations
-
 import os
 import re
 from functools import lru_cache
@@ -76,6 +74,17 @@ def is_fmi3(description: ModelDescription) -> bool:
     """Whether it is FMI 3, not 2."""
     found: bool = description.fmiVersion.startswith("3.")
     return found
+
+
+def takes_waveforms(description: ModelDescription) -> bool:
+    """Whether a unit interpolates its inputs by their derivatives; FMI 3.0 has none."""
+    return not is_fmi3(description) and bool(description.coSimulation.canInterpolateInputs)
+
+
+def may_end_early(description: ModelDescription) -> bool:
+    """Whether a unit can end a step before its end; none of FMI 2.0 can."""
+    able = description.coSimulation
+    return is_fmi3(description) and bool(able.mightReturnEarlyFromDoStep or able.hasEventMode)
 
 
 def _check(path: Path, description: ModelDescription) -> None:

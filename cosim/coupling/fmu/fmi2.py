@@ -1,21 +1,13 @@
 """An instance of FMI 2.0."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from ctypes import c_char_p, c_double, c_int, c_uint
 from typing import Any
 
+from fmpy import fmi2
 from fmpy.fmi1 import FMICallException
-from fmpy.fmi2 import (
-    FMU2Slave,
-    fmi2Discard,
-    fmi2False,
-    fmi2LastSuccessfulTime,
-    fmi2Terminated,
-    fmi2True,
-)
+from fmpy.fmi2 import FMU2Slave
 from fmpy.model_description import ModelDescription
 
 from cosim.coupling.fmu.errors import FmuCallError
@@ -51,11 +43,6 @@ class Fmi2(Instance):
         self.free_state = fmu.freeFMUstate
         self._rates: dict[tuple[int, ...], tuple[Any, Any, Any]] = {}
 
-    @staticmethod
-    def takes_waveforms(description: ModelDescription) -> bool:
-        """Whether a unit interpolates its inputs by their derivatives."""
-        return bool(description.coSimulation.canInterpolateInputs)
-
     def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
         """From start to stop, s; before anything is set: some units then forget what was."""
         self._fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)
@@ -78,10 +65,10 @@ class Fmi2(Instance):
     def step(self, time: float, size: float, may_go_back: bool) -> float | None:
         """Time reached where that is not time + size, s. may_go_back: a state may be set later."""
         try:
-            keeps = fmi2False if may_go_back else fmi2True
+            keeps = fmi2.fmi2False if may_go_back else fmi2.fmi2True
             self._fmu.fmi2DoStep(self._component, time, size, keeps)
         except FMICallException as error:
-            if error.status != fmi2Discard:
+            if error.status != fmi2.fmi2Discard:
                 raise
             raise FmuCallError(f"{self._why_discarded()} [{error}]") from error
         return None
@@ -89,9 +76,11 @@ class Fmi2(Instance):
     def _why_discarded(self) -> str:
         why, reached = "cannot make the whole step", ""
         with suppress(FMICallException):
-            reached = f"; it came to t = {self._fmu.getRealStatus(fmi2LastSuccessfulTime):.9g} s"
+            reached = (
+                f"; it came to t = {self._fmu.getRealStatus(fmi2.fmi2LastSuccessfulTime):.9g} s"
+            )
         with suppress(FMICallException):
-            if self._fmu.getBooleanStatus(fmi2Terminated):
+            if self._fmu.getBooleanStatus(fmi2.fmi2Terminated):
                 why = "wants to end the simulation"
         return why + reached
 

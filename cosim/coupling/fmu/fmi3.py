@@ -1,7 +1,5 @@
 """An instance of FMI 3.0: its steps may end early, its events are handled where it has any."""
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Mapping, Sequence
 from ctypes import byref, c_bool, c_char_p, c_double, c_float, c_int64
@@ -10,6 +8,7 @@ from functools import partial
 from fmpy.fmi3 import FMU3Slave
 from fmpy.model_description import ModelDescription
 
+from cosim.coupling.fmu.description import may_end_early
 from cosim.coupling.fmu.errors import FmuCallError
 from cosim.coupling.fmu.instance import Instance
 from cosim.coupling.fmu.log import FmuLog
@@ -48,7 +47,7 @@ class Fmi3(Instance):
         fmu = FMU3Slave(**given)
         how = {
             "loggingOn": True,
-            "earlyReturnAllowed": early and self.may_end_early(description),
+            "earlyReturnAllowed": early and may_end_early(description),
             "logMessage": log.log_message,
         }
         self._early = how["earlyReturnAllowed"]
@@ -70,12 +69,6 @@ class Fmi3(Instance):
         self._flags = c_bool(), c_bool(), c_bool()
         self._last = c_double()
         self._told = (*map(byref, self._flags), byref(self._last))
-
-    @staticmethod
-    def may_end_early(description: ModelDescription) -> bool:
-        """Whether a unit can end a step before its end."""
-        interface = description.coSimulation
-        return bool(interface.mightReturnEarlyFromDoStep or interface.hasEventMode)
 
     def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
         """From start to stop, s."""

@@ -3,12 +3,8 @@
 A participant asks of `Fmi2` and `Fmi3` the same, whichever it has.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from typing import Any, ClassVar
-
-from fmpy.model_description import ModelDescription
 
 from cosim.coupling.fmu.values import Group, Kind
 
@@ -33,16 +29,6 @@ class Instance:
         functions = {kind.function for kind in self.kinds.values()}
         self._set = {name: getattr(fmu, f"{version}Set{name}") for name in functions}
         self._get = {name: getattr(fmu, f"{version}Get{name}") for name in functions}
-
-    @staticmethod
-    def takes_waveforms(description: ModelDescription) -> bool:
-        """Whether a unit interpolates its inputs by their derivatives."""
-        return False
-
-    @staticmethod
-    def may_end_early(description: ModelDescription) -> bool:
-        """Whether a unit can end a step before its end."""
-        return False
 
     def write(self, groups: Sequence[Group]) -> None:
         """Set what the groups hold."""

@@ -1,7 +1,5 @@
 """What a unit logs: kept, and turned into exceptions where it says that a call failed."""
 
-from __future__ import annotations
-
 import itertools
 from ctypes import byref
 
@@ -20,7 +18,7 @@ from cosim.coupling.messages import FAILURES, Messages
 STATUSES = ("ok", "warning", "discard", "error", "fatal", "pending")
 
 _numbers = itertools.count(1)
-_logs: dict[int, FmuLog] = {}
+_logs: "dict[int, FmuLog]" = {}
 
 
 class FmuLog:

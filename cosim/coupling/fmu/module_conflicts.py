@@ -4,8 +4,6 @@ Python keeps one module of a name: the second unit that brings a module of that 
 code of the first. A process of its own for one of them (`isolate = true`) is the way out.
 """
 
-from __future__ import annotations
-
 import hashlib
 import re
 import sys

@@ -1,7 +1,5 @@
 """An FMI 2.0 or 3.0 co-simulation FMU as a participant, through fmpy."""
 
-from __future__ import annotations
-
 import copy
 import json
 import os
@@ -15,21 +13,21 @@ from typing import Any, TypeVar
 from fmpy.fmi1 import FMICallException
 
 from cosim.coupling.fmu.archive import unpack
-from cosim.coupling.fmu.description import describe, is_fmi3, library_of, unloadable
+from cosim.coupling.fmu.description import (
+    describe,
+    is_fmi3,
+    library_of,
+    may_end_early,
+    takes_waveforms,
+    unloadable,
+)
 from cosim.coupling.fmu.errors import FmuCallError, FmuError, one_line
 from cosim.coupling.fmu.fmi2 import Fmi2
 from cosim.coupling.fmu.fmi3 import Fmi3
 from cosim.coupling.fmu.log import STATUSES, FmuLog
 from cosim.coupling.fmu.module_conflicts import claim_modules, claim_place, leave_place
 from cosim.coupling.fmu.values import Group, Values
-from cosim.coupling.fmu.variables import (
-    REALS,
-    START,
-    Setting,
-    check_settings,
-    ports_of,
-    scalars,
-)
+from cosim.coupling.fmu.variables import REALS, START, Setting, check_settings, ports_of, scalars
 from cosim.coupling.messages import Messages
 from cosim.coupling.participant import Capabilities, Causality, Closing, port_table
 from cosim.coupling.waveform import Waveform
@@ -113,14 +111,14 @@ class FmuParticipant(Closing):
     def _capabilities(self) -> Capabilities:
         declared = self.description.coSimulation
         restores = bool(declared.canGetAndSetFMUstate)
-        waveforms = self._kind.takes_waveforms(self.description)
+        waveforms = takes_waveforms(self.description)
         return Capabilities(
             waveforms=waveforms,
             # who takes none gets a mean, which the schemes count on
             input_order=self._input_order if waveforms else None,
             restores=restores,
             saves=restores and bool(declared.canSerializeFMUstate),
-            ends_early=self._early and self._kind.may_end_early(self.description),
+            ends_early=self._early and may_end_early(self.description),
         )
 
     # --- initialisation ---

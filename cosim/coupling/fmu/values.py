@@ -3,8 +3,6 @@
 What FMI 2.0 and 3.0 have in common; which function serves which type they say by their `Kind`s.
 """
 
-from __future__ import annotations
-
 import ctypes
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The variables of a unit as numbers: arrays element by element, ports, and what may be set."""
 
-from __future__ import annotations
-
 import itertools
 import math
 from collections.abc import Mapping

@@ -6,8 +6,6 @@ then `DONE` with what the call returned or `FAILED` with what it raised. One req
 round trip costs more than all else, so a step brings the outputs along.
 """
 
-from __future__ import annotations
-
 import os
 import pickle
 import shutil

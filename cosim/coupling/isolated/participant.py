@@ -1,7 +1,5 @@
 """A participant that lives in a process of its own, and looks from here as if it did not."""
 
-from __future__ import annotations
-
 import itertools
 import math
 import pickle
@@ -42,11 +40,7 @@ class IsolatedParticipant(Closing):
     """
 
     def __init__(
-        self,
-        factory: Callable[..., Any],
-        *arguments: Any,
-        time_limit: float = 60.0,
-        **named: Any,
+        self, factory: Callable[..., Any], *arguments: Any, time_limit: float = 60.0, **named: Any
     ):
         if not (math.isfinite(time_limit) and time_limit > 0.0):
             raise CouplingError(f"time_limit = {time_limit:g} s: must be greater than 0, finite")

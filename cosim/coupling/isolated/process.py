@@ -1,7 +1,5 @@
 """The other process: started unheard by signals, heard in all it says, ended whatever happens."""
 
-from __future__ import annotations
-
 import contextlib
 import os
 import pickle
@@ -180,9 +178,7 @@ def _listen(process: subprocess.Popen[bytes], lines: Lines) -> None:
 
 
 def _end(
-    process: subprocess.Popen[bytes],
-    line: Connection,
-    scratch: tempfile.TemporaryDirectory[str],
+    process: subprocess.Popen[bytes], line: Connection, scratch: tempfile.TemporaryDirectory[str]
 ) -> None:
     if process.poll() is None:
         process.kill()

@@ -4,8 +4,6 @@ A zip: `manifest.json`, in which numbers stand with all their digits, and one me
 of each participant. Its comment, the last 64 bytes, is the SHA-256 of all that is before them.
 """
 
-from __future__ import annotations
-
 import hashlib
 import io
 import json

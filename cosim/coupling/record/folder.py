@@ -4,15 +4,13 @@
 is there says that the run is not complete.
 """
 
-from __future__ import annotations
-
 import json
 import shutil
 from collections.abc import Mapping
 from contextlib import suppress
 from io import TextIOWrapper
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from cosim.coupling.record.checkpoint import CheckpointError
 from cosim.files import OutputError, OutputRefused, writable, write_text
@@ -58,7 +56,7 @@ class RunFolder:
     @classmethod
     def begun(
         cls, results: Path, asked: Mapping[str, Any], files: Mapping[str, str], force: bool = False
-    ) -> RunFolder:
+    ) -> Self:
         """Begin anew; what an earlier run left is gone.
 
         force: also where that run could be resumed; else that is refused.
@@ -85,7 +83,7 @@ class RunFolder:
         return folder
 
     @classmethod
-    def found(cls, results: Path) -> RunFolder:
+    def found(cls, results: Path) -> Self:
         """The folder of a run that was cut off and has a checkpoint.
 
         Raises CheckpointError, in one line, where there is none, OutputRefused where another

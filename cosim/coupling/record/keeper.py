@@ -1,7 +1,5 @@
 """Saves a coupled run while it goes, and puts one back to where it was saved."""
 
-from __future__ import annotations
-
 import time as clock
 import warnings
 from collections import deque

@@ -1,7 +1,5 @@
 """What was said in a run, as a file beside its results: there also after a crash or a kill."""
 
-from __future__ import annotations
-
 import threading
 from collections import Counter
 from collections.abc import Callable, Iterator

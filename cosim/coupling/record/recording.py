@@ -1,7 +1,5 @@
 """The rows of a coupled run, one for each recorded time."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Mapping, Sequence
 from itertools import groupby

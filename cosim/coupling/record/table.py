@@ -7,8 +7,6 @@ rows. Names and units of the columns stand in a JSON file beside it: the header 
 named fields outgrows, at some 250 names, what numpy.load reads without being told to.
 """
 
-from __future__ import annotations
-
 import errno
 import os
 import struct

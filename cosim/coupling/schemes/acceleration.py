@@ -3,8 +3,6 @@
 Values come in parts of their nominals: ports of several units meet in one vector.
 """
 
-from __future__ import annotations
-
 import math
 from collections import deque
 from dataclasses import dataclass, field

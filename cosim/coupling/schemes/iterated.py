@@ -1,7 +1,5 @@
 """An iterated (implicit) step: made again until what is handed over at its end is consistent."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import Any
 

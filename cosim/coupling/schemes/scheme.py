@@ -1,7 +1,5 @@
 """What a coupling scheme is, and those that make each step once: all at once, or in turn."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol

@@ -1,7 +1,5 @@
 """Steps as long as their error allows; those with a larger one are taken back."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 from typing import Any

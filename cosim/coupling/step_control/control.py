@@ -3,8 +3,6 @@
 And the plainest, steps of one size.
 """
 
-from __future__ import annotations
-
 import math
 from contextlib import nullcontext
 from typing import Any, ClassVar, Protocol

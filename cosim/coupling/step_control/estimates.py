@@ -1,7 +1,5 @@
 """Estimates of a step's error, as a part of what is allowed."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, ClassVar

@@ -1,7 +1,5 @@
 """Pairs of connections whose product is a power, and whether it is one."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 from cosim.coupling.conversion import POWER, told_dimension

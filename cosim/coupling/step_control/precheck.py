@@ -1,7 +1,5 @@
 """Before the first step: what its user should know, and whether participants can go back."""
 
-from __future__ import annotations
-
 import struct
 from collections.abc import Mapping
 from contextlib import suppress

@@ -1,23 +1,16 @@
 """What a unit says of itself, whatever the version of FMI."""
 
-from __future__ import annotations
-
-from collections.abc import Iterable, Mapping, Sequence
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import version
-from xml.etree.ElementTree import Element, SubElement, indent, tostring
+from typing import Any
+from xml.etree.ElementTree import fromstring, indent, tostring
 
 from stickslip.units import UNITS
 
-from cosim.fmu.variables import Variable
+from cosim.fmu.variables import Variable, by_array
 
-LOG_CATEGORIES = {
-    "logStatusWarning": "what should be known, though it is no failure",
-    "logStatusError": "why a call was refused; logged always",
-    "logAll": "both",
-}
-AUTHOR = "The stickslip developers"
-COPYRIGHT = "Copyright (c) 2026, the stickslip developers"
 LICENSE = "BSD-3-Clause"
 # Initial value of an output -> the parameters that it follows from. Totals start from zero;
 # of the outputs not named here all parameters and inputs have a say.
@@ -37,6 +30,13 @@ DIRECT = (
     "heat_flow",
     "surface_speed_actual",
 )
+#: Event indicators, in the kernel's order, each with what its event is.
+INDICATORS = {
+    "event_indicators.contact": "load of a stick reaches the limit, or a slip is at its end",
+    "event_indicators.sliding": "a slip in the plane passes the speed at which it has a direction",
+    "event_indicators.faster": "a slip in the plane has gained so much speed that a host starts "
+    "anew, or an input has left the course that rates were given for",
+}
 # States that are only counted: no rate depends on them.
 COUNTED = ("heat", "surface_work", "external_work", "damping_heat", "slip_time")
 STOP_TIME, STEP_SIZE = "30", "0.01"  # s, of the experiment that a host may take
@@ -70,75 +70,73 @@ class UnitFacts:
     starts: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: STARTS)
 
 
-def begun(facts: UnitFacts, fmi: str, token: str) -> Element:
-    """The root of a description in a version of FMI, in which the GUID is called ``token``."""
-    return Element(
-        "fmiModelDescription",
-        {
-            "fmiVersion": fmi,
-            "modelName": facts.name,
-            token: facts.guid,
-            "description": facts.description,
-            "author": AUTHOR,
-            "version": facts.version,
-            "copyright": COPYRIGHT,
-            "license": facts.license,
-            "generationTool": facts.tool,
-            "variableNamingConvention": "structured",
-        },
-    )
+def xml_of(template: str, package: str = __name__, **values: Any) -> bytes:
+    """A file of a template that lies in a package; without a date, so that builds repeat."""
+    from cosim.report.page import render  # not for who only compiles
 
-
-def written(root: Element) -> bytes:
-    """The file."""
+    root = fromstring(re.sub(r">\s+<", "><", render(template, package, **values)))
     indent(root)
     found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
     return found
 
 
-def add_units(root: Element, variables: Iterable[Variable], more: Iterable[str] = ()) -> None:
-    """Those that the variables are in, and more, by their base units."""
-    definitions = SubElement(root, "UnitDefinitions")
-    for name in sorted({variable.unit for variable in variables if variable.unit} | {*more}):
-        unit = SubElement(definitions, "Unit", name=name)
-        base = UNITS[name]
-        if base is not None:
-            SubElement(unit, "BaseUnit", {key: repr(value) for key, value in base.items()})
-
-
-def add_common(root: Element) -> None:
-    """Categories of messages, and the experiment that a host may take."""
-    categories = SubElement(root, "LogCategories")
-    for name, meaning in LOG_CATEGORIES.items():
-        SubElement(categories, "Category", name=name, description=meaning)
-    SubElement(root, "DefaultExperiment", startTime="0", stopTime=STOP_TIME, stepSize=STEP_SIZE)
-
-
-def xml(value: bool) -> str:
-    """As XML has it."""
-    return str(value).lower()
-
-
-def set_variability(element: Element, variable: Variable, otherwise: str | None) -> None:
-    """When a variable changes, and how it begins; otherwise: of an output that is not discrete."""
-    if variable.causality == "parameter":
-        element.set("variability", "tunable" if variable.is_tunable else "fixed")
-        element.set("initial", "exact")
-    elif variable.causality != "input":
-        if changes := "discrete" if variable.is_discrete else otherwise:
-            element.set("variability", changes)
-        element.set("initial", "calculated")
-
-
-def set_known(element: Element, variable: Variable, *keys: str) -> None:
-    """Set what is declared of a variable."""
-    for key in keys:
-        if (value := getattr(variable, key)) is not None:
-            element.set(key, value if isinstance(value, str) else repr(value))
-
-
 #: Name of an unknown -> names of what it depends on; None: of all states and inputs.
 Dependencies = dict[str, list[str] | None]
+
+
+def fmi2_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
+    """modelDescription.xml, FMI 2.0."""
+    references = {variable.name: i for i, variable in enumerate(variables, start=1)}
+    lists = {"Outputs": of_outputs(variables)}
+    if any(variable.is_state for variable in variables):
+        lists["Derivatives"] = of_rates(variables)
+    lists["InitialUnknowns"] = of_initial_unknowns(variables, facts.starts)
+    return _described("fmi2.xml.j2", facts, variables, lists, references, token="guid")
+
+
+def fmi3_description(facts: UnitFacts, variables: Sequence[Variable]) -> bytes:
+    """modelDescription.xml, FMI 3.0."""
+    indicators = INDICATORS if facts.indicators else {}
+    names = [*(variable.name for variable in variables), "time", *indicators]
+    lists = {
+        "Output": of_outputs(variables),
+        "ContinuousStateDerivative": of_rates(variables),
+        "InitialUnknown": of_initial_unknowns(variables, facts.starts),
+        "EventIndicator": dict.fromkeys(indicators),
+    }
+    references = {name: place for place, name in enumerate(names)}
+    own = {"token": "instantiationToken", "arrays": by_array(variables), "indicators": indicators}
+    return _described("fmi3.xml.j2", facts, variables, lists, references, **own)
+
+
+def _described(
+    template: str,
+    facts: UnitFacts,
+    variables: Sequence[Variable],
+    lists: Mapping[str, Dependencies],
+    references: Mapping[str, int],
+    **own: Any,
+) -> bytes:
+    """references: what stands for a name where others depend on it."""
+    used = {each.unit for each in variables if each.unit}
+    if "time" in references:
+        used.add("s")
+    return xml_of(
+        template,
+        facts=facts,
+        variables=variables,
+        lists=lists,
+        references=references,
+        units={name: UNITS[name] for name in sorted(used)},
+        stop=STOP_TIME,
+        step=STEP_SIZE,
+        **own,
+    )
+
+
+def build_description(facts: UnitFacts) -> bytes:
+    """buildDescription.xml: for who compiles the unit, where it has no library for a platform."""
+    return xml_of("build.xml.j2", facts=facts)
 
 
 def of_outputs(variables: Sequence[Variable]) -> Dependencies:
@@ -185,13 +183,3 @@ def of_initial_unknowns(
         for variable in variables
         if variable.causality in ("output", "local")
     }
-
-
-def add_unknowns(
-    element: Element, kind: str, key: str, unknowns: Dependencies, references: Mapping[str, str]
-) -> None:
-    """What each depends on; key: by which attribute it is told, references: and as what."""
-    for name, sources in unknowns.items():
-        unknown = SubElement(element, kind, {key: references[name]})
-        if sources is not None:
-            unknown.set("dependencies", " ".join(references[source] for source in sources))

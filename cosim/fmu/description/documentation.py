@@ -6,8 +6,6 @@ computed by the model in Python and not by the unit. Rules: github.com/modelica/
 section 9.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cache

@@ -4,8 +4,6 @@ The slave travels; the package `thermal`, with numpy, scipy and scikit-fem, is t
 Python. `cosim.fmu.python_unit` says how a unit is known by its content.
 """
 
-from __future__ import annotations
-
 from dataclasses import asdict
 from pathlib import Path
 

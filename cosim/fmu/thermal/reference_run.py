@@ -1,7 +1,5 @@
 """A run to compare the units of belt and ice with: the whole finite-element model, stepped here."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 

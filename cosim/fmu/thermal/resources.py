@@ -7,8 +7,6 @@ the numbers; 8 bytes of nothing. Then the numbers, 8 bytes each, in the order of
 `Tables` in fmu_src/native/beltice/model.h.
 """
 
-from __future__ import annotations
-
 import struct
 
 import numpy as np

@@ -3,22 +3,19 @@
 Nothing here imports the heat model: where a wheel is made there is no scikit-fem.
 """
 
-from __future__ import annotations
-
-import tomllib
 from collections.abc import Mapping
 from dataclasses import replace
-from importlib.resources import files
 from types import MappingProxyType
 
 from cosim.fmu.variables import Variable
+from cosim.packaged import packaged_tables
 
 NAME = "BeltIceThermal"
 DESCRIPTION = (
     "Temperature of a belt and of a block of ice that stands on it while the belt runs: friction "
     "heat in, temperature of the interface out"
 )
-_DECLARED = tomllib.loads((files(__package__) / "variables.toml").read_text(encoding="utf-8"))
+_DECLARED = packaged_tables(__package__, "variables.toml")
 
 
 def _declared(causality: str) -> list[Variable]:

@@ -31,7 +31,7 @@ def test_ice(made, air, close):
     whole = BeltIceModel(ThermalParameters.checked({"ice": {"air_heat_transfer": air}}))
     matrix = made.ice.across + made.ice.upwards + air * (made.ice.side + made.ice.top)
     for duration in STEPS:
-        expected = whole.ice.response(duration).face_mean
+        expected = whole.ice.face_response(duration)[0]
         found = mean_rise(matrix, made.ice.contact, duration)
         assert found == pytest.approx(expected, rel=close), duration
 

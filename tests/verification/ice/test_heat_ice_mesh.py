@@ -9,7 +9,7 @@ from refusals import one_line
 from sample_meshes import box, cylinder, write
 
 from thermal.ice.base_layers import cut_at_base, layer_height
-from thermal.ice.mesh_file import MeshError, base_of, facets_of, read_sample
+from thermal.ice.mesh_file import MeshError, base_of, mesh_of, read_sample
 
 EXTENT = (0.08, 0.06, 0.1)
 
@@ -111,8 +111,9 @@ def folded(points, cells):
 
 
 def a_facet_of_three(points, cells):
-    facets, number, _ = facets_of(cells)
-    third = np.append(facets[np.bincount(number) == 2][0], len(points))[None, :]
+    mesh = mesh_of(points, cells)
+    inner = np.bincount(mesh.t2f.ravel()) == 2
+    third = np.append(mesh.facets.T[inner][0], len(points))[None, :]
     return np.concatenate((points, [[0.0, 0.0, 0.033]])), np.concatenate((cells, third))
 
 
@@ -186,7 +187,7 @@ def test_layers_at_the_base_keep_shape_and_mesh(tmp_path, mesh):
 
 def mesh_base_area(mesh):
     points, cells = mesh
-    facets, number, _ = facets_of(cells)
-    surface = facets[np.bincount(number) == 1]
+    whole = mesh_of(points, cells)
+    surface = whole.facets.T[whole.boundary_facets()]
     a, b, c = np.moveaxis(points[surface[base_of(points, surface)]], 1, 0)
     return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum()

@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import brentq
 from scipy.special import erfc
 
-from thermal import Ice
+from thermal import Contact, Ice
 from thermal.contact.exchange import BeltFace, exchange
 from thermal.ice.ablation import Ablation
 from thermal.ice.body import IceMelted
@@ -40,7 +40,7 @@ class Block:
 
     def step(self, duration, flux, available=0.0):
         step = self.ablation.exchange(
-            duration, available, lambda face: exchange(NO_BELT, face, 1e4, 0.0, flux)
+            duration, available, lambda face: exchange(NO_BELT, face, Contact(), 0.0, flux)
         )
         area = self.ice.space.area
         self.ice.advance(duration, step.fluxes.ice * area, step.sinking, step.recession)

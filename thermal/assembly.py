@@ -1,6 +1,7 @@
-"""The ice as a Galerkin space: everything that its temperature obeys, as small dense arrays.
+"""A body as a Galerkin space: everything that its temperature obeys, as small dense arrays.
 
-The block loses height at its contact face when it melts. Its coordinate upwards is therefore
+The same for the block of ice and, through its thickness, for the belt, which never melts: its J is
+1. The block loses height at its contact face when it melts. Its coordinate upwards is therefore
 zeta = z H0/H, which runs from 0 to the height H0 at the start while the block is H = J H0 high: J,
 the height ratio, is the Jacobian of the map from the mesh to the block. The unknown is U = J u, the
 heat in a volume of the mesh over its capacity (u the temperature rise above the air). The ice above
@@ -19,19 +20,18 @@ Quadratic forms are kept as factors F with F^T F the form. Rates that are sums o
 rounding relative to themselves, not to the fastest rate.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import spmatrix
 from skfem import BilinearForm, CellBasis, FacetBasis, LinearForm
 
-from thermal.materials import Medium
+from .arrays import Array
+from .materials import Medium
 
-Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
 
 #: Elements whose gradients are held at a time.
@@ -39,7 +39,7 @@ _CHUNK = 1000
 
 
 @dataclass(frozen=True)
-class IceSpace:
+class HeatSpace:
     """n trial functions on N degrees of freedom; power for amplitude 1 in W, heat in J.
 
     trial (N, n); capacity (n, n) J/K; factors (up to n, n) of the forms in the module's equation,
@@ -95,25 +95,24 @@ class Body:
 
     def contact(self) -> tuple[Array, float]:
         """Load of 1 W/m2 on the contact (N,), and the contact's area in m2."""
-        load = LinearForm(lambda v, w: self.measure(w.x) * self.share(w.x) * v).assemble(
-            self.bottom
-        )
+        form = LinearForm(lambda v, w: self.measure(w.x) * self.share(w.x) * v)
+        load = form.assemble(self.bottom)
         return load, float(load.sum())
 
     def capacity(self) -> spmatrix:
         """Capacity matrix, J/K."""
-        return BilinearForm(
-            lambda u, v, w: self.medium.capacity * self.measure(w.x) * u * v
-        ).assemble(self.basis)
+        return self.weighted(self.medium.capacity)
+
+    def weighted(self, density: float | Array) -> spmatrix:
+        """Integral of u v with a density, which may vary from element to element (elements, 1)."""
+        form = BilinearForm(lambda u, v, w: density * self.measure(w.x) * u * v)
+        return form.assemble(self.basis)
 
     def conduction(self) -> spmatrix:
         """Conduction and films at J = 1, W/K."""
+        k, axes = self.medium.conductivity, range(self.basis.mesh.dim())
         inside = BilinearForm(
-            lambda u, v, w: (
-                self.medium.conductivity
-                * self.measure(w.x)
-                * sum(u.grad[i] * v.grad[i] for i in range(self.basis.mesh.dim()))
-            )
+            lambda u, v, w: k * self.measure(w.x) * sum(u.grad[i] * v.grad[i] for i in axes)
         ).assemble(self.basis)
         film = BilinearForm(lambda u, v, w: self.h * self.measure(w.x) * u * v)
         return inside + sum(film.assemble(part) for part in (self.side, self.top) if part)
@@ -121,16 +120,12 @@ class Body:
     def sinking(self) -> spmatrix:
         """The form of V/J in the module's equation, W/K for V = 1 m/s."""
         up = self.basis.mesh.dim() - 1
-        return BilinearForm(
-            lambda u, v, w: (
-                -self.medium.capacity
-                * self.measure(w.x)
-                * self.share(w.x)
-                * (1.0 - w.x[up] / self.height)
-                * u
-                * v.grad[up]
-            )
-        ).assemble(self.basis)
+
+        def form(u: Any, v: Any, w: Any) -> Any:
+            sinks = self.share(w.x) * (1.0 - w.x[up] / self.height)
+            return -self.medium.capacity * self.measure(w.x) * sinks * u * v.grad[up]
+
+        return BilinearForm(form).assemble(self.basis)
 
     def film(self, part: FacetBasis | None) -> Array:
         """Heat (N,) to the air through a part of the surface, W/K."""
@@ -139,21 +134,19 @@ class Body:
         found: Array = LinearForm(lambda v, w: self.h * self.measure(w.x) * v).assemble(part)
         return found
 
-    def space(self, trial: Array) -> IceSpace:
+    def space(self, trial: Array) -> HeatSpace:
         """The Galerkin space of the columns of trial (N, n)."""
         capacity = self.capacity()
         load, area = self.contact()
-        weight = (
-            self.medium.conductivity * self.measure(self.basis.global_coordinates()) * self.basis.dx
-        )
-        up, n = self.basis.mesh.dim() - 1, trial.shape[1]
-        return IceSpace(
+        gradients = [partial(_slope, i) for i in range(self.basis.mesh.dim())]
+        k = self.medium.conductivity
+        return HeatSpace(
             trial=trial,
             capacity=trial.T @ (capacity @ trial),
-            across=_factor(_gradients(self.basis, weight, range(up), trial), n),
-            upwards=_factor(_gradients(self.basis, weight, (up,), trial), n),
-            side=_factor(self._traces(self.side, trial), n),
-            top=_factor(self._traces(self.top, trial), n),
+            across=self._factor(self.basis, k, gradients[:-1], trial),
+            upwards=self._factor(self.basis, k, gradients[-1:], trial),
+            side=self._factor(self.side, self.h, [np.asarray], trial),
+            top=self._factor(self.top, self.h, [np.asarray], trial),
             sinking=trial.T @ (self.sinking() @ trial),
             contact=trial.T @ (load / area),
             heat=trial.T @ np.asarray(capacity.sum(axis=0)).ravel(),
@@ -164,49 +157,42 @@ class Body:
             whole_capacity=float(capacity.sum()),
         )
 
-    def _traces(self, film: FacetBasis | None, trial: Array) -> Iterator[Array]:
-        """Rows g of the film with g . g its power, W."""
-        if film is None:
-            return
-        root = np.sqrt(self.h * self.measure(film.global_coordinates()) * film.dx)
-        for part in _chunks(film.dx.shape[0]):
-            values = sum(
-                np.einsum(
-                    "eq,en->eqn",
-                    np.broadcast_to(np.asarray(phi[0]), root.shape)[part],
-                    trial[dofs[part]],
+    def _factor(
+        self,
+        basis: CellBasis | FacetBasis | None,
+        density: float | Array,
+        values: Sequence[Function],
+        trial: Array,
+    ) -> Array:
+        """R (up to n, n) with R^T R the power, W, of some values of the trial functions (N, n).
+
+        density: of the power, for a value of 1. Few rows, as those of a film, are their own factor;
+        more are made a triangle.
+        """
+        columns = trial.shape[1]
+        factor = np.zeros((0, columns))
+        if basis is None:
+            return factor
+        root = np.sqrt(density * self.measure(basis.global_coordinates()) * basis.dx)
+        for start in range(0, len(root), _CHUNK):
+            part = slice(start, start + _CHUNK)
+            for value in values:
+                at_points = sum(
+                    np.einsum(
+                        "eq,en->eqn",
+                        np.broadcast_to(value(phi[0]), root.shape)[part],
+                        trial[dofs[part]],
+                    )
+                    for phi, dofs in zip(basis.basis, basis.element_dofs, strict=True)
                 )
-                for phi, dofs in zip(film.basis, film.element_dofs, strict=True)
-            )
-            yield (root[part, :, None] * values).reshape(-1, trial.shape[1])
+                rows = (root[part, :, None] * at_points).reshape(-1, columns)
+                factor = np.concatenate((factor, rows))
+                if len(factor) > columns:
+                    factor = np.asarray(np.linalg.qr(factor, mode="r"))
+        return factor
 
 
-def _chunks(count: int) -> Iterator[slice]:
-    return (slice(start, start + _CHUNK) for start in range(0, count, _CHUNK))
-
-
-def _gradients(
-    basis: CellBasis, weight: Array, components: Iterable[int], trial: Array
-) -> Iterator[Array]:
-    """Rows g of some components of the gradient with g . g the power that they conduct, W."""
-    root = np.sqrt(weight)
-    for part in _chunks(weight.shape[0]):
-        for i in components:
-            values = sum(
-                np.einsum("eq,en->eqn", phi[0].grad[i][part], trial[dofs[part]])
-                for phi, dofs in zip(basis.basis, basis.element_dofs, strict=True)
-            )
-            yield (root[part, :, None] * values).reshape(-1, trial.shape[1])
-
-
-def _factor(rows: Iterator[Array], columns: int) -> Array:
-    """R (up to columns, columns) with R^T R the sum of r^T r over all rows r.
-
-    Few rows, as those of a film, are their own factor; more are made a triangle.
-    """
-    factor = np.zeros((0, columns))
-    for block in rows:
-        factor = np.concatenate((factor, block))
-        if len(factor) > columns:
-            factor = np.asarray(np.linalg.qr(factor, mode="r"))
-    return factor
+def _slope(axis: int, function: Any) -> Array:
+    """Of a function of the basis along an axis."""
+    found: Array = function.grad[axis]
+    return found
