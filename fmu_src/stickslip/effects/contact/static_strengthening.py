@@ -16,42 +16,25 @@ from ..effect import Case, Effect
 
 
 class StaticStrengthening(Table):
-    """Static friction grows with the time at rest: its logarithm, a power, or up to a limit."""
+    """Static friction grows with the time at rest: its logarithm, a power, or up to a limit.
 
-    rate: float = quantity(
-        0.0, "1", "growth of mu_s per decade of hold time", ge=0, le=2, typical=(0.01, 0.3)
-    )
-    hold_time: float = quantity(
-        0.01,
-        "s",
-        "hold time above which mu_s grows: log10(1 + t / hold_time)",
-        gt=0,
-        tried=(1e-3, 0.1),
-    )
-    saturating: float = quantity(
-        0.0, "1", "growth of mu_s that a long hold comes to", ge=0, le=5, typical=(0.02, 0.5)
-    )
-    saturation_time: float = quantity(
-        0.3,
-        "s",
-        "hold time over which it does: 1 - exp(-t / saturation_time)",
-        gt=0,
-        tried=(0.05, 2.0),
-    )
-    slip_distance: float = quantity(
-        1e-4,
-        "m",
-        "slip over which a contact loses its age: exp(-s / slip_distance); matters only with "
-        "friction.transition_speed, without which it is lost at once",
-        gt=0,
-        tried=(1e-5, 1e-3),
-    )
-    power: float = quantity(
-        0.0, "1", "growth of mu_s in a hold of 1 s, by its power", ge=0, le=5, typical=(0.02, 0.3)
-    )
-    exponent: float = quantity(
-        0.3, "1", "power of the hold time with which it grows", ge=0.02, le=2, tried=(0.1, 0.8)
-    )
+    rate : growth of mu_s per decade of hold time
+    hold_time : hold time above which mu_s grows: log10(1 + t / hold_time)
+    saturating : growth of mu_s that a long hold comes to
+    saturation_time : hold time over which it does: 1 - exp(-t / saturation_time)
+    slip_distance : slip over which a contact loses its age: exp(-s / slip_distance); matters only
+        with friction.transition_speed, without which it is lost at once
+    power : growth of mu_s in a hold of 1 s, by its power
+    exponent : power of the hold time with which it grows
+    """
+
+    rate: float = quantity(0.0, "1", ge=0, le=2, typical=(0.01, 0.3))
+    hold_time: float = quantity(0.01, "s", gt=0, tried=(1e-3, 0.1))
+    saturating: float = quantity(0.0, "1", ge=0, le=5, typical=(0.02, 0.5))
+    saturation_time: float = quantity(0.3, "s", gt=0, tried=(0.05, 2.0))
+    slip_distance: float = quantity(1e-4, "m", gt=0, tried=(1e-5, 1e-3))
+    power: float = quantity(0.0, "1", ge=0, le=5, typical=(0.02, 0.3))
+    exponent: float = quantity(0.3, "1", ge=0.02, le=2, tried=(0.1, 0.8))
 
 
 def static_growth(

@@ -18,41 +18,24 @@ from ..effect import Case, Effect
 
 
 class FilmDrag(Table):
-    """Friction grows with the sliding speed: a film of melt or water is sheared."""
+    """Friction grows with the sliding speed: a film of melt or water is sheared.
 
-    coefficient: float = quantity(
-        0.0, "N.s/m", "force of the whole contact per sliding speed", ge=0, typical=(0.05, 5.0)
-    )
-    root_coefficient: float = quantity(
-        0.0,
-        "N",
-        "force of the whole contact at 1 m/s, growing with the root of the local speed",
-        ge=0,
-        typical=(0.05, 2.0),
-    )
-    power: float = quantity(
-        0.0,
-        "N",
-        "P, force of the whole contact at power_speed, growing with a power of the local speed",
-        ge=0,
-        typical=(0.02, 1.0),
-    )
-    exponent: float = quantity(
-        1.0, "1", "n, of the power: below 1 it shears thin", ge=0.2, le=4, tried=(0.5, 2.0)
-    )
-    power_speed: float = quantity(
-        0.1, "m/s", "v_p, speed at which the force is that", gt=0, tried=(0.05, 0.3)
-    )
-    saturating: float = quantity(
-        0.0,
-        "N",
-        "S, force of the whole contact that a fast sliding comes to",
-        ge=0,
-        typical=(0.05, 1.0),
-    )
-    saturation_speed: float = quantity(
-        0.1, "m/s", "v_s, speed at which it is half of that", gt=0, tried=(0.03, 0.3)
-    )
+    coefficient : force of the whole contact per sliding speed
+    root_coefficient : force of the whole contact at 1 m/s, growing with the root of the local speed
+    power : P, force of the whole contact at power_speed, growing with a power of the local speed
+    exponent : n, of the power: below 1 it shears thin
+    power_speed : v_p, speed at which the force is that
+    saturating : S, force of the whole contact that a fast sliding comes to
+    saturation_speed : v_s, speed at which it is half of that
+    """
+
+    coefficient: float = quantity(0.0, "N.s/m", ge=0, typical=(0.05, 5.0))
+    root_coefficient: float = quantity(0.0, "N", ge=0, typical=(0.05, 2.0))
+    power: float = quantity(0.0, "N", ge=0, typical=(0.02, 1.0))
+    exponent: float = quantity(1.0, "1", ge=0.2, le=4, tried=(0.5, 2.0))
+    power_speed: float = quantity(0.1, "m/s", gt=0, tried=(0.05, 0.3))
+    saturating: float = quantity(0.0, "N", ge=0, typical=(0.05, 1.0))
+    saturation_speed: float = quantity(0.1, "m/s", gt=0, tried=(0.03, 0.3))
 
 
 def contact_drag(coefficient: float) -> float:

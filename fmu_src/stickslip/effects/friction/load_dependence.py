@@ -18,29 +18,18 @@ from ..effect import Case, Effect
 
 
 class LoadDependence(Table):
-    """Friction coefficients fall (or grow) with the normal force."""
+    """Friction coefficients fall (or grow) with the normal force.
 
-    exponent: float = quantity(
-        0.0, "1", "n of mu (N / reference_force)^-n", ge=-2, le=2, typical=(-0.5, 0.5)
-    )
-    reference_force: float = quantity(
-        6.57,
-        "N",
-        "normal force at which mu_s and mu_k hold (0.67 kg)",
-        gt=0,
-        tried=(3.0, 12.0),
-    )
-    adhesion: float = quantity(
-        0.0, "N", "A, force that presses beside the load", ge=0, typical=(0.1, 5.0)
-    )
-    logarithmic: float = quantity(
-        0.0,
-        "1",
-        "c, part of mu_s and mu_k lost per decade of the normal force, down to none left",
-        ge=-2,
-        le=2,
-        typical=(0.05, 0.5),
-    )
+    exponent : n of mu (N / reference_force)^-n
+    reference_force : normal force at which mu_s and mu_k hold (0.67 kg)
+    adhesion : A, force that presses beside the load
+    logarithmic : c, part of mu_s and mu_k lost per decade of the normal force, down to none left
+    """
+
+    exponent: float = quantity(0.0, "1", ge=-2, le=2, typical=(-0.5, 0.5))
+    reference_force: float = quantity(6.57, "N", gt=0, tried=(3.0, 12.0))
+    adhesion: float = quantity(0.0, "N", ge=0, typical=(0.1, 5.0))
+    logarithmic: float = quantity(0.0, "1", ge=-2, le=2, typical=(0.05, 0.5))
 
 
 def coefficient_factor(

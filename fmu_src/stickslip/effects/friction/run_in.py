@@ -21,32 +21,21 @@ from ..static_share import STATIC_FORMS, static_absolute, static_relative
 
 
 class RunIn(Table):
-    """Kinetic friction drifts with the distance slid: wear, polishing, wetting."""
+    """Kinetic friction drifts with the distance slid: wear, polishing, wetting.
 
-    change: float = quantity(
-        0.0, "1", "final change of mu_k, part of it", ge=-0.95, le=5, typical=(-0.5, 0.5)
-    )
-    distance: float = quantity(
-        1.0,
-        "m",
-        "distance over which the change is approached exponentially",
-        gt=0,
-        tried=(0.1, 3.0),
-    )
-    stretching: float = quantity(
-        1.0,
-        "1",
-        "n of 1 - exp(-(s / distance)^n): 1 exponential, below 1 long drawn out, above 1 delayed",
-        ge=0.2,
-        le=4,
-        tried=(0.5, 2.0),
-    )
-    later_change: float = quantity(
-        0.0, "1", "change that comes beside it, part of mu_k", ge=-5, le=5, typical=(-0.5, 0.5)
-    )
-    later_distance: float = quantity(
-        3.0, "m", "distance over which that one is approached", gt=0, tried=(0.3, 9.0)
-    )
+    change : final change of mu_k, part of it
+    distance : distance over which the change is approached exponentially
+    stretching : n of 1 - exp(-(s / distance)^n): 1 exponential, below 1 long drawn out, above 1
+        delayed
+    later_change : change that comes beside it, part of mu_k
+    later_distance : distance over which that one is approached
+    """
+
+    change: float = quantity(0.0, "1", ge=-0.95, le=5, typical=(-0.5, 0.5))
+    distance: float = quantity(1.0, "m", gt=0, tried=(0.1, 3.0))
+    stretching: float = quantity(1.0, "1", ge=0.2, le=4, tried=(0.5, 2.0))
+    later_change: float = quantity(0.0, "1", ge=-5, le=5, typical=(-0.5, 0.5))
+    later_distance: float = quantity(3.0, "m", gt=0, tried=(0.3, 9.0))
     static_relative: float = static_relative()
     static_absolute: float = static_absolute()
 

@@ -16,17 +16,16 @@ from ..periodic import harmonic_amplitude, harmonic_phase, periodic
 
 
 class SurfacePattern(Table):
-    """Friction is periodic in the place on the surface."""
+    """Friction is periodic in the place on the surface.
 
-    amplitude: float = quantity(
-        0.0, "1", "amplitude as part of mu_s and mu_k", ge=0, le=1, typical=(0.02, 0.4)
-    )
-    wavelength: float = quantity(
-        0.1, "m", "length of a period along the surface", gt=0, typical=(0.005, 1.0)
-    )
-    phase_deg: float = quantity(
-        0.0, "deg", "phase where the block stands at the start", tried=(-180.0, 180.0)
-    )
+    amplitude : amplitude as part of mu_s and mu_k
+    wavelength : length of a period along the surface
+    phase_deg : phase where the block stands at the start
+    """
+
+    amplitude: float = quantity(0.0, "1", ge=0, le=1, typical=(0.02, 0.4))
+    wavelength: float = quantity(0.1, "m", gt=0, typical=(0.005, 1.0))
+    phase_deg: float = quantity(0.0, "deg", tried=(-180.0, 180.0))
     second_amplitude: float = harmonic_amplitude("second")
     second_phase_deg: float = harmonic_phase("second")
     third_amplitude: float = harmonic_amplitude("third")

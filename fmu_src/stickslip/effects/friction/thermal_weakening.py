@@ -32,30 +32,18 @@ SLOW_WEIGHT = 0.29
 
 
 class ThermalWeakening(Table):
-    """Kinetic friction falls as friction heat gathers at the interface, and recovers in time."""
+    """Kinetic friction falls as friction heat gathers at the interface, and recovers in time.
 
-    per_joule: float = quantity(
-        0.0, "1/J", "part of mu_k lost per joule of recent friction heat", ge=0, typical=(0.05, 5.0)
-    )
-    relaxation_time: float = quantity(
-        5.0, "s", "time in which recent heat is forgotten", gt=0, typical=(0.3, 30.0)
-    )
-    curvature: float = quantity(
-        -1.0,
-        "1",
-        "of the decline of mu_k: -1 linear, 0 exponential, 1 hyperbolic",
-        ge=-1,
-        le=1,
-        tried=(-1.0, 1.0),
-    )
-    diffusion: float = quantity(
-        0.0,
-        "1",
-        "1: heat is forgotten as a half-space does, about relaxation_time; 0: exponentially",
-        ge=0,
-        le=1,
-        tried=(0.0, 1.0),
-    )
+    per_joule : part of mu_k lost per joule of recent friction heat
+    relaxation_time : time in which recent heat is forgotten
+    curvature : of the decline of mu_k: -1 linear, 0 exponential, 1 hyperbolic
+    diffusion : 1: heat is forgotten as a half-space does, about relaxation_time; 0: exponentially
+    """
+
+    per_joule: float = quantity(0.0, "1/J", ge=0, typical=(0.05, 5.0))
+    relaxation_time: float = quantity(5.0, "s", gt=0, typical=(0.3, 30.0))
+    curvature: float = quantity(-1.0, "1", ge=-1, le=1, tried=(-1.0, 1.0))
+    diffusion: float = quantity(0.0, "1", ge=0, le=1, tried=(0.0, 1.0))
     static_relative: float = static_relative()
     static_absolute: float = static_absolute()
 

@@ -19,55 +19,30 @@ from ..effect import Case, Effect
 
 
 class VelocityWeakening(Table):
-    """Kinetic friction falls with the local sliding speed."""
+    """Kinetic friction falls with the local sliding speed.
 
-    linear: float = quantity(
-        0.0, "s/m", "part of mu_k lost per m/s, down to none left", ge=0, typical=(0.1, 2.0)
-    )
-    hyperbolic: float = quantity(
-        0.0, "s/m", "delta of mu_k / (1 + delta v)", ge=0, typical=(0.2, 5.0)
-    )
-    inverse_root: float = quantity(
-        0.0, "s/m", "c of mu_k / sqrt(1 + c v): 1/sqrt(v) at high speed", ge=0, typical=(0.5, 50.0)
-    )
-    stribeck: float = quantity(
-        0.0, "1", "peak above mu_k at rest, as part of mu_k", ge=0, le=10, typical=(0.1, 1.0)
-    )
-    stribeck_speed: float = quantity(
-        0.05,
-        "m/s",
-        "speed over which the peak decays: exp(-v / stribeck_speed)",
-        gt=0,
-        tried=(0.01, 0.3),
-    )
-    power: float = quantity(
-        0.0,
-        "1",
-        "p of mu_k / (1 + p (v / power_speed)^exponent)",
-        ge=0,
-        typical=(0.03, 1.0),
-    )
-    exponent: float = quantity(
-        1.0, "1", "of the power: below 1 the fall is steepest at rest", ge=0.2, le=4, tried=(0.4, 2)
-    )
-    power_speed: float = quantity(
-        0.1, "m/s", "speed at which 1 + p divides mu_k", gt=0, tried=(0.03, 0.3)
-    )
-    logarithmic: float = quantity(
-        0.0,
-        "1",
-        "part of mu_k lost per decade of the speed, down to none left",
-        ge=0,
-        le=1,
-        typical=(0.02, 0.2),
-    )
-    logarithm_speed: float = quantity(
-        0.01,
-        "m/s",
-        "speed above which it is lost: log10(1 + v / logarithm_speed)",
-        gt=0,
-        tried=(1e-3, 0.1),
-    )
+    linear : part of mu_k lost per m/s, down to none left
+    hyperbolic : delta of mu_k / (1 + delta v)
+    inverse_root : c of mu_k / sqrt(1 + c v): 1/sqrt(v) at high speed
+    stribeck : peak above mu_k at rest, as part of mu_k
+    stribeck_speed : speed over which the peak decays: exp(-v / stribeck_speed)
+    power : p of mu_k / (1 + p (v / power_speed)^exponent)
+    exponent : of the power: below 1 the fall is steepest at rest
+    power_speed : speed at which 1 + p divides mu_k
+    logarithmic : part of mu_k lost per decade of the speed, down to none left
+    logarithm_speed : speed above which it is lost: log10(1 + v / logarithm_speed)
+    """
+
+    linear: float = quantity(0.0, "s/m", ge=0, typical=(0.1, 2.0))
+    hyperbolic: float = quantity(0.0, "s/m", ge=0, typical=(0.2, 5.0))
+    inverse_root: float = quantity(0.0, "s/m", ge=0, typical=(0.5, 50.0))
+    stribeck: float = quantity(0.0, "1", ge=0, le=10, typical=(0.1, 1.0))
+    stribeck_speed: float = quantity(0.05, "m/s", gt=0, tried=(0.01, 0.3))
+    power: float = quantity(0.0, "1", ge=0, typical=(0.03, 1.0))
+    exponent: float = quantity(1.0, "1", ge=0.2, le=4, tried=(0.4, 2))
+    power_speed: float = quantity(0.1, "m/s", gt=0, tried=(0.03, 0.3))
+    logarithmic: float = quantity(0.0, "1", ge=0, le=1, typical=(0.02, 0.2))
+    logarithm_speed: float = quantity(0.01, "m/s", gt=0, tried=(1e-3, 0.1))
 
 
 def dry_factor(

@@ -19,22 +19,16 @@ from ..effect import Case, Effect
 
 
 class ViscoelasticPeak(Table):
-    """Kinetic friction has a peak at one sliding speed: a belt of rubber loses most there."""
+    """Kinetic friction has a peak at one sliding speed: a belt of rubber loses most there.
 
-    height: float = quantity(
-        0.0, "1", "c, height of the peak above mu_k, as part of mu_k", ge=0, le=10, typical=(0.1, 2)
-    )
-    peak_speed: float = quantity(
-        0.1, "m/s", "v_p, speed of the peak", gt=0, le=100, typical=(0.01, 1.0)
-    )
-    narrowness: float = quantity(
-        1.0,
-        "1",
-        "h: 1/h decades from the peak, 1/e of its height is left",
-        ge=0.1,
-        le=10,
-        tried=(0.3, 2.0),
-    )
+    height : c, height of the peak above mu_k, as part of mu_k
+    peak_speed : v_p, speed of the peak
+    narrowness : h: 1/h decades from the peak, 1/e of its height is left
+    """
+
+    height: float = quantity(0.0, "1", ge=0, le=10, typical=(0.1, 2))
+    peak_speed: float = quantity(0.1, "m/s", gt=0, le=100, typical=(0.01, 1.0))
+    narrowness: float = quantity(1.0, "1", ge=0.1, le=10, tried=(0.3, 2.0))
 
 
 def dry_factor(speed: float, height: float, peak_speed: float, narrowness: float) -> float:

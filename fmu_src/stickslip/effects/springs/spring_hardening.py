@@ -14,21 +14,16 @@ from ..effect import Case, Effect
 
 
 class SpringHardening(Table):
-    """Springs stiffen with their extension, or with its change since then."""
+    """Springs stiffen with their extension, or with its change since then.
 
-    cubic: float = quantity(
-        0.0, "N/m3", "k_3 of the spring force k e + k_3 (e - e_n)^3", ge=0, typical=(500.0, 5e4)
-    )
-    neutral_extension: float = quantity(
-        0.0,
-        "m",
-        "extension e_n at which these terms vanish: 0, or as installed",
-        ge=0,
-        tried=(0.0, 0.03),
-    )
-    quintic: float = quantity(
-        0.0, "N/m5", "k_5 of the spring force's term k_5 (e - e_n)^5", ge=0, typical=(1e5, 1e8)
-    )
+    cubic : k_3 of the spring force k e + k_3 (e - e_n)^3
+    neutral_extension : extension e_n at which these terms vanish: 0, or as installed
+    quintic : k_5 of the spring force's term k_5 (e - e_n)^5
+    """
+
+    cubic: float = quantity(0.0, "N/m3", ge=0, typical=(500.0, 5e4))
+    neutral_extension: float = quantity(0.0, "m", ge=0, tried=(0.0, 0.03))
+    quintic: float = quantity(0.0, "N/m5", ge=0, typical=(1e5, 1e8))
 
 
 def spring_force(extension: float, cubic: float, neutral_extension: float, quintic: float) -> float:

@@ -15,27 +15,20 @@ from ..effect import Case, Effect
 
 
 class StructuralDamping(Table):
-    """A force against the velocity in the frame: viscous, with its square, or dry friction."""
+    """A force against the velocity in the frame: viscous, with its square, or dry friction.
 
-    coefficient: float = quantity(
-        0.0, "N.s/m", "force per velocity of the block", ge=0, typical=(0.05, 2.0)
-    )
-    rotational: float = quantity(
-        0.0, "N.m.s", "moment per angular velocity of the block", ge=0, typical=(1e-5, 1e-2)
-    )
-    quadratic: float = quantity(
-        0.0,
-        "N.s2/m2",
-        "q, force per square of the block's velocity",
-        ge=0,
-        typical=(0.1, 10.0),
-    )
-    dry_force: float = quantity(
-        0.0, "N", "F, dry friction of guides and joints", ge=0, typical=(0.003, 0.1)
-    )
-    dry_speed: float = quantity(
-        0.01, "m/s", "v_0, velocity within which dry friction turns round", gt=0, tried=(3e-3, 0.1)
-    )
+    coefficient : force per velocity of the block
+    rotational : moment per angular velocity of the block
+    quadratic : q, force per square of the block's velocity
+    dry_force : F, dry friction of guides and joints
+    dry_speed : v_0, velocity within which dry friction turns round
+    """
+
+    coefficient: float = quantity(0.0, "N.s/m", ge=0, typical=(0.05, 2.0))
+    rotational: float = quantity(0.0, "N.m.s", ge=0, typical=(1e-5, 1e-2))
+    quadratic: float = quantity(0.0, "N.s2/m2", ge=0, typical=(0.1, 10.0))
+    dry_force: float = quantity(0.0, "N", ge=0, typical=(0.003, 0.1))
+    dry_speed: float = quantity(0.01, "m/s", gt=0, tried=(3e-3, 0.1))
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:

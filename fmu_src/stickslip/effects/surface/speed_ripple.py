@@ -15,13 +15,16 @@ from ..periodic import harmonic_amplitude, harmonic_phase, periodic
 
 
 class SpeedRipple(Table):
-    """The speed of the surface is periodic in time."""
+    """The speed of the surface is periodic in time.
 
-    amplitude: float = quantity(
-        0.0, "1", "amplitude as part of the speed", ge=0, le=1, typical=(0.02, 0.3)
-    )
-    frequency: float = quantity(1.0, "Hz", "frequency", gt=0, le=1000, typical=(0.1, 10.0))
-    phase_deg: float = quantity(0.0, "deg", "phase at the start", tried=(-180.0, 180.0))
+    amplitude : amplitude as part of the speed
+    frequency : frequency
+    phase_deg : phase at the start
+    """
+
+    amplitude: float = quantity(0.0, "1", ge=0, le=1, typical=(0.02, 0.3))
+    frequency: float = quantity(1.0, "Hz", gt=0, le=1000, typical=(0.1, 10.0))
+    phase_deg: float = quantity(0.0, "deg", tried=(-180.0, 180.0))
     second_amplitude: float = harmonic_amplitude("second")
     second_phase_deg: float = harmonic_phase("second")
     third_amplitude: float = harmonic_amplitude("third")
