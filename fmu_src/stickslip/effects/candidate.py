@@ -85,3 +85,19 @@ class Candidate:
     free_parameters: tuple[FreeParameter, ...]
     settings: Mapping[str, float] = field(default_factory=dict)
     periodic: str = ""
+
+
+@dataclass(frozen=True)
+class FormsOf:
+    """What writes the candidates of one effect, whose parameters go by their own names there."""
+
+    effect: str
+
+    def free(self, name: str, *numbers: float, log: bool = False) -> FreeParameter:
+        """A free parameter of the effect; numbers: start, step, and low and high."""
+        return FreeParameter(f"{self.effect}.{name}", *numbers, log=log)
+
+    def form(self, name: str, *free: FreeParameter, **settings: float) -> Candidate:
+        """A candidate with these free parameters; settings: of parameters of the effect."""
+        keys = {f"{self.effect}.{key}": value for key, value in settings.items()}
+        return Candidate(self.effect, name, free, keys)

@@ -46,9 +46,9 @@ class EffectFunctions:
 
     @cached_property
     def _file(self) -> ast.Module:
-        module = sys.modules[self.effect.table.__module__]
-        # a custom effect's is the text that was executed, not what the file holds by now
-        return ast.parse(vars(module).get(TEXT) or inspect.getsource(module))
+        """The effect's own, and behind it those that derived numbers of it come from."""
+        files = [self.effect.table.__module__, *(each.__module__ for each in self.effect.derived)]
+        return ast.Module([node for file in dict.fromkeys(files) for node in _statements(file)], [])
 
     @cached_property
     def _defined(self) -> dict[str, ast.FunctionDef]:
@@ -110,6 +110,13 @@ class EffectFunctions:
         renamed.body = [Rename().visit(part) for part in renamed.body]
         renamed.name = f"{self.effect.id}_{function.name}"
         return ast.unparse(ast.fix_missing_locations(renamed))
+
+
+@cache
+def _statements(module: str) -> list[ast.stmt]:
+    # a custom effect's is the text that was executed, not what the file holds by now
+    text = vars(sys.modules[module]).get(TEXT) or inspect.getsource(sys.modules[module])
+    return ast.parse(text).body
 
 
 def names_in(function: ast.FunctionDef) -> Iterator[ast.Name]:

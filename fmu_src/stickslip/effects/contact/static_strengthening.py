@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from math import exp, log10
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
@@ -57,51 +57,26 @@ def static_growth(
     return growth
 
 
+own = FormsOf("static_strengthening")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Logarithmic at once or after an onset, saturating, a power; each loses its age in slip."""
     # nobody knows beforehand over how much slip, and break-aways hang on it
-    lost = FreeParameter("static_strengthening.slip_distance", 1e-3, 0.5, 1e-5, 3e-2, log=True)
-    rate = FreeParameter("static_strengthening.rate", 0.03, 0.02, 0.0, 2.0)
-    yield Candidate(
-        "static_strengthening",
-        "logarithmic",
-        (rate, lost),
-        {"static_strengthening.hold_time": 0.01},
-    )
+    lost = own.free("slip_distance", 1e-3, 0.5, 1e-5, 3e-2, log=True)
+    rate = own.free("rate", 0.03, 0.02, 0.0, 2.0)
+    yield own.form("logarithmic", rate, lost, hold_time=0.01)
     for time in (0.03, 0.5):
-        onset = FreeParameter("static_strengthening.hold_time", time, 0.5, 1e-4, 30.0, log=True)
-        yield Candidate(
-            "static_strengthening",
-            "logarithmic after an onset",
-            (rate, onset, lost),
-        )
+        onset = own.free("hold_time", time, 0.5, 1e-4, 30.0, log=True)
+        yield own.form("logarithmic after an onset", rate, onset, lost)
+    most = own.free("saturating", 0.05, 0.03, 0.0, 5.0)
     for time in (0.1, 0.5):
-        yield Candidate(
-            "static_strengthening",
-            "saturating",
-            (
-                FreeParameter("static_strengthening.saturating", 0.05, 0.03, 0.0, 5.0),
-                # over a much shorter time it would be another mu_s, not a law of the hold
-                FreeParameter(
-                    "static_strengthening.saturation_time",
-                    time,
-                    0.5,
-                    0.03,
-                    30.0,
-                    log=True,
-                ),
-                lost,
-            ),
-        )
-    yield Candidate(
-        "static_strengthening",
-        "power",
-        (
-            FreeParameter("static_strengthening.power", 0.05, 0.03, 0.0, 5.0),
-            FreeParameter("static_strengthening.exponent", 0.3, 0.15, 0.05, 1.0),
-            lost,
-        ),
-    )
+        # over a much shorter time it would be another mu_s, not a law of the hold
+        over = own.free("saturation_time", time, 0.5, 0.03, 30.0, log=True)
+        yield own.form("saturating", most, over, lost)
+    power = own.free("power", 0.05, 0.03, 0.0, 5.0)
+    exponent = own.free("exponent", 0.3, 0.15, 0.05, 1.0)
+    yield own.form("power", power, exponent, lost)
 
 
 EFFECT = Effect(

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from math import sqrt
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
@@ -62,35 +62,24 @@ def film_friction(
     return force / normal_force
 
 
+own = FormsOf("film_drag")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Each film by itself."""
     drag = 0.02 * s.force / s.speed
-    linear = FreeParameter("film_drag.coefficient", drag, drag, 0.0, 1e3 * drag)
-    yield Candidate("film_drag", "linear", (linear,))
+    yield own.form("linear", own.free("coefficient", drag, drag, 0.0, 1e3 * drag))
     much = 0.02 * s.force / s.speed**0.5
-    root = FreeParameter("film_drag.root_coefficient", much, much, 0.0, 1e3 * much)
-    yield Candidate("film_drag", "root", (root,))
+    yield own.form("root", own.free("root_coefficient", much, much, 0.0, 1e3 * much))
     force = 0.02 * s.force
-    yield Candidate(
-        "film_drag",
-        "power",
-        (
-            FreeParameter("film_drag.power", force, force, 0.0, 1e3 * force),
-            FreeParameter("film_drag.exponent", 1.5, 0.3, 0.3, 3.0),
-        ),
-        {"film_drag.power_speed": s.speed},
-    )
+    power = own.free("power", force, force, 0.0, 1e3 * force)
+    exponent = own.free("exponent", 1.5, 0.3, 0.3, 3.0)
+    yield own.form("power", power, exponent, power_speed=s.speed)
+    most = own.free("saturating", 2.0 * force, force, 0.0, 1e3 * force)
     # over a much smaller speed it would be another mu_k, not a law of the sliding speed
-    knee = FreeParameter(
-        "film_drag.saturation_speed",
-        0.5 * s.speed,
-        0.4,
-        0.1 * s.speed,
-        1e2 * s.speed,
-        log=True,
-    )
-    most = FreeParameter("film_drag.saturating", 2.0 * force, force, 0.0, 1e3 * force)
-    yield Candidate("film_drag", "saturating", (most, knee))
+    low, high = 0.1 * s.speed, 1e2 * s.speed
+    knee = own.free("saturation_speed", 0.5 * s.speed, 0.4, low, high, log=True)
+    yield own.form("saturating", most, knee)
 
 
 EFFECT = Effect(

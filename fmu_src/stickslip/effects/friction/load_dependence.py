@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from math import log10
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
@@ -45,21 +45,19 @@ def coefficient_factor(
     return factor * max(0.0, 1.0 - logarithmic * log10(normal_force / reference_force))
 
 
+own = FormsOf("load_dependence")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Falling or growing from the campaign's own mean, adhesion, or so much a decade."""
-    at_mean = {"load_dependence.reference_force": s.force}
-    for sign in (0.1, -0.1):
-        yield Candidate(
-            "load_dependence",
-            "power law",
-            (FreeParameter("load_dependence.exponent", sign, 0.1, -2.0, 2.0),),
-            at_mean,
-        )
     much = 0.2 * s.force
-    adhesion = FreeParameter("load_dependence.adhesion", much, much, 0.0, 1e2 * much)
-    yield Candidate("load_dependence", "adhesion", (adhesion,), at_mean)
-    decade = FreeParameter("load_dependence.logarithmic", 0.2, 0.2, -2.0, 2.0)
-    yield Candidate("load_dependence", "logarithmic", (decade,), at_mean)
+    for form, free in (
+        ("power law", own.free("exponent", 0.1, 0.1, -2.0, 2.0)),
+        ("power law", own.free("exponent", -0.1, 0.1, -2.0, 2.0)),
+        ("adhesion", own.free("adhesion", much, much, 0.0, 1e2 * much)),
+        ("logarithmic", own.free("logarithmic", 0.2, 0.2, -2.0, 2.0)),
+    ):
+        yield own.form(form, free, reference_force=s.force)
 
 
 EFFECT = Effect(

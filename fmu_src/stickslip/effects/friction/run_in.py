@@ -15,7 +15,7 @@ from dataclasses import replace
 from math import exp
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, FreeParameter, Scales
 from ..effect import Case, Effect
 from ..static_share import STATIC_FORMS, static_absolute, static_relative
 
@@ -79,26 +79,23 @@ def static_factor(
     return max(0.0, 1.0 + share * (kinetic - 1.0))
 
 
+own = FormsOf("run_in")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """A growth or a fall, over a tenth or half of a run; mu_s with it; or stretched."""
     for share in (0.1, 0.5):
         for change in (0.1, -0.1):
-            yield Candidate("run_in", "exponential", _drift(s, share, change))
+            yield own.form("exponential", *_drift(s, share, change))
     for form, static in STATIC_FORMS.items():
         for change in (0.1, -0.1):
-            yield Candidate(
-                "run_in",
-                f"exponential, {form}",
-                _drift(s, 0.3, change),
-                {f"run_in.{static}": 1.0},
-            )
-    bend = FreeParameter("run_in.stretching", 0.7, 0.2, 0.3, 3.0)
-    yield Candidate("run_in", "stretched", (*_drift(s, 0.3, -0.1), bend))
+            yield own.form(f"exponential, {form}", *_drift(s, 0.3, change), **{static: 1.0})
+    yield own.form("stretched", *_drift(s, 0.3, -0.1), own.free("stretching", 0.7, 0.2, 0.3, 3.0))
     for change in (0.3, -0.3):
         first = _drift(s, 0.1, change)
-        after = FreeParameter("run_in.later_change", -change, 0.1, -5.0, 5.0)
+        after = own.free("later_change", -change, 0.1, -5.0, 5.0)
         over = replace(first[1], key="run_in.later_distance", start=3.0 * first[1].start)
-        yield Candidate("run_in", "there and back", (*first, after, over))
+        yield own.form("there and back", *first, after, over)
 
 
 def _drift(s: Scales, share: float, change: float) -> tuple[FreeParameter, ...]:
@@ -107,8 +104,8 @@ def _drift(s: Scales, share: float, change: float) -> tuple[FreeParameter, ...]:
     low = min(max(1e-3 * s.distance, s.travel), 0.5 * share * s.distance)
     start, high = share * s.distance, 1e2 * s.distance
     return (
-        FreeParameter("run_in.change", change, 0.1, -0.95, 5.0),
-        FreeParameter("run_in.distance", start, 0.5, low, high, log=True),
+        own.free("change", change, 0.1, -0.95, 5.0),
+        own.free("distance", start, 0.5, low, high, log=True),
     )
 
 

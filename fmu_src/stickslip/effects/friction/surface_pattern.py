@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from math import cos, pi, radians, sin
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
-from ..periodic import harmonic_amplitude, harmonic_phase, periodic
+from ..periodic import HARMONICS, harmonic_amplitude, harmonic_phase, periodic
 
 
 class SurfacePattern(Table):
@@ -44,40 +44,6 @@ def phase(phase_deg: float) -> float:
     return radians(phase_deg)
 
 
-# B sin(2 a + b) = B cos b sin 2 a + B sin b cos 2 a: what is a harmonic's own is worked out once,
-# and sines and cosines of multiples of a follow from those of a, at a twentieth of their price.
-
-
-def second_cosine(second_amplitude: float, second_phase_deg: float) -> float:
-    """B cos b"""
-    return second_amplitude * cos(radians(second_phase_deg))
-
-
-def second_sine(second_amplitude: float, second_phase_deg: float) -> float:
-    """B sin b"""
-    return second_amplitude * sin(radians(second_phase_deg))
-
-
-def third_cosine(third_amplitude: float, third_phase_deg: float) -> float:
-    """C cos c"""
-    return third_amplitude * cos(radians(third_phase_deg))
-
-
-def third_sine(third_amplitude: float, third_phase_deg: float) -> float:
-    """C sin c"""
-    return third_amplitude * sin(radians(third_phase_deg))
-
-
-def fourth_cosine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
-    """D cos d"""
-    return fourth_amplitude * cos(radians(fourth_phase_deg))
-
-
-def fourth_sine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
-    """D sin d"""
-    return fourth_amplitude * sin(radians(fourth_phase_deg))
-
-
 def place_variation(
     place: float,
     amplitude: float,
@@ -101,14 +67,15 @@ def place_variation(
     return amplitude * wave
 
 
+own = FormsOf("surface_pattern")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """A sine; a scan says where it starts."""
     # what no run passes once is no pattern: it would be a drift by another name
     longest = s.longest or s.distance
-    start = min(0.1, 0.5 * longest)
-    length = FreeParameter(
-        "surface_pattern.wavelength", start, 0.02, min(1e-3, 0.1 * longest), longest, log=True
-    )
+    low = min(1e-3, 0.1 * longest)
+    length = own.free("wavelength", min(0.1, 0.5 * longest), 0.02, low, longest, log=True)
     yield periodic("surface_pattern", length, "sine")
 
 
@@ -120,16 +87,7 @@ EFFECT = Effect(
     axis="place",
     source="waves along the track, as in paper-on-paper records (Colas et al., 2019)",
     terms=(place_variation,),
-    derived=(
-        wavenumber,
-        phase,
-        second_cosine,
-        second_sine,
-        third_cosine,
-        third_sine,
-        fourth_cosine,
-        fourth_sine,
-    ),
+    derived=(wavenumber, phase, *HARMONICS),
     candidates=candidates,
     case=Case({"amplitude": 0.15, "wavelength": 0.3}),
 )

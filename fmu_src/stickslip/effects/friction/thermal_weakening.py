@@ -19,7 +19,7 @@ from collections.abc import Iterator
 from math import exp
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, FreeParameter, Scales
 from ..effect import Case, Effect, State
 from ..static_share import STATIC_FORMS, static_absolute, static_relative
 
@@ -117,37 +117,31 @@ def slow_heat_rate(
     return friction_power - slow_heat / (SLOWER * relaxation_time)
 
 
+own = FormsOf("thermal_weakening")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Linear in the heat of a short or a long memory, and bent; mu_s with it; a half-space."""
     for time in (0.5, 5.0, 50.0):
-        yield Candidate("thermal_weakening", "relaxing", _memory(s, time))
-    bend = FreeParameter("thermal_weakening.curvature", 0.0, 0.3, -1.0, 1.0)
-    yield Candidate("thermal_weakening", "relaxing, bent", (*_memory(s, 50.0), bend))
+        yield own.form("relaxing", *_memory(s, time))
+    yield own.form("relaxing, bent", *_memory(s, 50.0), own.free("curvature", 0.0, 0.3, -1.0, 1.0))
     for form, static in STATIC_FORMS.items():
-        settings = {f"thermal_weakening.{static}": 1.0}
-        yield Candidate("thermal_weakening", f"relaxing, {form}", _memory(s, 5.0), settings)
+        yield own.form(f"relaxing, {form}", *_memory(s, 5.0), **{static: 1.0})
     # the slowest of the three memories reaches over a run, the fastest over a part of a cycle
-    yield Candidate(
-        "thermal_weakening",
-        "half-space",
-        (_weak(0.3 * s.heat),),
-        {
-            "thermal_weakening.diffusion": 1.0,
-            "thermal_weakening.relaxation_time": 0.05 * s.duration,
-        },
-    )
+    time = 0.05 * s.duration
+    yield own.form("half-space", _weak(0.3 * s.heat), diffusion=1.0, relaxation_time=time)
 
 
 def _weak(heat: float) -> FreeParameter:
     """A tenth is lost by so much heat, J."""
-    return FreeParameter("thermal_weakening.per_joule", 0.1 / heat, 0.1 / heat, 0.0, 1e3 / heat)
+    return own.free("per_joule", 0.1 / heat, 0.1 / heat, 0.0, 1e3 / heat)
 
 
 def _memory(s: Scales, time: float) -> tuple[FreeParameter, ...]:
     """A loss by the heat of the last ``time`` seconds, of what a run makes."""
     return (
         _weak(s.heat * min(1.0, time / s.duration)),
-        FreeParameter("thermal_weakening.relaxation_time", time, 0.5, 0.02, 1e4, log=True),
+        own.free("relaxation_time", time, 0.5, 0.02, 1e4, log=True),
     )
 
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from math import exp, log10, sqrt
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
@@ -71,46 +71,27 @@ def dry_factor(
     return factor
 
 
+own = FormsOf("velocity_weakening")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Each law by itself."""
-    part = 0.15
-    for name in ("linear", "hyperbolic", "inverse_root"):
-        free = FreeParameter(
-            f"velocity_weakening.{name}",
-            part / s.speed,
-            0.1 / s.speed,
-            0.0,
-            {"linear": 10.0 / s.speed}.get(name, 1e3 / s.speed),
-        )
-        yield Candidate("velocity_weakening", name, (free,))
-    peak = FreeParameter("velocity_weakening.stribeck", 0.15, 0.1, 0.0, 10.0)
+    part, step = 0.15 / s.speed, 0.1 / s.speed
+    yield own.form("linear", own.free("linear", part, step, 0.0, 10.0 / s.speed))
+    for name in ("hyperbolic", "inverse_root"):
+        yield own.form(name, own.free(name, part, step, 0.0, 1e3 / s.speed))
+    peak = own.free("stribeck", 0.15, 0.1, 0.0, 10.0)
     for share in (0.3, 1.0):
         # over a much smaller speed it would be another mu_s, not a law of the sliding speed
-        speed = FreeParameter(
-            "velocity_weakening.stribeck_speed",
-            share * s.speed,
-            0.4,
-            0.1 * s.speed,
-            1e2 * s.speed,
-            log=True,
-        )
-        yield Candidate("velocity_weakening", "stribeck", (peak, speed))
-    yield Candidate(
-        "velocity_weakening",
-        "power",
-        (
-            FreeParameter("velocity_weakening.power", part, 0.1, 0.0, 1e3),
-            FreeParameter("velocity_weakening.exponent", 0.7, 0.2, 0.4, 2.0),
-        ),
-        {"velocity_weakening.power_speed": s.speed},
-    )
+        start, low, high = share * s.speed, 0.1 * s.speed, 1e2 * s.speed
+        speed = own.free("stribeck_speed", start, 0.4, low, high, log=True)
+        yield own.form("stribeck", peak, speed)
+    power = own.free("power", 0.15, 0.1, 0.0, 1e3)
+    exponent = own.free("exponent", 0.7, 0.2, 0.4, 2.0)
+    yield own.form("power", power, exponent, power_speed=s.speed)
     # set in so slowly that over the campaign's speeds it is a + b log v
-    yield Candidate(
-        "velocity_weakening",
-        "logarithmic",
-        (FreeParameter("velocity_weakening.logarithmic", 0.1, 0.05, 0.0, 1.0),),
-        {"velocity_weakening.logarithm_speed": 0.1 * s.speed},
-    )
+    decade = own.free("logarithmic", 0.1, 0.05, 0.0, 1.0)
+    yield own.form("logarithmic", decade, logarithm_speed=0.1 * s.speed)
 
 
 EFFECT = Effect(

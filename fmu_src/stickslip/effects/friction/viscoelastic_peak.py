@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from math import exp, log10
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
@@ -39,19 +39,16 @@ def dry_factor(speed: float, height: float, peak_speed: float, narrowness: float
     return 1.0 + height * exp(-away * away)
 
 
+own = FormsOf("viscoelastic_peak")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """A peak below the campaign's speed, and one above it."""
-    height = FreeParameter("viscoelastic_peak.height", 0.3, 0.1, 0.0, 10.0)
+    height = own.free("height", 0.3, 0.1, 0.0, 10.0)
+    low, high = 1e-2 * s.speed, 1e2 * s.speed
     for share in (0.3, 3.0):
-        speed = FreeParameter(
-            "viscoelastic_peak.peak_speed",
-            share * s.speed,
-            0.4,
-            1e-2 * s.speed,
-            1e2 * s.speed,
-            log=True,
-        )
-        yield Candidate("viscoelastic_peak", "bell over the logarithm", (height, speed))
+        speed = own.free("peak_speed", share * s.speed, 0.4, low, high, log=True)
+        yield own.form("bell over the logarithm", height, speed)
 
 
 EFFECT = Effect(

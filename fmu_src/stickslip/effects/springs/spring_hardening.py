@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
@@ -48,19 +48,17 @@ def spring_energy(
     return energy
 
 
+own = FormsOf("spring_hardening")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Either term in the extension, or in its change since the spring was installed."""
     for name, degree in (("cubic", 3), ("quintic", 5)):
         much = 0.1 * s.stiffness / s.travel ** (degree - 1)
-        term = FreeParameter(f"spring_hardening.{name}", much, much, 0.0, 1e4 * much)
-        yield Candidate("spring_hardening", name, (term,))
+        term = own.free(name, much, much, 0.0, 1e4 * much)
+        yield own.form(name, term)
         if s.extension != 0.0:  # as found by pulling at the block in its place
-            yield Candidate(
-                "spring_hardening",
-                f"{name} as installed",
-                (term,),
-                {"spring_hardening.neutral_extension": s.extension},
-            )
+            yield own.form(f"{name} as installed", term, neutral_extension=s.extension)
 
 
 EFFECT = Effect(

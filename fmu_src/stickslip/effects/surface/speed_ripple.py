@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from math import cos, pi, radians, sin
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
-from ..periodic import harmonic_amplitude, harmonic_phase, periodic
+from ..periodic import HARMONICS, harmonic_amplitude, harmonic_phase, periodic
 
 
 class SpeedRipple(Table):
@@ -41,40 +41,6 @@ def angular_rate(frequency: float) -> float:
 def phase(phase_deg: float) -> float:
     """rad"""
     return radians(phase_deg)
-
-
-# B sin(2 a + b) = B cos b sin 2 a + B sin b cos 2 a: what is a harmonic's own is worked out once,
-# and sines and cosines of multiples of a follow from those of a, at a twentieth of their price.
-
-
-def second_cosine(second_amplitude: float, second_phase_deg: float) -> float:
-    """B cos b"""
-    return second_amplitude * cos(radians(second_phase_deg))
-
-
-def second_sine(second_amplitude: float, second_phase_deg: float) -> float:
-    """B sin b"""
-    return second_amplitude * sin(radians(second_phase_deg))
-
-
-def third_cosine(third_amplitude: float, third_phase_deg: float) -> float:
-    """C cos c"""
-    return third_amplitude * cos(radians(third_phase_deg))
-
-
-def third_sine(third_amplitude: float, third_phase_deg: float) -> float:
-    """C sin c"""
-    return third_amplitude * sin(radians(third_phase_deg))
-
-
-def fourth_cosine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
-    """D cos d"""
-    return fourth_amplitude * cos(radians(fourth_phase_deg))
-
-
-def fourth_sine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
-    """D sin d"""
-    return fourth_amplitude * sin(radians(fourth_phase_deg))
 
 
 def fastest_rate(
@@ -141,11 +107,14 @@ def surface_acceleration(
     return rate + steady_speed * amplitude * angular_rate * slope
 
 
+own = FormsOf("speed_ripple")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Of a frequency, or of a roller, whose frequency goes with the speed."""
-    frequency = FreeParameter("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0)
+    frequency = own.free("frequency", 1.0, 0.2 / s.duration, 0.05, 50.0)
     yield periodic("speed_ripple", frequency, "sine")
-    length = FreeParameter("speed_ripple.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
+    length = own.free("wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
     yield periodic("speed_ripple", length, "sine of a roller")
 
 
@@ -157,16 +126,7 @@ EFFECT = Effect(
     axis="time",
     source="the source study: the speed of the belt is not steady",
     terms=(surface_speed, surface_acceleration, fastest_rate),
-    derived=(
-        angular_rate,
-        phase,
-        second_cosine,
-        second_sine,
-        third_cosine,
-        third_sine,
-        fourth_cosine,
-        fourth_sine,
-    ),
+    derived=(angular_rate, phase, *HARMONICS),
     candidates=candidates,
     case=Case({"amplitude": 0.3, "frequency": 0.7}),
 )
