@@ -12,18 +12,28 @@ from .rig.drive import input_at, surface_motion
 from .rig.springs import add_damping, add_spring_forces
 
 
-def set_sliding_velocity(w: Floats, state: int) -> None:
-    """Velocity of the block relative to the surface under its centre, into ``w[W_SLIDING:]``."""
-    w[W_SLIDING] = w[state + VX] - w[W_SURFACE]
-    w[W_SLIDING + 1] = w[state + VY] - w[W_SURFACE + 1]
-    w[W_SLIDING + 2] = w[state + OMEGA] - w[W_SURFACE + 2]
+def set_sliding_velocity(p: Floats, w: Floats, state: int) -> None:
+    """Velocity of the block relative to the surface under its centre, into ``w[W_SLIDING:]``.
+
+    And as the contact feels it, into ``w[W_SCALED:]``.
+    """
+    for i in range(3):
+        w[W_SLIDING + i] = w[state + VX + i] - w[W_SURFACE + i]
+    scale_sliding(p, w)
 
 
-def scaled_sliding_speed(p: Floats, w: Floats) -> float:
-    """Length of the scaled sliding velocity (U_x, kappa U_y, kappa a Omega), m/s."""
-    sx = w[W_SLIDING]
-    sy = p[P_LATERAL] * w[W_SLIDING + 1]
-    sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+def scale_sliding(p: Floats, w: Floats) -> None:
+    """The scaled sliding velocity (U_x, kappa U_y, kappa a Omega), into ``w[W_SCALED:]``."""
+    w[W_SCALED] = w[W_SLIDING]
+    w[W_SCALED + 1] = p[P_LATERAL] * w[W_SLIDING + 1]
+    w[W_SCALED + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+
+
+def scaled_sliding_speed(w: Floats) -> float:
+    """Length of the scaled sliding velocity, m/s."""
+    sx = w[W_SCALED]
+    sy = w[W_SCALED + 1]
+    sr = w[W_SCALED + 2]
     return sqrt(sx * sx + sy * sy + sr * sr)
 
 
@@ -251,4 +261,4 @@ def set_contact(p: Floats, u: Floats, w: Floats, state: int) -> None:
     """Loads, surface and sliding velocity at a moment: what every law of the contact needs."""
     set_loads(p, u, w, state)
     surface_motion(p, u, w, state)
-    set_sliding_velocity(w, state)
+    set_sliding_velocity(p, w, state)

@@ -129,7 +129,7 @@ def stopping_time(p: Floats, w: Floats) -> float:
     rate = sliding_rate(p, w, w[W_SLOPES + VX - 1], w[W_SLOPES + VY - 1], w[W_SLOPES + OMEGA - 1])
     if rate >= 0.0:
         return -1.0
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     return speed * speed / -rate
 
 
@@ -141,7 +141,7 @@ def time_to_rest(p: Floats, u: Floats, w: Floats) -> float:
     friction of a slower slip in ``w``.
     """
     rest = stopping_time(p, w)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     far = rest < 0.0 or rest > p[P_LONGEST_STEP]
     if p[P_LOCAL_LAW] == 0.0 or far or speed <= rest_speed(p, u):
         return rest
@@ -168,10 +168,8 @@ def sliding_rate(p: Floats, w: Floats, ax: float, ay: float, ar: float) -> float
 
 def slower_sliding_rate(p: Floats, u: Floats, w: Floats, part: float) -> float:
     """As `sliding_rate`, with the friction of a part of the sliding velocity in ``w``."""
-    kappa = p[P_LATERAL]
-    sy = kappa * w[W_SLIDING + 1]
-    sr = kappa * p[P_RADIUS] * w[W_SLIDING + 2]
-    friction_in_slip(p, u, w, part * w[W_SLIDING], part * sy, part * sr)
+    sx = w[W_SCALED]
+    friction_in_slip(p, u, w, part * sx, part * w[W_SCALED + 1], part * w[W_SCALED + 2])
     ax = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
     ay = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]
     ar = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
@@ -180,9 +178,8 @@ def slower_sliding_rate(p: Floats, u: Floats, w: Floats, part: float) -> float:
 
 def set_direction(p: Floats, z: Floats, w: Floats, instant: int, speed: float) -> None:
     """Remember the direction of sliding, from the sliding velocity in ``w``."""
-    z[instant + DIRECTION] = w[W_SLIDING] / speed
-    z[instant + DIRECTION + 1] = p[P_LATERAL] * w[W_SLIDING + 1] / speed
-    z[instant + DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
+    for i in range(3):
+        z[instant + DIRECTION + i] = w[W_SCALED + i] / speed
 
 
 def note_mode(p: Floats, z: Floats, w: Floats, e: Floats, instant: int) -> None:
@@ -211,7 +208,7 @@ def release(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """
     z[instant + MODE] = SLIP
     z[instant + QUASI_STEADY] = 0.0
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     if speed > rest_speed(p, u):
         set_direction(p, z, w, instant, speed)
     else:
@@ -228,7 +225,7 @@ def settle(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int) 
     """
     look_at(p, u, z, w, instant)
     before = z[instant + MODE]
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     slow = rest_speed(p, u)
     if before == STICK:
         slow += fastest_presliding(p, u, w)
@@ -252,7 +249,7 @@ def mode_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> flo
     The instant's mode says whether a break-away or a new stick is looked for.
     """
     look_at(p, u, z, w, instant)
-    speed = scaled_sliding_speed(p, w) / p[P_TRANSITION_SPEED]
+    speed = scaled_sliding_speed(w) / p[P_TRANSITION_SPEED]
     if z[instant + MODE] == STICK:
         grown = log(max(speed, 1e-9))  # it grows by e in a time
         if grown < 0.0:

@@ -140,11 +140,10 @@ def set_rates_in_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
             arm = p[P_LATERAL] * p[P_RADIUS]
             w[W_STATE + OMEGA] -= back * z[SHOWN + DIRECTION + 2] / arm
     elif z[Z_SLIDING] == SLIDING_GOES_ON:
-        speed = scaled_sliding_speed(p, w)
+        speed = scaled_sliding_speed(w)
         if speed > 0.0:
-            w[W_DIRECTION] = w[W_SLIDING] / speed
-            w[W_DIRECTION + 1] = p[P_LATERAL] * w[W_SLIDING + 1] / speed
-            w[W_DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
+            for i in range(3):
+                w[W_DIRECTION + i] = w[W_SCALED + i] / speed
     set_slopes(p, u, w, SLIP, W_SLOPES)
     w[W_SLOPES + X - 1] = z[SHOWN + VX]
     w[W_SLOPES + Y - 1] = p[P_FREE_Y] * z[SHOWN + VY]
@@ -262,7 +261,7 @@ def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats) -> Non
     load_moment(p, z, w)
     set_contact(p, u, w, W_STATE)
     slow = slowest_slip(p, u)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     g[0] = sliding_along(p, z, w, SHOWN)
     if z[Z_SLIDING] == SLIDING_BEGINS:
         g[0] += TURNED_BACK * slow
@@ -300,7 +299,7 @@ def settle_sliding(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     if z[SHOWN + MODE] == STICK:
         return
     look_at(p, u, z, w, SHOWN)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     if speed > slowest_slip(p, u):
         slide_on(p, u, z, speed)
     if speed > 0.0 and sliding_along(p, z, w, SHOWN) < 0.0:  # nothing has stopped it: no friction
@@ -334,7 +333,7 @@ def end_part_of_slip(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> N
     """
     look_at(p, u, z, w, SHOWN)
     slow = slowest_slip(p, u)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     along = sliding_along(p, z, w, SHOWN)
     grip = holding_coefficient(p, u, w)  # without it nothing comes to rest
     if along < -REVERSED * speed and grip > 0.0:
@@ -389,7 +388,7 @@ def complete_step(p: Floats, u: Floats, z: Floats, w: Floats) -> int:
     """
     if z[SHOWN + MODE] == SLIP and z[Z_SLIDING] == SLIDING_GOES_ON and not has_bristles(p):
         look_at(p, u, z, w, SHOWN)
-        speed = scaled_sliding_speed(p, w)
+        speed = scaled_sliding_speed(w)
         if sliding_along(p, z, w, SHOWN) > 0.0 and speed > slowest_slip(p, u):
             set_direction(p, z, w, SHOWN, speed)
             if z[Z_FASTER] == 0.0 or z[Z_FASTER] > FASTER * speed:

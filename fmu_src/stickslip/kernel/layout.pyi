@@ -392,6 +392,7 @@ W_STATE: int
 W_SLOPES: int
 W_LOAD: int
 W_SLIDING: int
+W_SCALED: int
 W_FRICTION: int
 W_MEAN_SPEED: int
 W_SURFACE: int
@@ -401,6 +402,9 @@ W_STEADY: int
 W_RUNNING_UP: int
 W_SPAN: int
 W_EXCESS: int
+W_KINETIC: int
+W_AGED: int
+W_WHOLE: int
 W_SHEARING: int
 W_YIELD_RATE: int
 W_SIZE: int

@@ -20,13 +20,10 @@ def set_slip_friction(p: Floats, u: Floats, w: Floats) -> None:
     Where the sliding velocity is too small to have a direction, at the first instant of a slip,
     the direction is the one of `set_onset_direction`.
     """
-    if scaled_sliding_speed(p, w) > rest_speed(p, u):
-        sx = w[W_SLIDING]
-        sy = p[P_LATERAL] * w[W_SLIDING + 1]
-        sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
-        friction_in_slip(p, u, w, sx, sy, sr)
+    speed = scaled_sliding_speed(w)
+    if speed > rest_speed(p, u):
+        friction_in_slip(p, u, w, w[W_SCALED], w[W_SCALED + 1], w[W_SCALED + 2])
     else:
-        speed = scaled_sliding_speed(p, w)
         friction_at_onset(p, u, w, w[W_DIRECTION], w[W_DIRECTION + 1], w[W_DIRECTION + 2], speed)
         w[W_MEAN_SPEED] = speed
 

@@ -217,7 +217,7 @@ def slides_quasi_steadily(p: Floats, u: Floats, w: Floats, before: float) -> boo
     ``before`` is 1 where it has done so; then it may be twice as fast, so that it does not
     change back and forth. Leaves the direction in ``w[W_STEADY:]``.
     """
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     if speed > (1.0 + before) * QUASI_STEADY_SPEED * speed_scale(p, u):
         return False
     a = set_steady_direction(p, u, w, sqrt(sliding_energy(p, w)))
@@ -226,8 +226,9 @@ def slides_quasi_steadily(p: Floats, u: Floats, w: Floats, before: float) -> boo
         return False
     if before == 1.0 or speed <= rest_speed(p, u):
         return True
-    along = w[W_SLIDING] * w[W_STEADY] + p[P_LATERAL] * w[W_SLIDING + 1] * w[W_STEADY + 1]
-    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * w[W_STEADY + 2]
+    along = 0.0
+    for i in range(3):
+        along += w[W_SCALED + i] * w[W_STEADY + i]
     return along > 0.999 * speed
 
 
@@ -241,13 +242,13 @@ def may_slide_quasi_steadily(p: Floats, u: Floats, w: Floats) -> bool:
     dx = w[W_DIRECTION]
     dy = w[W_DIRECTION + 1]
     dr = w[W_DIRECTION + 2]
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     if speed > QUASI_STEADY_SPEED * speed_scale(p, u):
         return False
     if speed > rest_speed(p, u):
-        dx = w[W_SLIDING] / speed
-        dy = kappa * w[W_SLIDING + 1] / speed
-        dr = arm * w[W_SLIDING + 2] / speed
+        dx = w[W_SCALED] / speed
+        dy = w[W_SCALED + 1] / speed
+        dr = w[W_SCALED + 2] / speed
     rate = dx * (w[W_SLOPES + VX - 1] - w[W_SURFACE + 3])
     rate += dy * kappa * (w[W_SLOPES + VY - 1] - w[W_SURFACE + 4])
     rate += dr * arm * (w[W_SLOPES + OMEGA - 1] - w[W_SURFACE + 5])

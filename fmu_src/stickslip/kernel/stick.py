@@ -49,7 +49,7 @@ def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float) -> No
     if presliding != 0.0:
         add_presliding(p, u, w, presliding)
     else:
-        set_sliding_velocity(w, W_STATE)
+        set_sliding_velocity(p, w, W_STATE)
 
 
 def add_presliding(p: Floats, u: Floats, w: Floats, c: float) -> None:
@@ -95,7 +95,7 @@ def add_presliding(p: Floats, u: Floats, w: Floats, c: float) -> None:
     w[W_LOAD + 2] -= p[P_DAMPING_ROTATION] * ur
     if p[P_CURVATURE] != 0.0:
         surface_motion(p, u, w, W_STATE)
-    set_sliding_velocity(w, W_STATE)
+    set_sliding_velocity(p, w, W_STATE)
     set_holding_load(p, w)
 
 
@@ -111,8 +111,8 @@ def set_presliding(p: Floats, u: Floats, w: Floats) -> float:
     power = -p[P_MASS] * w[W_SURFACE + 3] * w[W_STATE + VX]
     kappa = p[P_LATERAL]
     if kappa > 0.0:
-        uy = kappa * w[W_SLIDING + 1]
-        spinning = abs(kappa * p[P_RADIUS] * w[W_SLIDING + 2])
+        uy = w[W_SCALED + 1]
+        spinning = abs(w[W_SCALED + 2])
         sliding = sqrt(ux * ux + uy * uy)
         disc_friction(sliding, spinning, w)
         w[W_MEAN_SPEED] = w[W_PAIR] * sliding + w[W_PAIR + 1] * spinning

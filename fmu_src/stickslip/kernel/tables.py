@@ -294,6 +294,7 @@ def scratch(size: int, states: int) -> Slots:
         ("W_SLOPES", ALL_STAGES * states),  # ALL_STAGES rows of slopes
         ("W_LOAD", 3),  # springs, damping and external loads on the block: x, y, phi
         ("W_SLIDING", 3),  # velocity of the block relative to the surface: x, y, phi
+        ("W_SCALED", 3),  # the same as the contact feels it: U_x, kappa U_y, kappa a Omega, m/s
         ("W_FRICTION", 3),  # friction on the block: x, y, phi
         ("W_MEAN_SPEED", 1),  # local sliding speed, mean over the contact, m/s
         ("W_SURFACE", 6),  # velocity and acceleration of the surface under the block
@@ -303,6 +304,9 @@ def scratch(size: int, states: int) -> Slots:
         ("W_RUNNING_UP", 1),  # 1 while the internal step lies in the surface's speed ramp
         ("W_SPAN", 1),  # size of the step that the slopes belong to, s
         ("W_EXCESS", 1),  # of friction at the first instant of a slip over mu_k, see coefficient
+        ("W_KINETIC", 1),  # mu_k before the local sliding speed, for the integral over the disc
+        ("W_AGED", 1),  # what the contact's age adds to it
+        ("W_WHOLE", 1),  # friction of the whole contact, which the integral is to correct
         ("W_SHEARING", 3),  # rates of the contact's shear, m/s
         ("W_YIELD_RATE", 1),  # at which it gives way, 1/s
     )

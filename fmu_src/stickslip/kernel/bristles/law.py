@@ -28,7 +28,13 @@ from __future__ import annotations
 from math import sqrt
 
 from .. import Floats
-from ..contact import holding_ratio, scaled_sliding_speed, set_contact, set_holding_load
+from ..contact import (
+    holding_ratio,
+    scale_sliding,
+    scaled_sliding_speed,
+    set_contact,
+    set_holding_load,
+)
 from ..friction.force import add_contact_drag, set_sliding_coefficients
 from ..layout import *
 from ..steady_sliding import LOOK_AHEAD
@@ -71,9 +77,9 @@ def set_bristle_friction(p: Floats, u: Floats, w: Floats) -> None:
     arm = kappa * p[P_RADIUS]
     stiffness = p[P_BRISTLE_STIFFNESS]
     damping = p[P_BRISTLE_DAMPING]
-    sx = w[W_SLIDING]
-    sy = kappa * w[W_SLIDING + 1]
-    sr = arm * w[W_SLIDING + 2]
+    sx = w[W_SCALED]
+    sy = w[W_SCALED + 1]
+    sr = w[W_SCALED + 2]
     set_sliding_coefficients(p, u, w, sx, sy, sr)
     force = p[P_NORMAL_FORCE] * w[W_PAIR]
     moment = p[P_NORMAL_FORCE] * w[W_PAIR + 1]
@@ -111,9 +117,9 @@ def bristle_energy(p: Floats, z: Floats, instant: int) -> float:
 
 def set_sliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """Shear of a contact that slides steadily as in ``w``, not at rest, into ``z``."""
-    sx = w[W_SLIDING]
-    sy = p[P_LATERAL] * w[W_SLIDING + 1]
-    sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+    sx = w[W_SCALED]
+    sy = w[W_SCALED + 1]
+    sr = w[W_SCALED + 2]
     set_sliding_coefficients(p, u, w, sx, sy, sr)
     sliding = sqrt(sx * sx + sy * sy)
     most = p[P_NORMAL_FORCE] / p[P_BRISTLE_STIFFNESS]
@@ -162,6 +168,7 @@ def set_presliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: in
         z[instant + SHEAR_X + i] = w[W_STEADY + i] - delay * w[W_DIRECTION + i]
         w[W_STATE + SHEAR_X + i] = z[instant + SHEAR_X + i]
         w[W_SLIDING + i] = 0.0
+        w[W_SCALED + i] = 0.0
     w[W_STATE + TIME] -= ahead
     most = p[P_TRANSITION_SPEED]
     change = most
@@ -176,7 +183,8 @@ def set_presliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: in
         if kappa > 0.0:
             w[W_SLIDING + 1] += ey / kappa
             w[W_SLIDING + 2] += er / arm
-        if scaled_sliding_speed(p, w) > most:  # no load that grows is held any more
+        scale_sliding(p, w)
+        if scaled_sliding_speed(w) > most:  # no load that grows is held any more
             sweep = 100
         sweep += 1
     if sweep < 100:
@@ -190,9 +198,9 @@ def yielding_share(p: Floats, w: Floats) -> float:
 
     0 for bristles without load, 1 in steady sliding; below 0 where they spring back.
     """
-    sx = w[W_SLIDING]
-    sy = p[P_LATERAL] * w[W_SLIDING + 1]
-    sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+    sx = w[W_SCALED]
+    sy = w[W_SCALED + 1]
+    sr = w[W_SCALED + 2]
     size = sx * sx + sy * sy + 0.5 * sr * sr
     if size == 0.0:
         return 0.0

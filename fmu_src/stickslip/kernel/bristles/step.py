@@ -62,7 +62,7 @@ def settle_bristles(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, insta
     has the velocity of its presliding, too.
     """
     look_at(p, u, z, w, instant)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     fast = FAST_SLIP_ENDS * p[P_FAST_SLIP]
     if z[instant + BRISTLES] < 0.0:
         held = z[instant + BRISTLES] == HELD
@@ -117,7 +117,7 @@ def fast_slip_bound(p: Floats, w: Floats) -> float:
     rest = stopping_time(p, w)
     if rest < 0.0:
         return -1.0
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     aim = 0.5 * (1.0 + FAST_SLIP_ENDS) * p[P_FAST_SLIP]
     return rest * max(1e-3, 1.0 - aim / speed)
 
@@ -128,9 +128,9 @@ def end_fast_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     A step beyond that speed is taken again, shorter.
     """
     look_at(p, u, z, w, HERE)
-    fastest = scaled_sliding_speed(p, w)
+    fastest = scaled_sliding_speed(w)
     look_at(p, u, z, w, NEXT)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     aim = 0.5 * (1.0 + FAST_SLIP_ENDS) * p[P_FAST_SLIP]
     low = 0.0
     high = z[NEXT + TIME] - z[HERE + TIME]
@@ -144,7 +144,7 @@ def end_fast_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
         load_instant(p, z, w, HERE)
         take_step(p, u, z, w, HERE, NEXT, h)
         look_at(p, u, z, w, NEXT)
-        speed = scaled_sliding_speed(p, w)
+        speed = scaled_sliding_speed(w)
         if speed < p[P_FAST_SLIP]:
             high = h
             slowest = speed
@@ -169,9 +169,9 @@ def turning_lag(p: Floats, w: Floats) -> float:
     """
     kappa = p[P_LATERAL]
     arm = kappa * p[P_RADIUS]
-    sx = w[W_SLIDING]
-    sy = kappa * w[W_SLIDING + 1]
-    sr = arm * w[W_SLIDING + 2]
+    sx = w[W_SCALED]
+    sy = w[W_SCALED + 1]
+    sr = w[W_SCALED + 2]
     ax = w[W_SLOPES + VX - 1] - w[W_SURFACE + 3]
     ay = kappa * (w[W_SLOPES + VY - 1] - w[W_SURFACE + 4])
     ar = arm * (w[W_SLOPES + OMEGA - 1] - w[W_SURFACE + 5])
@@ -189,7 +189,7 @@ def choose_bristles(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     They are left out where they hardly move any more, and come back where the sliding turns.
     """
     fast = FAST_SLIP_BEGINS * p[P_FAST_SLIP]
-    if z[HERE + MODE] == STICK or scaled_sliding_speed(p, w) < fast:
+    if z[HERE + MODE] == STICK or scaled_sliding_speed(w) < fast:
         return
     bristles = z[HERE + BRISTLES]
     lag = turning_lag(p, w)

@@ -83,7 +83,10 @@ def set_sliding_coefficients(
     w[W_PAIR] *= whole
     w[W_PAIR + 1] *= whole
     if p[P_LOCAL_LAW] == 1.0 and sr != 0.0:
-        add_local_law(p, u, mu, aged, whole, sliding, abs(sr), w)
+        w[W_KINETIC] = mu
+        w[W_AGED] = aged
+        w[W_WHOLE] = whole
+        add_local_law(p, u, w, sliding, abs(sr))
 
 
 def add_contact_drag(p: Floats, w: Floats, sx: float, sy: float, sr: float) -> None:
