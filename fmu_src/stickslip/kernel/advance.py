@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from math import isfinite
 
-from . import Floats
 from .bristles.law import has_bristles
 from .bristles.step import (
     choose_bristles,

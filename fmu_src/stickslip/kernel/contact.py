@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from math import sqrt
 
-from . import Floats
 from .friction.coefficient import holding_coefficient, onset_coefficient
 from .friction.disc import disc_friction
 from .layout import *

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from math import log, sqrt
 
-from . import Floats
 from .bristles.law import has_bristles, set_bristle_friction, yielding_share
 from .contact import (
     holding_ratio,

@@ -30,7 +30,6 @@ of the surface, come from their past, see `rig.history`.
 
 from __future__ import annotations
 
-from . import Floats
 from .advance import settle_contact, sliding_along
 from .bristles.law import has_bristles
 from .contact import (

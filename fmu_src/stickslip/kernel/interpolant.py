@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from math import isfinite
 
-from . import Floats
 from .bristles.law import has_bristles
 from .layout import *
 from .runge_kutta import add_stage, begin_step, finish_stick, load_instant, state_scale, take_step

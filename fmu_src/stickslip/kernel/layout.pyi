@@ -1,4 +1,6 @@
 # made by stickslip.generation.stubs
+from . import Floats as Floats
+
 GRAVITY: float
 STICK: int
 SLIP: int

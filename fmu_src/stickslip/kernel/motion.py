@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from . import Floats
 from .bristles.law import bristle_energy, has_bristles, set_bristle_friction, storing_power
 from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load
 from .friction.force import friction_at_onset, friction_in_slip

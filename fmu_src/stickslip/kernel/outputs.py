@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from math import isfinite
 
-from . import Floats
 from .advance import advance
 from .events import look_at
 from .layout import *

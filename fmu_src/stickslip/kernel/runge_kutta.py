@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from math import sqrt
 
-from . import Floats
 from .bristles.law import has_bristles
 from .contact import speed_scale
 from .layout import *

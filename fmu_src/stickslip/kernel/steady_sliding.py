@@ -21,7 +21,6 @@ from __future__ import annotations
 
 from math import sqrt
 
-from . import Floats
 from .contact import (
     rest_speed,
     scaled_sliding_speed,

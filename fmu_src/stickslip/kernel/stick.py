@@ -21,7 +21,6 @@ from __future__ import annotations
 
 from math import sqrt
 
-from . import Floats
 from .contact import set_contact, set_holding_load, set_sliding_velocity
 from .friction.coefficient import holding_coefficient
 from .friction.disc import disc_friction

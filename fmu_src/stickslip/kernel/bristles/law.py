@@ -27,7 +27,6 @@ from __future__ import annotations
 
 from math import sqrt
 
-from .. import Floats
 from ..contact import (
     holding_ratio,
     scale_sliding,

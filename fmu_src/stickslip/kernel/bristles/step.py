@@ -15,7 +15,6 @@ from __future__ import annotations
 
 from math import sqrt
 
-from .. import Floats
 from ..contact import scaled_sliding_speed, speed_scale
 from ..events import (
     STICK_SPEED,

@@ -19,7 +19,6 @@ from __future__ import annotations
 
 from math import exp
 
-from .. import Floats
 from ..layout import *
 from ..rig.drive import varies
 from ..terms import *

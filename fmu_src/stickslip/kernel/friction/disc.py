@@ -17,7 +17,6 @@ from __future__ import annotations
 
 from math import pi, sqrt
 
-from .. import Floats
 from ..layout import *
 from .coefficient import sliding_coefficient
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from math import sqrt
 
-from .. import Floats
 from ..layout import *
 from ..terms import with_contact_drag
 from .coefficient import (

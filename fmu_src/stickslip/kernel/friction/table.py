@@ -9,7 +9,6 @@ joined over the temperature in the same way. The rows' slopes are made once, in 
 
 from __future__ import annotations
 
-from .. import Floats
 from ..layout import *
 
 

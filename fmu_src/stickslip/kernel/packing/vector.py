@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from math import cos, log, radians, sin, sqrt
 
-from .. import Floats
 from ..friction.table import end_slope, joined_slope
 from ..layout import *
 from ..terms import *

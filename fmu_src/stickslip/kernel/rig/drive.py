@@ -16,7 +16,6 @@ where a block breaks away would make it stick again. Inputs that are held jump t
 
 from __future__ import annotations
 
-from .. import Floats
 from ..layout import *
 from ..terms import with_surface_acceleration, with_surface_speed
 

@@ -18,7 +18,6 @@ time for which it asks for rates and then leaves one as it is, holds it.
 
 from __future__ import annotations
 
-from .. import Floats
 from ..layout import *
 from .drive import driven_acceleration, driven_speed, input_at, is_mean
 

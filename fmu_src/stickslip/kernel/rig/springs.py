@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from math import cos, sin, sqrt
 
-from .. import Floats
 from ..layout import *
 from ..terms import with_spring_energy, with_spring_force
 
