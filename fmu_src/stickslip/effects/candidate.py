@@ -93,9 +93,11 @@ class FormsOf:
 
     effect: str
 
-    def free(self, name: str, *numbers: float, log: bool = False) -> FreeParameter:
-        """A free parameter of the effect; numbers: start, step, and low and high."""
-        return FreeParameter(f"{self.effect}.{name}", *numbers, log=log)
+    def free(
+        self, name: str, start: float, step: float, low: float, high: float, log: bool = False
+    ) -> FreeParameter:
+        """A free parameter of the effect."""
+        return FreeParameter(f"{self.effect}.{name}", start, step, low, high, log=log)
 
     def form(self, name: str, *free: FreeParameter, **settings: float) -> Candidate:
         """A candidate with these free parameters; settings: of parameters of the effect."""

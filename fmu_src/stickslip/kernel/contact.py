@@ -23,9 +23,8 @@ def set_sliding_velocity(p: Floats, w: Floats, state: int) -> None:
 
 def scale_sliding(p: Floats, w: Floats) -> None:
     """The scaled sliding velocity (U_x, kappa U_y, kappa a Omega), into ``w[W_SCALED:]``."""
-    w[W_SCALED] = w[W_SLIDING]
-    w[W_SCALED + 1] = p[P_LATERAL] * w[W_SLIDING + 1]
-    w[W_SCALED + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+    for i in range(3):
+        w[W_SCALED + i] = p[P_SCALES + i] * w[W_SLIDING + i]
 
 
 def scaled_sliding_speed(w: Floats) -> float:
@@ -49,12 +48,11 @@ def set_holding_load(p: Floats, w: Floats) -> None:
     M a_surface - loads, for the directions in which friction acts and the block is free;
     guides carry the rest.
     """
-    w[W_FRICTION] = p[P_MASS] * w[W_SURFACE + 3] - w[W_LOAD]
-    w[W_FRICTION + 1] = 0.0
-    w[W_FRICTION + 2] = 0.0
-    if p[P_LATERAL] > 0.0:
-        w[W_FRICTION + 1] = p[P_FREE_Y] * (p[P_MASS] * w[W_SURFACE + 4] - w[W_LOAD + 1])
-        w[W_FRICTION + 2] = p[P_FREE_PHI] * (p[P_INERTIA] * w[W_SURFACE + 5] - w[W_LOAD + 2])
+    for i in range(3):
+        w[W_FRICTION + i] = 0.0
+        if p[P_SCALES + i] > 0.0:
+            load = p[P_MASS + i] * w[W_SURFACE + 3 + i] - w[W_LOAD + i]
+            w[W_FRICTION + i] = p[P_FREE + i] * load
 
 
 def spin_under_load(force: float, moment: float, w: Floats) -> float:

@@ -62,9 +62,14 @@ def excess_load(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, phase:
     """
     set_contact_in_phase(p, u, z, w, instant, phase)
     set_holding_load(p, w)
+    return judged_ratio(p, u, w) - 1.0
+
+
+def judged_ratio(p: Floats, u: Floats, w: Floats) -> float:
+    """`holding_ratio` of the part of the load in ``w`` that stick is judged by."""
     for i in range(3):
         w[W_FRICTION + i] *= p[P_STICK_RATIO]
-    return holding_ratio(p, u, w) - 1.0
+    return holding_ratio(p, u, w)
 
 
 def stop_sliding(
@@ -99,9 +104,7 @@ def stick_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> fl
     """`excess_load` of a block that were to stick, with the presliding that it would then have."""
     load_instant(p, z, w, instant)
     set_stick_velocity(p, u, w, p[P_PRESLIDING])
-    for i in range(3):
-        w[W_FRICTION + i] *= p[P_STICK_RATIO]
-    return holding_ratio(p, u, w) - 1.0
+    return judged_ratio(p, u, w) - 1.0
 
 
 def come_to_rest(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
@@ -125,7 +128,7 @@ def stopping_time(p: Floats, w: Floats) -> float:
 
     With the slopes of `begin_step` and the contact in ``w``.
     """
-    rate = sliding_rate(p, w, w[W_SLOPES + VX - 1], w[W_SLOPES + VY - 1], w[W_SLOPES + OMEGA - 1])
+    rate = sliding_rate(p, w, W_SLOPES + VX - 1)
     if rate >= 0.0:
         return -1.0
     speed = scaled_sliding_speed(w)
@@ -155,13 +158,12 @@ def time_to_rest(p: Floats, u: Floats, w: Floats) -> float:
     return time
 
 
-def sliding_rate(p: Floats, w: Floats, ax: float, ay: float, ar: float) -> float:
-    """Scaled sliding velocity in ``w`` times its rate, m^2/s^3, where the block accelerates so."""
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
-    rate = w[W_SLIDING] * (ax - w[W_SURFACE + 3])
-    rate += kappa * kappa * w[W_SLIDING + 1] * (ay - w[W_SURFACE + 4])
-    rate += arm * arm * w[W_SLIDING + 2] * (ar - w[W_SURFACE + 5])
+def sliding_rate(p: Floats, w: Floats, at: int) -> float:
+    """Scaled sliding velocity in ``w`` times its rate, m^2/s^3, of an acceleration ``w[at:]``."""
+    rate = 0.0
+    for i in range(3):
+        scale = p[P_SCALES + i]
+        rate += scale * scale * w[W_SLIDING + i] * (w[at + i] - w[W_SURFACE + 3 + i])
     return rate
 
 
@@ -169,10 +171,10 @@ def slower_sliding_rate(p: Floats, u: Floats, w: Floats, part: float) -> float:
     """As `sliding_rate`, with the friction of a part of the sliding velocity in ``w``."""
     sx = w[W_SCALED]
     friction_in_slip(p, u, w, part * sx, part * w[W_SCALED + 1], part * w[W_SCALED + 2])
-    ax = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
-    ay = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]
-    ar = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
-    return sliding_rate(p, w, ax, ay, ar)
+    for i in range(3):
+        force = w[W_LOAD + i] + w[W_FRICTION + i]
+        w[W_RATES + i] = p[P_FREE + i] * force / p[P_MASS + i]
+    return sliding_rate(p, w, W_RATES)
 
 
 def set_direction(p: Floats, z: Floats, w: Floats, instant: int, speed: float) -> None:
@@ -344,12 +346,10 @@ def turn(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """
     energy = kinetic_energy(p, z, instant)
     turn_to_steady_direction(p, w)
-    z[instant + VX] = w[W_STATE + VX]
-    z[instant + VY] = p[P_FREE_Y] * w[W_STATE + VY]
-    z[instant + OMEGA] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
-    z[instant + WORK_SURFACE] += kinetic_energy(p, z, instant) - energy
     for i in range(3):
+        z[instant + VX + i] = p[P_FREE + i] * w[W_STATE + VX + i]
         z[instant + DIRECTION + i] = w[W_STEADY + i]
+    z[instant + WORK_SURFACE] += kinetic_energy(p, z, instant) - energy
 
 
 def keep_direction_steady(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:

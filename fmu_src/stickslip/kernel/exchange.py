@@ -33,7 +33,6 @@ from __future__ import annotations
 from .advance import settle_contact, sliding_along
 from .bristles.law import has_bristles
 from .contact import (
-    holding_ratio,
     rest_speed,
     scaled_sliding_speed,
     set_contact,
@@ -42,6 +41,7 @@ from .contact import (
 )
 from .events import (
     excess_load,
+    judged_ratio,
     look_at,
     mode_excess,
     note_mode,
@@ -133,20 +133,17 @@ def set_rates_in_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     along = sliding_along(p, z, w, SHOWN)
     if along < 0.0:
         back = 2.0 * along
-        w[W_STATE + VX] -= back * z[SHOWN + DIRECTION]
-        if p[P_LATERAL] > 0.0:
-            w[W_STATE + VY] -= back * z[SHOWN + DIRECTION + 1] / p[P_LATERAL]
-            arm = p[P_LATERAL] * p[P_RADIUS]
-            w[W_STATE + OMEGA] -= back * z[SHOWN + DIRECTION + 2] / arm
+        for i in range(3):
+            if p[P_SCALES + i] > 0.0:
+                w[W_STATE + VX + i] -= back * z[SHOWN + DIRECTION + i] / p[P_SCALES + i]
     elif z[Z_SLIDING] == SLIDING_GOES_ON:
         speed = scaled_sliding_speed(w)
         if speed > 0.0:
             for i in range(3):
                 w[W_DIRECTION + i] = w[W_SCALED + i] / speed
     set_slopes(p, u, w, SLIP, W_SLOPES)
-    w[W_SLOPES + X - 1] = z[SHOWN + VX]
-    w[W_SLOPES + Y - 1] = p[P_FREE_Y] * z[SHOWN + VY]
-    w[W_SLOPES + PHI - 1] = p[P_FREE_PHI] * z[SHOWN + OMEGA]
+    for i in range(3):
+        w[W_SLOPES + X - 1 + i] = p[P_FREE + i] * z[SHOWN + VX + i]
 
 
 def set_presliding_velocity(p: Floats, u: Floats, z: Floats, w: Floats, ahead: float) -> None:
@@ -166,26 +163,21 @@ def keep_to_velocity(p: Floats, z: Floats, w: Floats) -> None:
     surface. What that leaves a state behind goes at the motion's own rate. What the rates make of
     the kinetic energy is the surface's work, see `stick.held_energy`: the ledger is closed.
     """
-    held = 1
-    if p[P_LATERAL] > 0.0:
-        held = 3
-    for i in range(held):
-        inertia = p[P_MASS]
-        if VX + i == OMEGA:
-            inertia = p[P_INERTIA]
-        behind = w[W_STATE + VX + i] - z[SHOWN + VX + i]
-        rate = w[W_SLOPES + VX - 1 + i] + p[P_RATE] * behind
-        w[W_SLOPES + VX - 1 + i] = rate
-        w[W_SLOPES + WORK_SURFACE - 1] += inertia * z[SHOWN + VX + i] * rate
+    for i in range(3):
+        if p[P_SCALES + i] > 0.0:
+            behind = w[W_STATE + VX + i] - z[SHOWN + VX + i]
+            rate = w[W_SLOPES + VX - 1 + i] + p[P_RATE] * behind
+            w[W_SLOPES + VX - 1 + i] = rate
+            w[W_SLOPES + WORK_SURFACE - 1] += p[P_MASS + i] * z[SHOWN + VX + i] * rate
 
 
 def set_rates_in_stick(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Slopes of a stick without presliding, into ``w[W_SLOPES:]``."""
     set_slopes(p, u, w, STICK, W_SLOPES)
-    work = w[W_SURFACE + 3] * w[W_SURFACE] * p[P_MASS]
-    if p[P_LATERAL] > 0.0:
-        work += p[P_FREE_Y] * w[W_SURFACE + 4] * w[W_SURFACE + 1] * p[P_MASS]
-        work += p[P_FREE_PHI] * w[W_SURFACE + 5] * w[W_SURFACE + 2] * p[P_INERTIA]
+    work = 0.0
+    for i in range(3):
+        if p[P_SCALES + i] > 0.0:
+            work += p[P_FREE + i] * w[W_SURFACE + 3 + i] * w[W_SURFACE + i] * p[P_MASS + i]
     w[W_SLOPES + WORK_SURFACE - 1] -= work
     keep_to_velocity(p, z, w)
 
@@ -198,16 +190,13 @@ def set_rates_in_presliding(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     load_moment(p, z, w)
     set_slopes(p, u, w, STICK, W_SLOPES)
     ahead = LOOK_AHEAD / p[P_RATE]
-    held = 1
-    if p[P_LATERAL] > 0.0:
-        held = 3
     set_presliding_velocity(p, u, z, w, ahead)
-    for i in range(held):
-        w[W_SLOPES + VX - 1 + i] = w[W_STATE + VX + i]
+    for i in range(3):
+        w[W_RATES + i] = w[W_STATE + VX + i]
     set_presliding_velocity(p, u, z, w, -ahead)
-    for i in range(held):
-        rate = (w[W_SLOPES + VX - 1 + i] - w[W_STATE + VX + i]) / (2.0 * ahead)
-        w[W_SLOPES + VX - 1 + i] = rate
+    for i in range(3):
+        if p[P_SCALES + i] > 0.0:
+            w[W_SLOPES + VX - 1 + i] = (w[W_RATES + i] - w[W_STATE + VX + i]) / (2.0 * ahead)
     set_presliding_velocity(p, u, z, w, 0.0)
     keep_to_velocity(p, z, w)
 
@@ -239,9 +228,7 @@ def stick_reserve(p: Floats, u: Floats, z: Floats, w: Floats) -> float:
     if p[P_PRESLIDING] == 0.0:
         set_contact(p, u, w, W_STATE)
         set_holding_load(p, w)
-    for i in range(3):
-        w[W_FRICTION + i] *= p[P_STICK_RATIO]
-    return 1.0 - holding_ratio(p, u, w)
+    return 1.0 - judged_ratio(p, u, w)
 
 
 def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats) -> None:

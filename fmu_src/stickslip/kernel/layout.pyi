@@ -107,8 +107,10 @@ P_MASS: int
 P_INERTIA: int
 P_NORMAL_FORCE: int
 P_RADIUS: int
+P_FREE: int
 P_FREE_Y: int
 P_FREE_PHI: int
+P_SCALES: int
 P_STIFFNESS: int
 P_NATURAL_LENGTH: int
 P_ATTACH: int
@@ -401,6 +403,12 @@ W_SURFACE: int
 W_PAIR: int
 W_DIRECTION: int
 W_STEADY: int
+W_TURNING: int
+W_HELD: int
+W_BEFORE: int
+W_STORED: int
+W_PLACE: int
+W_RATES: int
 W_RUNNING_UP: int
 W_SPAN: int
 W_EXCESS: int

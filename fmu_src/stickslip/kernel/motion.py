@@ -9,7 +9,7 @@ from .layout import *
 from .rig.drive import input_at, surface_speed
 from .rig.springs import damping_power, elastic_energy
 from .steady_sliding import set_quasi_steady_motion
-from .stick import set_presliding
+from .stick import ride_surface, set_presliding
 from .terms import set_state_rates
 
 
@@ -55,10 +55,7 @@ def set_motion(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> float:
     else:
         set_holding_load(p, w)
         w[W_MEAN_SPEED] = 0.0
-        w[W_STATE + VX] = w[W_SURFACE]
-        if p[P_LATERAL] > 0.0:
-            w[W_STATE + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
-            w[W_STATE + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
+        ride_surface(p, w)
     set_rates(p, w, out)
     return 0.0
 
@@ -66,16 +63,15 @@ def set_motion(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> float:
 def set_rates(p: Floats, w: Floats, out: int) -> None:
     """Rates of x, y, phi and of their velocities, into ``w[out:]``, from loads and friction."""
     set_rates_of_place(p, w, out)
-    w[out + VX - 1] = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
-    w[out + VY - 1] = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]
-    w[out + OMEGA - 1] = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
+    for i in range(3):
+        force = w[W_LOAD + i] + w[W_FRICTION + i]
+        w[out + VX - 1 + i] = p[P_FREE + i] * force / p[P_MASS + i]
 
 
 def set_rates_of_place(p: Floats, w: Floats, out: int) -> None:
     """Rates of x, y, phi, into ``w[out:]``: the velocities, where the block is free."""
-    w[out + X - 1] = w[W_STATE + VX]
-    w[out + Y - 1] = p[P_FREE_Y] * w[W_STATE + VY]
-    w[out + PHI - 1] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
+    for i in range(3):
+        w[out + X - 1 + i] = p[P_FREE + i] * w[W_STATE + VX + i]
 
 
 def set_slopes(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> None:

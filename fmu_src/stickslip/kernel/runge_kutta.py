@@ -122,10 +122,9 @@ def follow_surface(
     for i in range(INSTANT):
         w[W_STATE + i] = z[instant + i]
     set_stick_velocity(p, u, w, presliding)
-    z[instant + VX] = w[W_STATE + VX]
-    if p[P_LATERAL] > 0.0:
-        z[instant + VY] = w[W_STATE + VY]
-        z[instant + OMEGA] = w[W_STATE + OMEGA]
+    for i in range(3):
+        if p[P_SCALES + i] > 0.0:
+            z[instant + VX + i] = w[W_STATE + VX + i]
 
 
 def finish_stick(p: Floats, u: Floats, z: Floats, w: Floats, start: int, end: int) -> None:

@@ -33,6 +33,13 @@ from .rig.springs import damping_per_speed
 QUADRATIC_SWEEPS = 8
 
 
+def ride_surface(p: Floats, w: Floats) -> None:
+    """Give ``w[W_STATE:]`` the surface's velocity where friction acts, and guides let it."""
+    for i in range(3):
+        if p[P_SCALES + i] > 0.0:
+            w[W_STATE + VX + i] = p[P_FREE + i] * w[W_SURFACE + i]
+
+
 def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float) -> None:
     """Velocity of a block that sticks at the place in ``w[W_STATE:]``, where it is free.
 
@@ -41,10 +48,7 @@ def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float) -> No
     and what guides keep from following.
     """
     surface_motion(p, u, w, W_STATE)
-    w[W_STATE + VX] = w[W_SURFACE]
-    if p[P_LATERAL] > 0.0:
-        w[W_STATE + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
-        w[W_STATE + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
+    ride_surface(p, w)
     if presliding != 0.0:
         add_presliding(p, u, w, presliding)
     else:

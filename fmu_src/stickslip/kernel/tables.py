@@ -160,12 +160,14 @@ GIVEN = (
 
 # --- p: parameters; those of the effects follow -----------------------------------------------
 PARAMETERS = (
-    ("P_MASS", 1),
+    ("P_MASS", 2),  # against motion along x and along y; with the inertia three in a row
     ("P_INERTIA", 1),
     ("P_NORMAL_FORCE", 1),
     ("P_RADIUS", 1),  # contact radius, m
-    ("P_FREE_Y", 1),  # 1 free, 0 guided
+    ("P_FREE", 1),  # of x, y and phi in a row: 1 free, 0 guided
+    ("P_FREE_Y", 1),
     ("P_FREE_PHI", 1),
+    ("P_SCALES", 3),  # of a sliding velocity x, y, phi as the contact feels it: 1, kappa, kappa a
     ("P_STIFFNESS", 1),  # one spring, N/m
     ("P_NATURAL_LENGTH", 1),
     ("P_ATTACH", 8),  # x, y of each attachment in the block's frame
@@ -301,6 +303,12 @@ def scratch(size: int, states: int) -> Slots:
         ("W_PAIR", 2),  # return values of functions with two results
         ("W_DIRECTION", 3),  # direction of sliding where the velocity is too small to tell
         ("W_STEADY", 3),  # direction of sliding that the load asks for, see steady_sliding
+        ("W_TURNING", 3),  # acceleration of a sliding that turns, see steady_sliding
+        ("W_HELD", 3),  # the load that the surface would have to hold then
+        ("W_BEFORE", 3),  # a direction of sliding that is put back
+        ("W_STORED", 3),  # a sliding velocity, and what it becomes, see steady_sliding
+        ("W_PLACE", 4),  # time and place that are put back
+        ("W_RATES", 3),  # rates of velocities
         ("W_RUNNING_UP", 1),  # 1 while the internal step lies in the surface's speed ramp
         ("W_SPAN", 1),  # size of the step that the slopes belong to, s
         ("W_EXCESS", 1),  # of friction at the first instant of a slip over mu_k, see coefficient

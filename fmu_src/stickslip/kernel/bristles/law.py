@@ -150,8 +150,6 @@ def set_presliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: in
     z' is the rate of the load over sigma_0, and F the load; the sliding velocity s that has this
     solves s = z' + r(s) z, with the rate of yielding r, by iteration. Inertia is left out.
     """
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
     ahead = LOOK_AHEAD / p[P_RATE]
     for i in range(3):
         w[W_STEADY + i] = z[instant + SHEAR_X + i]  # under the load now
@@ -174,22 +172,20 @@ def set_presliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: in
     sweep = 0
     while change > 1e-9 * most and sweep < 100:
         set_bristle_friction(p, u, w)
-        ex = w[W_DIRECTION] - w[W_SHEARING]
-        ey = w[W_DIRECTION + 1] - w[W_SHEARING + 1]
-        er = w[W_DIRECTION + 2] - w[W_SHEARING + 2]
-        change = sqrt(ex * ex + ey * ey + er * er)
-        w[W_SLIDING] += ex
-        if kappa > 0.0:
-            w[W_SLIDING + 1] += ey / kappa
-            w[W_SLIDING + 2] += er / arm
+        square = 0.0
+        for i in range(3):
+            off = w[W_DIRECTION + i] - w[W_SHEARING + i]
+            square += off * off
+            if p[P_SCALES + i] > 0.0:
+                w[W_SLIDING + i] += off / p[P_SCALES + i]
+        change = sqrt(square)
         scale_sliding(p, w)
         if scaled_sliding_speed(w) > most:  # no load that grows is held any more
             sweep = 100
         sweep += 1
     if sweep < 100:
-        z[instant + VX] += w[W_SLIDING]
-        z[instant + VY] += p[P_FREE_Y] * w[W_SLIDING + 1]
-        z[instant + OMEGA] += p[P_FREE_PHI] * w[W_SLIDING + 2]
+        for i in range(3):
+            z[instant + VX + i] += p[P_FREE + i] * w[W_SLIDING + i]
 
 
 def yielding_share(p: Floats, w: Floats) -> float:

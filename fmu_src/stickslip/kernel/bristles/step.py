@@ -166,20 +166,19 @@ def turning_lag(p: Floats, w: Floats) -> float:
 
     With the slopes of `begin_step` and the contact in ``w``.
     """
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
-    sx = w[W_SCALED]
-    sy = w[W_SCALED + 1]
-    sr = w[W_SCALED + 2]
-    ax = w[W_SLOPES + VX - 1] - w[W_SURFACE + 3]
-    ay = kappa * (w[W_SLOPES + VY - 1] - w[W_SURFACE + 4])
-    ar = arm * (w[W_SLOPES + OMEGA - 1] - w[W_SURFACE + 5])
-    size = sx * sx + sy * sy + sr * sr
-    along = (ax * sx + ay * sy + ar * sr) / size
-    ax -= along * sx
-    ay -= along * sy
-    ar -= along * sr
-    return shear_at_most(p) * sqrt(ax * ax + ay * ay + ar * ar) / size
+    size = 0.0
+    along = 0.0
+    for i in range(3):
+        rate = p[P_SCALES + i] * (w[W_SLOPES + VX - 1 + i] - w[W_SURFACE + 3 + i])
+        w[W_RATES + i] = rate
+        size += w[W_SCALED + i] * w[W_SCALED + i]
+        along += rate * w[W_SCALED + i]
+    along /= size
+    across = 0.0
+    for i in range(3):
+        rate = w[W_RATES + i] - along * w[W_SCALED + i]
+        across += rate * rate
+    return shear_at_most(p) * sqrt(across) / size
 
 
 def choose_bristles(p: Floats, u: Floats, z: Floats, w: Floats) -> None:

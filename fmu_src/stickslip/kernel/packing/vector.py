@@ -274,11 +274,21 @@ def pack(v: Floats, d: Floats, p: Floats) -> None:
     set_rig(v, d, p)
     set_friction_law(v, p)
     set_effect_numbers(v, d, p)
+    set_directions(p)
     set_kind_of_law(p)
     set_start(v, d, p)
     place_springs(v, d, p)
     set_force_curve(v, p)
     set_scales(v, p)
+
+
+def set_directions(p: Floats) -> None:
+    """Numbers of x, y and phi in a row, from those of the rig and the effects."""
+    p[P_MASS + 1] = p[P_MASS]
+    p[P_FREE] = 1.0
+    p[P_SCALES] = 1.0
+    p[P_SCALES + 1] = p[P_LATERAL]
+    p[P_SCALES + 2] = p[P_LATERAL] * p[P_RADIUS]
 
 
 def set_rig(v: Floats, d: Floats, p: Floats) -> None:
