@@ -65,14 +65,7 @@ def fourth_sine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
     return fourth_amplitude * sin(radians(fourth_phase_deg))
 
 
-HARMONICS = (
-    second_cosine,
-    second_sine,
-    third_cosine,
-    third_sine,
-    fourth_cosine,
-    fourth_sine,
-)
+HARMONICS = (second_cosine, second_sine, third_cosine, third_sine, fourth_cosine, fourth_sine)
 
 
 def periodic(effect: str, period: FreeParameter, form: str) -> Candidate:

@@ -40,7 +40,4 @@ def static_absolute() -> Any:
 
 
 #: Form of a candidate beside that in which mu_s stays -> the parameter that is set to 1.
-STATIC_FORMS = {
-    "mu_s in proportion": "static_relative",
-    "mu_s by as much": "static_absolute",
-}
+STATIC_FORMS = {"mu_s in proportion": "static_relative", "mu_s by as much": "static_absolute"}

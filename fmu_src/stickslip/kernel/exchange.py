@@ -32,13 +32,7 @@ from __future__ import annotations
 
 from .advance import settle_contact, sliding_along
 from .bristles.law import has_bristles
-from .contact import (
-    rest_speed,
-    scaled_sliding_speed,
-    set_contact,
-    set_holding_load,
-    speed_scale,
-)
+from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load, speed_scale
 from .events import (
     excess_load,
     judged_ratio,

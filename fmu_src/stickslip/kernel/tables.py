@@ -381,9 +381,7 @@ def quadrature() -> dict[str, tuple[float, ...]]:
     return found
 
 
-def constants(
-    effects: Sequence[Effect] = EFFECTS,
-) -> dict[str, int | float | tuple[float, ...]]:
+def constants(effects: Sequence[Effect] = EFFECTS) -> dict[str, int | float | tuple[float, ...]]:
     """Name -> value of everything that the kernel knows as a constant, with these effects."""
     plain = (int, float)
     own = {k: v for k, v in _OWN.items() if k.isupper() and type(v) in plain}

@@ -72,10 +72,6 @@ EFFECT = Effect(
     states=(State("age", age_rate, start="initial_age", scale=age_scale, unit="s"),),
     case=Case(
         {"direct": 0.01, "evolution": 0.03, "distance": 1e-5},
-        {
-            "surface": {"speed": 1e-3},
-            "initial": {"vx": 1e-3},
-            "springs": {"stiffness": 300.0},
-        },
+        {"surface": {"speed": 1e-3}, "initial": {"vx": 1e-3}, "springs": {"stiffness": 300.0}},
     ),
 )

@@ -16,14 +16,7 @@ from __future__ import annotations
 from math import sqrt
 
 from ..contact import scaled_sliding_speed, speed_scale
-from ..events import (
-    STICK_SPEED,
-    look_at,
-    note_mode,
-    step_to_event,
-    stopping_time,
-    switch_mode,
-)
+from ..events import STICK_SPEED, look_at, note_mode, step_to_event, stopping_time, switch_mode
 from ..layout import *
 from ..runge_kutta import begin_step, load_instant, take_step
 from .law import (
