@@ -4,8 +4,6 @@ Each `Table` is a table of a scenario file and a group of FMU parameters (`table
 unit, the bounds and the description given here are the ones that both show.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from functools import cache

@@ -1,7 +1,5 @@
 """A checked table of parameters, the element that scenarios and FMU parameters are made of."""
 
-from __future__ import annotations
-
 import re
 from functools import partial
 from inspect import cleandoc

@@ -4,8 +4,6 @@ Positions and velocities are set; what cannot be seen of a block - the heat and 
 contact, the distance slid, the place on the surface - goes on from the model's own past.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple, Self
 

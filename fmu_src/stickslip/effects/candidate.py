@@ -1,7 +1,5 @@
 """An effect as it is offered to a fit: free parameters, where they start, what else it needs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -8,8 +8,6 @@ An effect is one file. It declares an `Effect` named ``EFFECT`` and stands in th
 `stickslip.effects`; the kernel's slots and the calls of its terms are made from that.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """What the two periodic effects share: a sine, and its harmonics."""
 
-from __future__ import annotations
-
 from math import cos, radians, sin
 from typing import Any
 

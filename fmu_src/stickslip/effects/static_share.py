@@ -8,8 +8,6 @@ r = 1: mu_s moves in proportion, as where the real area of contact changes; a = 
 mu_k, as where what a contact at rest holds beyond that is of its own kind; both 0: mu_s stays.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from ..quantity import quantity

@@ -3,8 +3,6 @@
 The table is over the sliding speed, or over that and the temperature of the interface.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Expressions as C, evaluated in Python's order and with Python's results."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager

@@ -1,7 +1,5 @@
 """A function as C: statements, and where its variables are declared."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Callable

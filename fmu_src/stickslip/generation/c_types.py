@@ -1,7 +1,5 @@
 """What is assigned to a function's variables, from which their types follow."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Iterator
 

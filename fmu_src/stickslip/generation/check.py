@@ -1,7 +1,5 @@
 """What a declaration must be for the kernel to be made of it, each rule with its own line."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 from ..effects.effect import Effect

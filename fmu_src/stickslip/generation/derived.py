@@ -1,7 +1,5 @@
 """Text of the functions that make the effects' numbers in ``p`` from values and random draws."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 
 from ..effects.effect import Effect, Term

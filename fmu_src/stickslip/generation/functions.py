@@ -1,7 +1,5 @@
 """The functions of an effect's file as text that stands by itself: prefixed, constants put in."""
 
-from __future__ import annotations
-
 import ast
 import inspect
 import linecache

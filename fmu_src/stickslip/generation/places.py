@@ -6,8 +6,6 @@ name: a parameter of the effect, one of its derived numbers, sums or states, or 
 its arguments are zero; one that takes no switch, where all the switches of its effect are.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 #: How the text spells an array of floats: one that needs no import.

@@ -7,8 +7,6 @@ makes their numbers when parameters are packed. The calls are direct, and what i
 comparison.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
 
 from ..effects.effect import Effect, Term

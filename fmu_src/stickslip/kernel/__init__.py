@@ -17,8 +17,6 @@ declarations, as the places in `layout` are. `stickslip.generation.source` joins
 that every file takes all names of `layout`.
 """
 
-from __future__ import annotations
-
 from typing import Protocol
 
 

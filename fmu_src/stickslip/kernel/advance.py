@@ -5,8 +5,6 @@ reached by a shorter step from HERE that leaves the grid alone. As long as the i
 change, the trajectory therefore does not depend on when anybody looks at it.
 """
 
-from __future__ import annotations
-
 from math import isfinite
 
 from .bristles.law import has_bristles

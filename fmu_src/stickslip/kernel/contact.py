@@ -1,7 +1,5 @@
 """Does the contact hold? The limit surface in stick, and the way a slip begins."""
 
-from __future__ import annotations
-
 from math import sqrt
 
 from .friction.coefficient import holding_coefficient, onset_coefficient

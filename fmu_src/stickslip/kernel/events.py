@@ -3,8 +3,6 @@
 Both are events, located to rounding. How what slides comes to rest, and what the contact does then.
 """
 
-from __future__ import annotations
-
 from math import log, sqrt
 
 from .bristles.law import has_bristles, set_bristle_friction, yielding_share

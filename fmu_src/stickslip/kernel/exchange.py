@@ -28,8 +28,6 @@ Inputs may change in events, and between them too: then their rates, and with th
 of the surface, come from their past, see `rig.history`.
 """
 
-from __future__ import annotations
-
 from .advance import settle_contact, sliding_along
 from .bristles.law import has_bristles
 from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load, speed_scale

@@ -11,8 +11,6 @@ the equations of motion. Where it does not, in the first instants of a slip that
 an instant is reached by steps of the integrator that leave its own grid alone.
 """
 
-from __future__ import annotations
-
 from math import isfinite
 
 from .bristles.law import has_bristles

@@ -1,7 +1,5 @@
 """Equations of motion: slopes of the integrated state in stick and in slip."""
 
-from __future__ import annotations
-
 from .bristles.law import bristle_energy, has_bristles, set_bristle_friction, storing_power
 from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load
 from .friction.force import friction_at_onset, friction_in_slip

@@ -5,8 +5,6 @@ be seen of a block - the heat and the age of its contact, the distance slid, the
 surface - goes on from the model's own past.
 """
 
-from __future__ import annotations
-
 from math import isfinite
 
 from .advance import advance

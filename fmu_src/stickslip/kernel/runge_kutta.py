@@ -1,7 +1,5 @@
 """One explicit Runge-Kutta step with an error estimate (tableau: ``dormand_prince.toml``)."""
 
-from __future__ import annotations
-
 from math import sqrt
 
 from .bristles.law import has_bristles

@@ -17,8 +17,6 @@ direction of the stored velocity stays that of the step's beginning and is turne
 at the same sigma.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
 from .contact import (

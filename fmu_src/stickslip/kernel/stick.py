@@ -17,8 +17,6 @@ would lag behind this by v_c / (mu_s g), and be stiff. What the block's momentum
 surface's work, see `held_energy`. (Quasi-steady sliding, see `steady_sliding`, is a slip.)
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
 from .contact import set_contact, set_holding_load, set_sliding_velocity

@@ -28,8 +28,6 @@ Nobody numbers by hand: the lists below name what stands in each array and how m
 the effects' declarations name theirs, and `constants` counts.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from math import cos, pi, sin, sqrt

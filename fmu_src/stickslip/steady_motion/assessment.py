@@ -1,7 +1,5 @@
 """What a run's motion is worth: could a rig make it, and does another exist beside it?"""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import asdict, dataclass, replace
 from typing import Any, TypeVar

@@ -4,8 +4,6 @@ Each number is changed alone, in steps, until the block does something else: sti
 leaves its line. Between the last two values the border is bisected.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Runs of a rig: whole ones, and such that can be copied, disturbed and continued for stability."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 
 from ..arrays import RunArrays, RunEnded, inputs, interface_temperature

@@ -4,8 +4,6 @@ Springs without pretension push sideways where they are compressed, and turn the
 line on which friction drags it. Pretension holds it there, as the tension of a string does.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np

@@ -17,8 +17,6 @@ made longer until they do. A motion that does not stick is looked at once in eac
 one that slides evenly once in a natural period.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from itertools import pairwise
 

@@ -6,8 +6,6 @@ springs balance friction goes on to do so: that motion always exists, and runs f
 ramp may never come near it.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from math import pi
 

@@ -3,8 +3,6 @@
 A limit in seconds of the clock would make what a page says depend on what else the machine does.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf

@@ -6,8 +6,6 @@ at rest holds, and is smooth on the way there. (Cut off at v_c instead, it has a
 slowly loaded slip stays, and no step across an edge passes the error test.)
 """
 
-from __future__ import annotations
-
 from math import log, sqrt
 
 from ...quantity import Table, quantity

@@ -5,8 +5,6 @@ a limit, mu_s + c (1 - exp(-t / t_1)), or with a power, mu_s + d t^n, t in s (Ra
 Phys. Soc. 71, 1958). In slip the age is lost over a distance (Dieterich's D_c).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import exp, log10
 

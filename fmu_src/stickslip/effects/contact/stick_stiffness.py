@@ -3,8 +3,6 @@
 The load that a stick takes is compared with mu_s N after it was multiplied by the ratio.
 """
 
-from __future__ import annotations
-
 from ...quantity import Table, quantity
 from ..effect import Case, Effect
 

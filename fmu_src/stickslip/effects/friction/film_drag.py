@@ -7,8 +7,6 @@ grows with the root of the local speed v. A film that shears thin or thick gives
     b sqrt(v) + P (v / v_p)^n + S v / (v + v_s), over N, beside mu_k.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import sqrt
 

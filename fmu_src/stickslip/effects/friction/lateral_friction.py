@@ -4,8 +4,6 @@ With the ratio kappa the contact feels the scaled sliding velocity (U_x, kappa U
 answers it with (F_x, kappa F_y, kappa M).
 """
 
-from __future__ import annotations
-
 from ...quantity import Table, quantity
 from ..effect import Case, Effect
 

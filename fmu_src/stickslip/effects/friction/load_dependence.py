@@ -7,8 +7,6 @@ beside the load, so that there is a force of friction without any (Derjaguin, 19
 decade is how measured coefficients are often stated. mu_s and mu_k are those at N_0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import log10
 

@@ -8,8 +8,6 @@ change may undo the first, as where a surface polishes and then wears. mu_s stay
 share (static_relative, static_absolute).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from math import exp

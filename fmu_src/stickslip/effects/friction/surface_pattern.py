@@ -4,8 +4,6 @@ mu_s and mu_k times 1 + A (cos a + B cos(2 a + b) + C cos(3 a + c) + D cos(4 a +
 a = 2 pi s / wavelength + phase: a joint of the belt, a scratch or a patch is no sine.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import cos, pi, radians, sin
 

@@ -5,8 +5,6 @@ mu_k. A Gaussian correlation of length L has normally distributed wavenumbers, d
 belongs to the place, so a place met again has the same friction, whatever the steps.
 """
 
-from __future__ import annotations
-
 from math import cos, pi, sqrt
 
 from ...quantity import Table, quantity

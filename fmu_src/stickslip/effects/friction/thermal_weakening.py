@@ -13,8 +13,6 @@ states, of the times tau / 22 and 29 tau, give that to 3 % for heating times of 
 q + d (6.5 q_fast + 0.29 q_slow) in place of q, with d = 1.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import exp
 

@@ -8,8 +8,6 @@ The hyperbolic law is that of Leine et al., Nonlinear Dynamics 16 (1998); the pe
 metals show (Dieterich, Pure Appl. Geophys. 116, 1978); the power is between all of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import exp, log10, sqrt
 

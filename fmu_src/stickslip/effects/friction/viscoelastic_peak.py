@@ -8,8 +8,6 @@ a peak there (Grosch, Proc. R. Soc. A 274, 1963). On a logarithmic axis the fric
 as Savkoor fitted it (Wear 8, 1965). At rest, and far from the peak, mu_k is what is left.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import exp, log10
 

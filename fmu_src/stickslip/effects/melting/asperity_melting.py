@@ -20,8 +20,6 @@ which is Tustin's exp(-v / v_c) of mixed lubrication (J. IEE 94, 1947):
 So friction tends to the dry value at rest at any temperature, the melting point too.
 """
 
-from __future__ import annotations
-
 from math import exp, pi, sqrt
 
 from ...quantity import Table, quantity

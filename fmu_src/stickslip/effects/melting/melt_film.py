@@ -5,8 +5,6 @@ mu_f = sqrt(2 eta v rho L / l) / p; it meets what friction is left of the solid 
 Churchill & Usagi, AIChE J. 18 (1972): mu^2 = mu_b^2 + mu_f^2.
 """
 
-from __future__ import annotations
-
 from math import pi, sqrt
 
 from ...quantity import Table, quantity

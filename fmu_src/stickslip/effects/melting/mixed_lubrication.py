@@ -6,8 +6,6 @@ contact holds for the rest of it; the water, h / w thick where it is, is sheared
 eta v w / h on the share w. Water holds nothing at rest.
 """
 
-from __future__ import annotations
-
 from math import pi
 
 from ...quantity import Table, quantity

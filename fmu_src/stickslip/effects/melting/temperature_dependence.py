@@ -4,8 +4,6 @@ McCarthy et al. (2017) on ice against rock; mu_k and mu_s each by their own slop
 1 - a (T - T_0).
 """
 
-from __future__ import annotations
-
 from ...quantity import Table, quantity
 from ..effect import Case, Effect
 

@@ -4,8 +4,6 @@ The force of a spring of extension e is k e + k_3 (e - e_n)^3 + k_5 (e - e_n)^5:
 force that is its own mirror image. The quintic one stays small for long and then bends sharply.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from ...quantity import Table, quantity

@@ -1,7 +1,5 @@
 """The springs stand off the axis: turned, each or with their frame, or with anchors shifted."""
 
-from __future__ import annotations
-
 from math import radians
 
 from ...quantity import Table, quantity

@@ -5,8 +5,6 @@ bluff body), the last one dry friction in guides and joints, which turns round w
 moment r omega stands against the rotation.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from ...quantity import Table, quantity

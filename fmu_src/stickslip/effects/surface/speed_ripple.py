@@ -3,8 +3,6 @@
 v (1 + A (sin a + B sin(2 a + b) + C sin(3 a + c) + D sin(4 a + d))),    a = 2 pi f t + phase
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import cos, pi, radians, sin
 

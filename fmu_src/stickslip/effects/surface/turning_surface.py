@@ -4,8 +4,6 @@ With the curvature c = 1/R the surface turns at the rate v c about (0, R), with 
 installation.
 """
 
-from __future__ import annotations
-
 from ...quantity import Table, quantity
 from ..effect import Case, Effect
 

@@ -23,8 +23,6 @@ In a slip much faster than v_s the bristles only follow: they are left out there
 stays as it was, and friction is that of a slip, see `friction.force`.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
 from ..contact import (

@@ -11,8 +11,6 @@ sliding speeds far above v_s they would be the stiffer the faster the slip, and 
 say.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
 from ..contact import scaled_sliding_speed, speed_scale

@@ -15,8 +15,6 @@ the contact: the time at rest, and in slip what sliding has left of it, theta_0 
 the way s since the break-away (Dieterich's theta' = 1 - v theta / D without its 1).
 """
 
-from __future__ import annotations
-
 from math import exp
 
 from ..layout import *

@@ -13,8 +13,6 @@ Ruina & Papadopoulos, Wear 143, 1991; Farkas et al., Phys. Rev. Lett. 90, 2003).
 over the contact is needed where mu is uniform, and none of its noise reaches the integrator.
 """
 
-from __future__ import annotations
-
 from math import pi, sqrt
 
 from ..layout import *

@@ -7,8 +7,6 @@ along x alone. The scaling is that of an elliptic dissipation potential, so fric
 motion for every kappa.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
 from ..layout import *

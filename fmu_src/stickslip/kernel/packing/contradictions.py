@@ -3,8 +3,6 @@
 What is said of each is in `stickslip.contradictions`.
 """
 
-from __future__ import annotations
-
 from ..layout import *
 from ..terms import has_dry_law
 from .vector import count_grown, count_points

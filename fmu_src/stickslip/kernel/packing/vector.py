@@ -6,8 +6,6 @@ ordinates. In ``p`` it is points of a width: abscissa, ordinate, slope there. Th
 departs by from its drawing, friction, springs, and the scales that the integrator needs.
 """
 
-from __future__ import annotations
-
 from math import cos, log, radians, sin, sqrt
 
 from ..friction.table import end_slope, joined_slope

@@ -14,8 +14,6 @@ way up to there, whatever the host says at the event: a surface whose accelerati
 where a block breaks away would make it stick again. Inputs that are held jump there as anywhere.
 """
 
-from __future__ import annotations
-
 from ..layout import *
 from ..terms import with_surface_acceleration, with_surface_speed
 

@@ -16,8 +16,6 @@ What jumps in an event has no past: there the memory begins anew. A host that gi
 time for which it asks for rates and then leaves one as it is, holds it.
 """
 
-from __future__ import annotations
-
 from ..layout import *
 from .drive import driven_acceleration, driven_speed, input_at, is_mean
 

@@ -1,7 +1,5 @@
 """Four springs with exact geometry between anchors in the rig and the block, and the damping."""
 
-from __future__ import annotations
-
 from math import cos, sin, sqrt
 
 from ..layout import *
