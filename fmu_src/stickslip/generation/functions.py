@@ -76,16 +76,16 @@ class EffectFunctions:
         wanted, imports = list(dict.fromkeys(each.__name__ for each in functions)), set()
         for name in wanted:  # grows as it goes
             if name not in self._defined:
-                raise ValueError(f"effect {self.effect.id}: {name} is no function of its file")
+                self.effect.refuse(f"{name} is no function of its file")
             for used in dict.fromkeys(node.id for node in names_in(self._defined[name])):
                 if used in self._defined:
                     wanted += [] if used in wanted else [used]
                 elif used in self._imported:
                     imports.add(used)
                 elif used not in self._numbers and used not in NAMES:
-                    raise ValueError(
-                        f"effect {self.effect.id}: term {name} uses {used}: a term may use "
-                        'numbers, functions of its file and "from math import ..."'
+                    self.effect.refuse(
+                        f"term {name} uses {used}: a term may use numbers, functions of its file "
+                        'and "from math import ..."'
                     )
         parts = [self._renamed(node) for name, node in self._defined.items() if name in wanted]
         return "\n\n\n".join(parts), imports
