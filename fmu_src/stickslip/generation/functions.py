@@ -44,8 +44,9 @@ class EffectFunctions:
 
     @cached_property
     def _file(self) -> ast.Module:
-        """The effect's own, and behind it those that derived numbers of it come from."""
-        files = [self.effect.table.__module__, *(each.__module__ for each in self.effect.derived)]
+        """The effect's own, and behind it those that some of its functions come from."""
+        functions = (*self.effect.terms, *self.effect.derived)
+        files = [self.effect.table.__module__, *(each.__module__ for each in functions)]
         return ast.Module([node for file in dict.fromkeys(files) for node in _statements(file)], [])
 
     @cached_property

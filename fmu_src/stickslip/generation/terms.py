@@ -51,6 +51,9 @@ def _in_motion(effect: Effect, function: Term, name: str, place: Place) -> str:
         return name
     if name in effect.sums:
         return _sum_call(effect, name, place)
+    for other in kernel_terms(effect):
+        if other.__name__ == name:
+            return _call(effect, other, place)
     if name in parameter_slots(effect):
         return f"p[{parameter_slots(effect)[name]}]"
     if name in derived_slots(effect):

@@ -15,7 +15,7 @@ from math import exp
 from ...quantity import Table, quantity
 from ..candidate import Candidate, FormsOf, FreeParameter, Scales
 from ..effect import Case, Effect
-from ..static_share import STATIC_FORMS, static_absolute, static_relative
+from ..static_share import STATIC_FORMS, static_absolute, static_factor, static_relative
 
 
 class RunIn(Table):
@@ -55,26 +55,6 @@ def kinetic_factor(
     else:
         factor += change * (1.0 - exp(-((slid / distance) ** stretching)))
     return max(0.0, factor)
-
-
-def static_factor(
-    slid: float,
-    change: float,
-    distance: float,
-    stretching: float,
-    later_change: float,
-    later_distance: float,
-    static_relative: float,
-    static_absolute: float,
-    mu_s: float,
-    mu_k: float,
-) -> float:
-    """mu_s over its value at the start."""
-    share = static_relative
-    if mu_s > 0.0:
-        share += static_absolute * mu_k / mu_s
-    kinetic = kinetic_factor(slid, change, distance, stretching, later_change, later_distance)
-    return max(0.0, 1.0 + share * (kinetic - 1.0))
 
 
 own = FormsOf("run_in")

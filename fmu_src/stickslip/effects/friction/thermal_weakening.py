@@ -19,7 +19,7 @@ from math import exp
 from ...quantity import Table, quantity
 from ..candidate import Candidate, FormsOf, FreeParameter, Scales
 from ..effect import Case, Effect, State
-from ..static_share import STATIC_FORMS, static_absolute, static_relative
+from ..static_share import STATIC_FORMS, static_absolute, static_factor, static_relative
 
 #: Memories beside tau, shorter and longer by so much, and their weights: those with which the rise
 #: under a constant power is nearest to the root of the time, in the largest relative distance.
@@ -70,26 +70,6 @@ def kinetic_factor(
     """What is left of mu_k."""
     heat = remembered(recent_heat, fast_heat, slow_heat, diffusion)
     return decline(per_joule * heat, curvature)
-
-
-def static_factor(
-    recent_heat: float,
-    fast_heat: float,
-    slow_heat: float,
-    per_joule: float,
-    curvature: float,
-    diffusion: float,
-    static_relative: float,
-    static_absolute: float,
-    mu_s: float,
-    mu_k: float,
-) -> float:
-    """What is left of mu_s."""
-    share = static_relative
-    if mu_s > 0.0:
-        share += static_absolute * mu_k / mu_s
-    heat = remembered(recent_heat, fast_heat, slow_heat, diffusion)
-    return max(0.0, 1.0 + share * (decline(per_joule * heat, curvature) - 1.0))
 
 
 def recent_heat_rate(friction_power: float, recent_heat: float, relaxation_time: float) -> float:
