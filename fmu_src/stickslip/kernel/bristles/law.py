@@ -25,16 +25,10 @@ stays as it was, and friction is that of a slip, see `friction.force`.
 
 from math import sqrt
 
-from ..contact import (
-    holding_ratio,
-    scale_sliding,
-    scaled_sliding_speed,
-    set_contact,
-    set_holding_load,
-)
-from ..friction.force import add_contact_drag, set_sliding_coefficients
+from ..contact import *
+from ..friction.force import *
 from ..layout import *
-from ..steady_sliding import LOOK_AHEAD
+from ..steady_sliding import *
 
 # Of its friction that a contact keeps where a law leaves it none: without a limit bristles would
 # give way faster than any step could follow.
