@@ -7,8 +7,7 @@ from copy import copy
 from importlib import resources
 from typing import NamedTuple
 
-from .c_program import BUILTINS, C_TYPES, MATH, RESERVED, Function, Program, refuse
-from .c_types import assignments
+from .c_program import BUILTINS, C_TYPES, MATH, RESERVED, Function, Program, assignments, refuse
 
 #: What binds how tightly in C; parentheses stand where less does within more.
 ATOM, UNARY, PRODUCT, SUM, ORDER, EQUALITY, AND, OR, CHOICE = 9, 8, 7, 6, 5, 4, 3, 2, 1

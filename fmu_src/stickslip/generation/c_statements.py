@@ -5,8 +5,7 @@ import re
 from collections.abc import Callable
 
 from .c_expressions import SUM, Expressions, Made, function_name
-from .c_program import C_TYPES, Function, Program, refuse
-from .c_types import pairs
+from .c_program import C_TYPES, Function, Program, pairs, refuse
 
 _WIDTH = 100
 _TAB = "    "
