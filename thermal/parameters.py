@@ -22,16 +22,13 @@ class ParameterError(ValueError):
 
 
 class Ambient(Table, strict=False):
-    """The air of the cold room: also the temperature that belt and ice start from."""
+    """The air of the cold room: also the temperature that belt and ice start from.
 
-    temperature_degC: float = quantity(
-        -8.0,
-        "degC",
-        "air temperature, below 0 where the block is of ice; the source study's runs were at -8"
-        " and at -16",
-        ge=-100.0,
-        le=500.0,
-    )
+    temperature_degC : air temperature, below 0 where the block is of ice; the source study's runs
+        were at -8 and at -16
+    """
+
+    temperature_degC: float = quantity(-8.0, "degC", ge=-100.0, le=500.0)
 
 
 class ThermalParameters(Table, strict=False):

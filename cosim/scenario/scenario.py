@@ -67,29 +67,24 @@ else:
 
 
 class Run(Table):
-    """How long a run is and how often it is looked at."""
+    """How long a run is and how often it is looked at.
 
-    duration: float = quantity(30.0, "s", "length of the run", gt=0)
-    output_interval: float = quantity(0.01, "s", "time between two rows of the results", gt=0)
-    snapshot_interval: float = quantity(
-        1.0, "s", "time between two pictures of the temperature fields", gt=0
-    )
-    checkpoint_seconds: float = quantity(
-        30.0,
-        "s",
-        "wall time between two checkpoints of a coupled run, from which --resume goes on; 0: none",
-        ge=0,
-    )
-    checkpoint_steps: int = quantity(
-        0, "1", "the same in macro steps, whichever is first; 0: by wall time alone", ge=0
-    )
-    patience: float = quantity(
-        PATIENCE,
-        "s",
-        "longest that computing the run may take, as it is estimated before the run starts; what "
-        "would take longer is refused",
-        gt=0,
-    )
+    duration : length of the run
+    output_interval : time between two rows of the results
+    snapshot_interval : time between two pictures of the temperature fields
+    checkpoint_seconds : wall time between two checkpoints of a coupled run, from which --resume
+        goes on; 0: none
+    checkpoint_steps : the same in macro steps, whichever is first; 0: by wall time alone
+    patience : longest that computing the run may take, as it is estimated before the run starts;
+        what would take longer is refused
+    """
+
+    duration: float = quantity(30.0, "s", gt=0)
+    output_interval: float = quantity(0.01, "s", gt=0)
+    snapshot_interval: float = quantity(1.0, "s", gt=0)
+    checkpoint_seconds: float = quantity(30.0, "s", ge=0)
+    checkpoint_steps: int = quantity(0, "1", ge=0)
+    patience: float = quantity(PATIENCE, "s", gt=0)
 
 
 class Coupling(Method):

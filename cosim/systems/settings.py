@@ -37,23 +37,21 @@ _OF_CONTROL = ("largest_step", "step_tolerance", "safety")
 
 
 class Run(Table):
-    """From when to when, and how often there is a row of results."""
+    """From when to when, and how often there is a row of results.
 
-    start: float = quantity(0.0, "s", "time at which the units start")
-    stop: float = quantity(NOT_GIVEN, "s", "time at which the run ends")
-    output_interval: float = quantity(
-        NOT_GIVEN, "s", "time between two rows of the results; left out, a row a macro step", gt=0
-    )
-    checkpoint_seconds: float = quantity(
-        30.0,
-        "s",
-        "wall time between two checkpoints, from which --resume goes on, the first after a second; "
-        "0: none",
-        ge=0,
-    )
-    checkpoint_steps: int = quantity(
-        0, "1", "the same in macro steps, whichever is first; 0: by wall time alone", ge=0
-    )
+    start : time at which the units start
+    stop : time at which the run ends
+    output_interval : time between two rows of the results; left out, a row a macro step
+    checkpoint_seconds : wall time between two checkpoints, from which --resume goes on, the first
+        after a second; 0: none
+    checkpoint_steps : the same in macro steps, whichever is first; 0: by wall time alone
+    """
+
+    start: float = quantity(0.0, "s")
+    stop: float = quantity(NOT_GIVEN, "s")
+    output_interval: float = quantity(NOT_GIVEN, "s", gt=0)
+    checkpoint_seconds: float = quantity(30.0, "s", ge=0)
+    checkpoint_steps: int = quantity(0, "1", ge=0)
 
     @model_validator(mode="after")
     def _has_a_length(self) -> Self:

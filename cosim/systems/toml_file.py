@@ -29,18 +29,25 @@ MOST_SUBSTEPS = 1_000_000
 
 
 class Unit(Table):
-    """A unit of the system."""
+    """A unit of the system.
+
+    isolate : in a process of its own, which may crash or hang
+    time_limit : of a call of an isolated unit
+    input_file : CSV of inputs over time: a column time (s), and one for each input
+    substeps : steps of its own in each macro step
+    tolerance : told to the unit
+    parameters : variable of the unit -> value
+    inputs : variable of the unit -> value
+    """
 
     file: str = Field(description="the FMU, from where the file of the system is", min_length=1)
-    isolate: bool = Field(False, description="in a process of its own, which may crash or hang")
-    time_limit: float = quantity(NOT_GIVEN, "s", "of a call of an isolated unit", gt=0)
-    input_file: str = Field(
-        "", description="CSV of inputs over time: a column time (s), and one for each input"
-    )
-    substeps: int = quantity(1, "1", "steps of its own in each macro step", ge=1, le=MOST_SUBSTEPS)
-    tolerance: float = quantity(NOT_GIVEN, "1", "told to the unit", gt=0, lt=1)
-    parameters: dict[str, Any] = Field({}, description="variable of the unit -> value")
-    inputs: dict[str, Any] = Field({}, description="variable of the unit -> value")
+    isolate: bool = quantity(False, None)
+    time_limit: float = quantity(NOT_GIVEN, "s", gt=0)
+    input_file: str = quantity("", None)
+    substeps: int = quantity(1, "1", ge=1, le=MOST_SUBSTEPS)
+    tolerance: float = quantity(NOT_GIVEN, "1", gt=0, lt=1)
+    parameters: dict[str, Any] = quantity({}, None)
+    inputs: dict[str, Any] = quantity({}, None)
 
 
 #: `from` is a word of Python, and a field's name here all the same.
@@ -58,12 +65,16 @@ ConnectionTable: Any = create_model(
 
 
 class System(Table):
-    """All that the file may say."""
+    """All that the file may say.
 
-    name: str = Field("", description="of the system", max_length=100)
+    name : of the system
+    residuals : unit.port that should stay 0
+    """
+
+    name: str = quantity("", None, max_length=100)
     units: dict[str, Unit] = Field(description="a table [units.NAME] for every unit", min_length=1)
     connections: tuple[ConnectionTable, ...] = ()
-    residuals: tuple[str, ...] = Field((), description="unit.port that should stay 0")
+    residuals: tuple[str, ...] = quantity((), None)
     coupling: Coupling = Coupling()
     run: Run = Run()
 

@@ -1,7 +1,5 @@
 """The kernel's arrays for one run, laid out in one place."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Self

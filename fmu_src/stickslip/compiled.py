@@ -3,8 +3,6 @@
 Where there is no compiler, the text runs interpreted.
 """
 
-from __future__ import annotations
-
 import ctypes
 import logging
 import re

@@ -1,7 +1,5 @@
 """Parameters that cannot stand side by side, in words. Pure Python: it travels inside the FMU."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 

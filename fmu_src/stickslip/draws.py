@@ -8,8 +8,6 @@ u and w, sqrt(-2 ln(1 - w)) times cos(2 pi u), then sin(2 pi u); the second of a
 next that is asked for, whatever uniform numbers are drawn between.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from functools import lru_cache
 from random import Random

@@ -7,8 +7,6 @@ Machine code is code: a folder that anybody else could have written to is not us
 only be read is, and where there is none at all, the library serves this process alone.
 """
 
-from __future__ import annotations
-
 import ctypes
 import hashlib
 import logging

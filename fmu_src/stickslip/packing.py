@@ -1,7 +1,5 @@
 """Named parameters to the kernel's vector ``p``. Pure Python: it travels inside the FMU."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 
 from .draws import draws

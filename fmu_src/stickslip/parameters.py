@@ -4,8 +4,6 @@ Each `Table` is a table of a scenario file and a group of FMU parameters (`table
 unit, the bounds and the description given here are the ones that both show.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from functools import cache
@@ -30,37 +28,36 @@ Angle = Annotated[float, Field(ge=-360, le=360)]
 
 
 class Rig(Table):
-    """Block, spring geometry and guides."""
+    """Block, spring geometry and guides.
 
-    mass: float = quantity(0.67, "kg", "mass of the block", gt=0)
-    inertia: Literal["disc", "ring"] | Annotated[float, Field(gt=0)] = Field(
-        "disc",
-        description='moment of inertia about the vertical: "disc" (m a^2/2, a the contact radius), '
-        '"ring" (m r^2, r the attachment radius) or a number',
-        json_schema_extra={"unit": "kg.m2"},
-    )
-    contact_radius: float = quantity(0.04, "m", "radius of the contact disc", gt=0)
-    attachment_radius: float = quantity(
-        0.05, "m", "distance of the spring attachments from the block's centre", gt=0
-    )
-    attachment_angles_deg: tuple[Angle, Angle, Angle, Angle] = Field(
+    mass : mass of the block
+    inertia : moment of inertia about the vertical: "disc" (m a^2/2, a the contact radius), "ring"
+        (m r^2, r the attachment radius) or a number
+    contact_radius : radius of the contact disc
+    attachment_radius : distance of the spring attachments from the block's centre
+    attachment_angles_deg : direction of each attachment from the block's centre, degrees from x
+    spring_length : length of a spring as installed
+    spring_natural_length : length of a spring without load; shorter than installed is pretension
+    surface : belt: translation; slab: turning about a centre at slab_radius
+    slab_radius : slab only: distance of its centre from the block, along +y (negative: -y)
+    degrees_of_freedom : motions that the rig allows
+    """
+
+    mass: float = quantity(0.67, "kg", gt=0)
+    inertia: Literal["disc", "ring"] | Annotated[float, Field(gt=0)] = quantity("disc", "kg.m2")
+    contact_radius: float = quantity(0.04, "m", gt=0)
+    attachment_radius: float = quantity(0.05, "m", gt=0)
+    attachment_angles_deg: tuple[Angle, Angle, Angle, Angle] = quantity(
         (160.0, 20.0, 200.0, 340.0),
-        description="direction of each attachment from the block's centre, degrees from x",
-        json_schema_extra={"unit": "deg"},
+        "deg",
         strict=False,  # TOML gives a list
     )
-    spring_length: float = quantity(0.20, "m", "length of a spring as installed", gt=0)
-    spring_natural_length: float = quantity(
-        0.20, "m", "length of a spring without load; shorter than installed is pretension", gt=0
-    )
-    surface: Literal["belt", "slab"] = Field(
-        "belt", description="belt: translation; slab: turning about a centre at slab_radius"
-    )
-    slab_radius: float = quantity(
-        0.5, "m", "slab only: distance of its centre from the block, along +y (negative: -y)"
-    )
-    degrees_of_freedom: tuple[Literal["x", "y", "phi"], ...] = Field(
-        ("x", "y", "phi"), description="motions that the rig allows", strict=False
+    spring_length: float = quantity(0.20, "m", gt=0)
+    spring_natural_length: float = quantity(0.20, "m", gt=0)
+    surface: Literal["belt", "slab"] = quantity("belt", None)
+    slab_radius: float = quantity(0.5, "m")
+    degrees_of_freedom: tuple[Literal["x", "y", "phi"], ...] = quantity(
+        ("x", "y", "phi"), None, strict=False
     )
 
     @model_validator(mode="after")
@@ -76,24 +73,19 @@ class Rig(Table):
 
 
 class Springs(Table):
-    """The four equal springs."""
+    """The four equal springs.
 
-    stiffness: float = quantity(20.17, "N/m", "stiffness of one of the four springs", ge=0)
-    force_curve_extension: tuple[float, ...] = Field(
-        (),
-        description="extensions of a measured force-length curve of one spring, growing, at most "
-        "16; the curve replaces stiffness, which then only sets the time scale",
-        json_schema_extra={"unit": "m"},
-        strict=False,
-        max_length=CURVE_LIMIT,
+    stiffness : stiffness of one of the four springs
+    force_curve_extension : extensions of a measured force-length curve of one spring, growing, at
+        most 16; the curve replaces stiffness, which then only sets the time scale
+    force_curve_force : forces of the curve, not falling; joined by a monotone cubic
+    """
+
+    stiffness: float = quantity(20.17, "N/m", ge=0)
+    force_curve_extension: tuple[float, ...] = quantity(
+        (), "m", strict=False, max_length=CURVE_LIMIT
     )
-    force_curve_force: tuple[float, ...] = Field(
-        (),
-        description="forces of the curve, not falling; joined by a monotone cubic",
-        json_schema_extra={"unit": "N"},
-        strict=False,
-        max_length=CURVE_LIMIT,
-    )
+    force_curve_force: tuple[float, ...] = quantity((), "N", strict=False, max_length=CURVE_LIMIT)
 
     @property
     def mean_stiffness(self) -> float:
@@ -119,79 +111,64 @@ class Springs(Table):
 
 
 class Surface(Table):
-    """Drive of the surface under the block."""
+    """Drive of the surface under the block.
 
-    speed: float = quantity(
-        0.15,
-        "m/s",
-        "speed of the surface; negative runs backwards",
-        ge=-FASTEST_SURFACE,
-        le=FASTEST_SURFACE,
-    )
-    run_up_time: float = quantity(
-        0.0, "s", "time in which the speed grows linearly from standstill", ge=0
-    )
+    speed : speed of the surface; negative runs backwards
+    run_up_time : time in which the speed grows linearly from standstill
+    """
+
+    speed: float = quantity(0.15, "m/s", ge=-FASTEST_SURFACE, le=FASTEST_SURFACE)
+    run_up_time: float = quantity(0.0, "s", ge=0)
 
 
 class Initial(Table):
-    """State of the block at the start, in the frame of the rig."""
+    """State of the block at the start, in the frame of the rig.
 
-    x: float = quantity(0.0, "m", "position along the motion of the surface")
-    y: float = quantity(0.0, "m", "position across it")
-    phi: float = quantity(0.0, "rad", "rotation, counter-clockwise")
-    vx: float = quantity(0.0, "m/s", "velocity along x")
-    vy: float = quantity(0.0, "m/s", "velocity along y")
-    omega: float = quantity(0.0, "rad/s", "angular velocity")
+    x : position along the motion of the surface
+    y : position across it
+    phi : rotation, counter-clockwise
+    vx : velocity along x
+    vy : velocity along y
+    omega : angular velocity
+    """
+
+    x: float = quantity(0.0, "m")
+    y: float = quantity(0.0, "m")
+    phi: float = quantity(0.0, "rad")
+    vx: float = quantity(0.0, "m/s")
+    vy: float = quantity(0.0, "m/s")
+    omega: float = quantity(0.0, "rad/s")
 
 
 class Imperfections(Table):
     """What a real rig departs by from its drawing: drawn at random, the same for the same seed.
 
     Each is the standard deviation of a normal distribution that is cut at three of them.
+
+    seed : which rig it is: the same seed, the same departures
+    mass : standard deviation of the block's mass, part of it
+    spring_stiffness : standard deviation of the stiffness of each of the four springs, part of it
+    anchor_position : standard deviation of the place, in x and in y, of each anchor
+    start_position : standard deviation of x and of y at the start, on top of initial.x and
+        initial.y
+    start_angle_deg : standard deviation of the rotation at the start, on top of initial.phi
     """
 
-    seed: int = quantity(
-        1, "1", "which rig it is: the same seed, the same departures", ge=0, le=2**31 - 1
-    )
-    mass: float = quantity(
-        0.0, "1", "standard deviation of the block's mass, part of it", ge=0, le=0.1
-    )
-    spring_stiffness: float = quantity(
-        0.0,
-        "1",
-        "standard deviation of the stiffness of each of the four springs, part of it",
-        ge=0,
-        le=0.2,
-    )
-    anchor_position: float = quantity(
-        0.0, "m", "standard deviation of the place, in x and in y, of each anchor", ge=0, le=0.02
-    )
-    start_position: float = quantity(
-        0.0,
-        "m",
-        "standard deviation of x and of y at the start, on top of initial.x and initial.y",
-        ge=0,
-        le=0.02,
-    )
-    start_angle_deg: float = quantity(
-        0.0,
-        "deg",
-        "standard deviation of the rotation at the start, on top of initial.phi",
-        ge=0,
-        le=10,
-    )
+    seed: int = quantity(1, "1", ge=0, le=2**31 - 1)
+    mass: float = quantity(0.0, "1", ge=0, le=0.1)
+    spring_stiffness: float = quantity(0.0, "1", ge=0, le=0.2)
+    anchor_position: float = quantity(0.0, "m", ge=0, le=0.02)
+    start_position: float = quantity(0.0, "m", ge=0, le=0.02)
+    start_angle_deg: float = quantity(0.0, "deg", ge=0, le=10)
 
 
 class Solver(Table):
-    """Internal integrator."""
+    """Internal integrator.
 
-    tolerance: float = quantity(
-        1e-11,
-        "1",
-        "error of one internal step, relative to the motion's own scale",
-        ge=1e-13,
-        le=1e-3,
-    )
+    tolerance : error of one internal step, relative to the motion's own scale
+    """
+
+    tolerance: float = quantity(1e-11, "1", ge=1e-13, le=1e-3)
 
 
 #: Parameters of several numbers, which the FMU has at their full length, and that length.

@@ -4,9 +4,8 @@ Positions and velocities are set; what cannot be seen of a block - the heat and 
 contact, the distance slid, the place on the surface - goes on from the model's own past.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
+from functools import partial
 from typing import NamedTuple, Self
 
 import numpy as np
@@ -61,40 +60,15 @@ def simulate_restarted(
     temperature: float,
     times: np.ndarray,
     restarts: Restarts,
+    catalogue: Catalogue = CATALOGUE,
+    whole: bool = True,
 ) -> np.ndarray:
     """Outputs at ``times`` (n,), s, increasing: (n, O_SIZE), columns as `ports.OUTPUTS` slots.
 
-    p : kernel vector of `packing.pack`; speed, m/s and temperature, degC: the inputs, constant.
-    Rows are NaN from where the model gave up to the next restart.
+    p : kernel vector of `packing.pack`, of a catalogue; speed, m/s and temperature, degC: the
+    inputs, constant; whole : or x, y and phi alone, as `track_restarted` has it. Rows are NaN from
+    where the model gave up to the next restart.
     """
-    return _simulated(p, speed, temperature, times, restarts, CATALOGUE, True)
-
-
-def track_restarted(
-    p: Sequence[float] | np.ndarray,
-    speed: float,
-    temperature: float,
-    times: np.ndarray,
-    restarts: Restarts,
-    catalogue: Catalogue = CATALOGUE,
-) -> np.ndarray:
-    """As `simulate_restarted`, but x, y and phi alone, (n, 3): in four fifths of the time.
-
-    catalogue : of ``p``.
-    """
-    return _simulated(p, speed, temperature, times, restarts, catalogue, False)
-
-
-def _simulated(
-    p: Sequence[float] | np.ndarray,
-    speed: float,
-    temperature: float,
-    times: np.ndarray,
-    restarts: Restarts,
-    catalogue: Catalogue,
-    whole: bool,
-) -> np.ndarray:
-    """Rows, of all outputs or of what a tracker sees."""
     times = np.ascontiguousarray(times, dtype=float)
     u, start = inputs(speed, temperature), float(times[0])
     run = RunArrays.begin(p, u, start=start, catalogue=catalogue)
@@ -102,3 +76,7 @@ def _simulated(
     o, r = np.full(width * len(times), np.nan), restarts.flat(run.p)
     run.kernel.record_restarted(*run.all, times, o, len(times), r, len(restarts.rows), whole)
     return o.reshape(-1, width)
+
+
+#: The same, but x, y and phi alone, what a tracker sees, (n, 3): in four fifths of the time.
+track_restarted = partial(simulate_restarted, whole=False)

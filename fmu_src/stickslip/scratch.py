@@ -3,8 +3,6 @@
 A folder is held by a lock on itself, which the system lets go of however a process ends.
 """
 
-from __future__ import annotations
-
 import os
 import shutil
 import tempfile

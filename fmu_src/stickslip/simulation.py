@@ -1,7 +1,5 @@
 """Parameters to trajectory: the mechanical model alone."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import inf
 

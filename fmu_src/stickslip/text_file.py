@@ -1,7 +1,5 @@
 """Files that somebody names: what kind and how large they are is asked before they are read."""
 
-from __future__ import annotations
-
 import errno
 import os
 import re

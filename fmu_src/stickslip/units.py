@@ -1,8 +1,6 @@
 """The units that variables are in, by their base units, as FMI defines them, and others as they are
 written into a file."""
 
-from __future__ import annotations
-
 import re
 from math import pi
 

@@ -1,18 +1,23 @@
 """What a belt is: its layers, what it gives to the air, and what it runs over."""
 
-from pydantic import Field
 from stickslip.quantity import Table, quantity
 
 from .air import moving_belt
 
 
 class Layer(Table, strict=False):
-    """One layer of a belt."""
+    """One layer of a belt.
 
-    thickness: float = quantity(..., "m", "thickness", gt=0.0, le=0.1)
-    density: float = quantity(..., "kg/m3", "density", gt=0.0, le=3e4)
-    heat_capacity: float = quantity(..., "J/(kg.K)", "specific heat capacity", gt=0.0, le=1e5)
-    conductivity: float = quantity(..., "W/(m.K)", "thermal conductivity", gt=0.0, le=1e4)
+    thickness : thickness
+    density : density
+    heat_capacity : specific heat capacity
+    conductivity : thermal conductivity
+    """
+
+    thickness: float = quantity(..., "m", gt=0.0, le=0.1)
+    density: float = quantity(..., "kg/m3", gt=0.0, le=3e4)
+    heat_capacity: float = quantity(..., "J/(kg.K)", gt=0.0, le=1e5)
+    conductivity: float = quantity(..., "W/(m.K)", gt=0.0, le=1e4)
 
 
 class Belt(Table, strict=False):
@@ -27,85 +32,52 @@ class Belt(Table, strict=False):
     take the place of the air, at the air's temperature unless the rollers are warmer. A railing of
     conductance 0 only covers. The belt rubs on its railing under the block's weight; the part of
     that heat that enters the belt does so evenly along the railing, the rest is the railing's.
+
+    length : length of the loop
+    width : width
+    thickness : thickness
+    density : density
+    heat_capacity : specific heat capacity
+    conductivity : thermal conductivity
+    air_heat_transfer : heat transfer to the air, on each free face
+    still_air_speed : speed of the belt through still air, from which its heat transfer then follows
+        in place of air_heat_transfer; 0: that number holds
+    layers : layers from the contact face to the back, in place of thickness, density, heat_capacity
+        and conductivity
+    railing_length : length of the railing along the belt, its middle below the contact's; 0: none
+    railing_conductance : from the back of the belt to the railing
+    railing_friction : coefficient of friction of the belt on its railing; 0: none; PTFE 0.04 to 0.2
+    railing_load : load of the belt on its railing; 0: the block's weight in a scenario, none where
+        there is no block
+    railing_share : share of the railing's friction heat that enters the belt
+    rollers : rollers, evenly spread from half a spacing after the contact
+    roller_arc : length of belt that touches a roller; half the circumference of a 64 mm one
+    roller_conductance : from the back of the belt to a roller
+    roller_rise : rollers above the air, warmed by their drive and by flexing the belt
+    elements : P2 elements through the thickness, finest at the contact
+    cell_length : length of a cell along the belt; rounded to fit the loop
     """
 
-    length: float = quantity(1.0, "m", "length of the loop", gt=0.0, le=100.0)
-    width: float = quantity(0.075, "m", "width", gt=0.0, le=10.0)
-    thickness: float = quantity(1e-3, "m", "thickness", gt=0.0, le=0.1)
-    density: float = quantity(700.0, "kg/m3", "density", gt=0.0, le=3e4)
-    heat_capacity: float = quantity(840.0, "J/(kg.K)", "specific heat capacity", gt=0.0, le=1e5)
-    conductivity: float = quantity(0.5, "W/(m.K)", "thermal conductivity", gt=0.0, le=1e4)
-    air_heat_transfer: float = quantity(
-        15.0, "W/(m2.K)", "heat transfer to the air, on each free face", ge=0.0, le=1e4
-    )
-    still_air_speed: float = quantity(
-        0.0,
-        "m/s",
-        "speed of the belt through still air, from which its heat transfer then follows"
-        " in place of air_heat_transfer; 0: that number holds",
-        ge=0.0,
-        le=1e3,
-    )
-    layers: tuple[Layer, ...] = Field(
-        (),
-        max_length=10,
-        description="layers from the contact face to the back, in place of thickness, density,"
-        " heat_capacity and conductivity",
-    )
-    railing_length: float = quantity(
-        0.0,
-        "m",
-        "length of the railing along the belt, its middle below the contact's; 0: none",
-        ge=0.0,
-        le=100.0,
-    )
-    railing_conductance: float = quantity(
-        0.0, "W/(m2.K)", "from the back of the belt to the railing", ge=0.0, le=1e12
-    )
-    railing_friction: float = quantity(
-        0.0,
-        "1",
-        "coefficient of friction of the belt on its railing; 0: none; PTFE 0.04 to 0.2",
-        ge=0.0,
-        le=10.0,
-    )
-    railing_load: float = quantity(
-        0.0,
-        "N",
-        "load of the belt on its railing; 0: the block's weight in a scenario, none where"
-        " there is no block",
-        ge=0.0,
-        le=1e6,
-    )
-    railing_share: float = quantity(
-        0.5, "1", "share of the railing's friction heat that enters the belt", ge=0.0, le=1.0
-    )
-    rollers: int = Field(
-        0, ge=0, le=20, description="rollers, evenly spread from half a spacing after the contact"
-    )
-    roller_arc: float = quantity(
-        0.1,
-        "m",
-        "length of belt that touches a roller; half the circumference of a 64 mm one",
-        gt=0.0,
-        le=100.0,
-    )
-    roller_conductance: float = quantity(
-        100.0, "W/(m2.K)", "from the back of the belt to a roller", ge=0.0, le=1e12
-    )
-    roller_rise: float = quantity(
-        0.0,
-        "K",
-        "rollers above the air, warmed by their drive and by flexing the belt",
-        ge=-100.0,
-        le=100.0,
-    )
-    elements: int = Field(
-        6, ge=1, le=40, description="P2 elements through the thickness, finest at the contact"
-    )
-    cell_length: float = quantity(
-        1e-3, "m", "length of a cell along the belt; rounded to fit the loop", gt=0.0, le=1.0
-    )
+    length: float = quantity(1.0, "m", gt=0.0, le=100.0)
+    width: float = quantity(0.075, "m", gt=0.0, le=10.0)
+    thickness: float = quantity(1e-3, "m", gt=0.0, le=0.1)
+    density: float = quantity(700.0, "kg/m3", gt=0.0, le=3e4)
+    heat_capacity: float = quantity(840.0, "J/(kg.K)", gt=0.0, le=1e5)
+    conductivity: float = quantity(0.5, "W/(m.K)", gt=0.0, le=1e4)
+    air_heat_transfer: float = quantity(15.0, "W/(m2.K)", ge=0.0, le=1e4)
+    still_air_speed: float = quantity(0.0, "m/s", ge=0.0, le=1e3)
+    layers: tuple[Layer, ...] = quantity((), None, max_length=10)
+    railing_length: float = quantity(0.0, "m", ge=0.0, le=100.0)
+    railing_conductance: float = quantity(0.0, "W/(m2.K)", ge=0.0, le=1e12)
+    railing_friction: float = quantity(0.0, "1", ge=0.0, le=10.0)
+    railing_load: float = quantity(0.0, "N", ge=0.0, le=1e6)
+    railing_share: float = quantity(0.5, "1", ge=0.0, le=1.0)
+    rollers: int = quantity(0, None, ge=0, le=20)
+    roller_arc: float = quantity(0.1, "m", gt=0.0, le=100.0)
+    roller_conductance: float = quantity(100.0, "W/(m2.K)", ge=0.0, le=1e12)
+    roller_rise: float = quantity(0.0, "K", ge=-100.0, le=100.0)
+    elements: int = quantity(6, None, ge=1, le=40)
+    cell_length: float = quantity(1e-3, "m", gt=0.0, le=1.0)
 
     @property
     def cells(self) -> int:

@@ -23,6 +23,18 @@ class Ice(Table, strict=False):
     face's rise under a given flux is 1.0 % low for rises below 1 K from -8 degC (0.2 % from -16),
     and 1.8 % low for one up to melting. With `Ice.at` the temperature that the face comes to it
     errs by 0.1 %. 10 W/m2K on side and top: natural convection and radiation, about 5 each.
+
+    mesh : file with the sample's shape as tetrahedra in metres, standing on z = 0 with the belt
+        along x (.msh, .vtk, .vtu, ...); in place of height, elements and the contact's radius and
+        length
+    height : height
+    density : density
+    heat_capacity : specific heat capacity
+    conductivity : thermal conductivity
+    latent_heat : latent heat of melting
+    air_heat_transfer : heat transfer to the air, on side and top
+    radial_elements : P2 elements along the radius, finest at the side
+    axial_elements : P2 elements along the height, finest at the contact
     """
 
     material: str = Field(
@@ -34,27 +46,15 @@ class Ice(Table, strict=False):
         f"{', '.join((ICE, *MATERIALS))}, or another name, and then density, heat_capacity and"
         " conductivity are to be given",
     )
-    mesh: str = Field(
-        "",
-        max_length=1000,
-        description="file with the sample's shape as tetrahedra in metres, standing on z = 0 with"
-        " the belt along x (.msh, .vtk, .vtu, ...); in place of height, elements and"
-        " the contact's radius and length",
-    )
-    height: float = quantity(0.10, "m", "height", gt=0.0, le=10.0)
-    density: float = quantity(917.0, "kg/m3", "density", gt=0.0, le=3e4)
-    heat_capacity: float = quantity(2050.0, "J/(kg.K)", "specific heat capacity", gt=0.0, le=1e5)
-    conductivity: float = quantity(2.2, "W/(m.K)", "thermal conductivity", gt=0.0, le=1e4)
-    latent_heat: float = quantity(334e3, "J/kg", "latent heat of melting", gt=0.0, le=1e7)
-    air_heat_transfer: float = quantity(
-        10.0, "W/(m2.K)", "heat transfer to the air, on side and top", ge=0.0, le=1e4
-    )
-    radial_elements: int = Field(
-        6, ge=1, le=40, description="P2 elements along the radius, finest at the side"
-    )
-    axial_elements: int = Field(
-        10, ge=1, le=40, description="P2 elements along the height, finest at the contact"
-    )
+    mesh: str = quantity("", None, max_length=1000)
+    height: float = quantity(0.10, "m", gt=0.0, le=10.0)
+    density: float = quantity(917.0, "kg/m3", gt=0.0, le=3e4)
+    heat_capacity: float = quantity(2050.0, "J/(kg.K)", gt=0.0, le=1e5)
+    conductivity: float = quantity(2.2, "W/(m.K)", gt=0.0, le=1e4)
+    latent_heat: float = quantity(334e3, "J/kg", gt=0.0, le=1e7)
+    air_heat_transfer: float = quantity(10.0, "W/(m2.K)", ge=0.0, le=1e4)
+    radial_elements: int = quantity(6, None, ge=1, le=40)
+    axial_elements: int = quantity(10, None, ge=1, le=40)
 
     @model_validator(mode="after")
     def _of_its_material(self) -> Self:

@@ -30,15 +30,15 @@ else:
 
 
 class Model(Table):
-    """Where the workflow starts."""
+    """Where the workflow starts.
 
-    scheme: Literal["exact", "study"] = Field(
-        "exact", description="exact geometry and events, or the source study's scheme as printed"
-    )
-    effects: tuple[str, ...] = Field(
-        (), description="files of effects of one's own, beside campaign.toml, which are tried like "
-        "those of the catalogue: their code is run",
-    )  # fmt: skip
+    scheme : exact geometry and events, or the source study's scheme as printed
+    effects : files of effects of one's own, beside campaign.toml, which are tried like those of the
+        catalogue: their code is run
+    """
+
+    scheme: Literal["exact", "study"] = quantity("exact", None)
+    effects: tuple[str, ...] = quantity((), None)
 
 
 #: Of a sample, in its unit: a thousandth of an atom, and still far above the rounding of the model.
@@ -75,14 +75,15 @@ def _part(default: float, what: str) -> Any:
 
 
 class Errors(Table):
-    """How well the rig is known: standard deviations of what the file states."""
+    """How well the rig is known: standard deviations of what the file states.
+
+    zero : of the tracker's zero in a run, in standard deviations of its noise; where it is not
+        given, that of x and y is 0.5 mm
+    """
 
     stiffness: float = _part(0.01, "of the springs' stiffness")
     surface_speed: float = _part(0.01, "of a run's surface speed about its set-point")
-    zero: float = quantity(
-        3.0, "1", "of the tracker's zero in a run, in standard deviations of its noise; where it "
-        "is not given, that of x and y is 0.5 mm", ge=1e-3, le=1e3,
-    )  # fmt: skip
+    zero: float = quantity(3.0, "1", ge=1e-3, le=1e3)
     friction: float = _part(0.02, "of friction from run to run, as expected beforehand")
     friction_table: float = _part(0.05, "of the level of friction.table")
 
@@ -224,21 +225,29 @@ class UnitNames(ColumnNames):
 
 
 class RunTable(Table):
-    """One [[run]]."""
+    """One [[run]].
 
-    file: str = Field("", description="CSV file beside campaign.toml")
-    mass: float = quantity(math.nan, "kg", "mass of the block", gt=0)
-    stiffness: float = quantity(math.nan, "N/m", "stiffness of one of the four springs", gt=0)
-    surface_speed: float = quantity(
-        math.nan, "m/s", "set-point of the surface's speed", ge=-FASTEST_SURFACE, le=FASTEST_SURFACE
-    )
-    ambient_degC: float = quantity(-8.0, "degC", "temperature of the room", ge=-273.15, le=100)
-    hold_out: bool = Field(False, description="never used for fitting")
+    file : CSV file beside campaign.toml
+    mass : mass of the block
+    stiffness : stiffness of one of the four springs
+    surface_speed : set-point of the surface's speed
+    ambient_degC : temperature of the room
+    hold_out : never used for fitting
+    duration : of the record, while it is planned
+    rate : samples a second, while it is planned
+    """
+
+    file: str = quantity("", None)
+    mass: float = quantity(math.nan, "kg", gt=0)
+    stiffness: float = quantity(math.nan, "N/m", gt=0)
+    surface_speed: float = quantity(math.nan, "m/s", ge=-FASTEST_SURFACE, le=FASTEST_SURFACE)
+    ambient_degC: float = quantity(-8.0, "degC", ge=-273.15, le=100)
+    hold_out: bool = quantity(False, None)
     summary: Summary = Summary()
     columns: ColumnNames = ColumnNames.model_construct()
     units: UnitNames = UnitNames.model_construct()
-    duration: float = quantity(20.0, "s", "of the record, while it is planned", gt=0)
-    rate: float = quantity(100.0, "Hz", "samples a second, while it is planned", gt=0)
+    duration: float = quantity(20.0, "s", gt=0)
+    rate: float = quantity(100.0, "Hz", gt=0)
 
     @model_validator(mode="after")
     def _check_setting(self) -> Self:
@@ -264,9 +273,12 @@ class MeasuredRunTable(RunTable):
 
 
 class CampaignTable(Table):
-    """campaign.toml but for its runs."""
+    """campaign.toml but for its runs.
 
-    name: str = Field("unnamed", description="name of the campaign", min_length=1, max_length=200)
+    name : name of the campaign
+    """
+
+    name: str = quantity("unnamed", None, min_length=1, max_length=200)
     rig: Rig = Rig()
     model: Model = Model()
     noise: Noise = Noise()

@@ -1,7 +1,5 @@
 """An effect as it is offered to a fit: free parameters, where they start, what else it needs."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -85,3 +83,21 @@ class Candidate:
     free_parameters: tuple[FreeParameter, ...]
     settings: Mapping[str, float] = field(default_factory=dict)
     periodic: str = ""
+
+
+@dataclass(frozen=True)
+class FormsOf:
+    """What writes the candidates of one effect, whose parameters go by their own names there."""
+
+    effect: str
+
+    def free(
+        self, name: str, start: float, step: float, low: float, high: float, log: bool = False
+    ) -> FreeParameter:
+        """A free parameter of the effect."""
+        return FreeParameter(f"{self.effect}.{name}", start, step, low, high, log=log)
+
+    def form(self, name: str, *free: FreeParameter, **settings: float) -> Candidate:
+        """A candidate with these free parameters; settings: of parameters of the effect."""
+        keys = {f"{self.effect}.{key}": value for key, value in settings.items()}
+        return Candidate(self.effect, name, free, keys)

@@ -8,13 +8,11 @@ An effect is one file. It declares an `Effect` named ``EFFECT`` and stands in th
 `stickslip.effects`; the kernel's slots and the calls of its terms are made from that.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from inspect import cleandoc
-from typing import Any
+from typing import Any, NoReturn
 
 from ..quantity import Table, details
 from .candidate import Candidate, Scales
@@ -143,48 +141,41 @@ class Effect:
         """Refuses, by one line that names the effect, what would fail later and less clearly."""
         for name in ("switch", "terms", "derived", "states", "feels_melting"):
             if not isinstance(getattr(self, name), tuple):
-                raise ValueError(f"effect {self.id}: {name} is no tuple: (a,) is one of one member")
+                self.refuse(f"{name} is no tuple: (a,) is one of one member")
         if self.axis and self.axis not in AXES:
-            raise ValueError(
-                f"effect {self.id}: axis {self.axis!r} is none; there are {', '.join(AXES)}"
-            )
+            self.refuse(f"axis {self.axis!r} is none; there are {', '.join(AXES)}")
         if self.enters not in ENTERS:
-            raise ValueError(
-                f"effect {self.id}: enters {self.enters!r}, which is no part of the model; there "
-                f"are {', '.join(ENTERS)}"
-            )
+            parts = ", ".join(ENTERS)
+            self.refuse(f"enters {self.enters!r}, which is no part of the model; there are {parts}")
         fields = self.table.model_fields
         self._check_draws()
         if not self.switch:
-            raise ValueError(f"effect {self.id}: no switch: which parameters turn it on?")
+            self.refuse("no switch: which parameters turn it on?")
         for named in ("switch", "core", "feels_melting"):
             for name in getattr(self, named):
                 if name not in fields:
-                    raise ValueError(
-                        f"effect {self.id}: {named} {name!r} is no parameter; "
-                        f"there are {', '.join(fields)}"
-                    )
+                    self.refuse(f"{named} {name!r} is no parameter; there are {', '.join(fields)}")
         for name, each in fields.items():
             said = details(each)
             if not said.get("unit"):
-                raise ValueError(f"effect {self.id}: {name} has no unit: declare it by `quantity`")
+                self.refuse(f"{name} has no unit: declare it by `quantity`")
             if "typical" not in said and "tried" not in said:
-                raise ValueError(
-                    f"effect {self.id}: {name} has neither a typical range nor a tried one"
-                )
+                self.refuse(f"{name} has neither a typical range nor a tried one")
+
+    def refuse(self, why: str) -> NoReturn:
+        """Raise ValueError with the effect's name."""
+        raise ValueError(f"effect {self.id}: {why}")
 
     def _check_draws(self) -> None:
         if not self.draws:
             return
         if "seed" not in self.table.model_fields:
-            raise ValueError(f"effect {self.id}: draws by no parameter called seed")
+            self.refuse("draws by no parameter called seed")
         if len(set(self.series.values())) != 1:
-            raise ValueError(f"effect {self.id}: draws are for series of one length")
+            self.refuse("draws are for series of one length")
         for name, kind in self.draws.items():
             if kind not in DRAWN:
-                raise ValueError(
-                    f"effect {self.id}: draw {name!r} is {kind!r}; there are {', '.join(DRAWN)}"
-                )
+                self.refuse(f"draw {name!r} is {kind!r}; there are {', '.join(DRAWN)}")
 
     @property
     def members(self) -> int:

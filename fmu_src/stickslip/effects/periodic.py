@@ -1,7 +1,6 @@
 """What the two periodic effects share: a sine, and its harmonics."""
 
-from __future__ import annotations
-
+from math import cos, radians, sin
 from typing import Any
 
 from ..quantity import quantity
@@ -28,6 +27,43 @@ def harmonic_phase(which: str) -> Any:
         f"phase of the {which} harmonic where that of the first is nothing",
         tried=(-180.0, 180.0),
     )
+
+
+# B sin(2 a + b) = B cos b sin 2 a + B sin b cos 2 a: what is a harmonic's own is worked out once,
+# and sines and cosines of multiples of a follow from those of a, at a twentieth of their price.
+
+
+def second_cosine(second_amplitude: float, second_phase_deg: float) -> float:
+    """B cos b"""
+    return second_amplitude * cos(radians(second_phase_deg))
+
+
+def second_sine(second_amplitude: float, second_phase_deg: float) -> float:
+    """B sin b"""
+    return second_amplitude * sin(radians(second_phase_deg))
+
+
+def third_cosine(third_amplitude: float, third_phase_deg: float) -> float:
+    """C cos c"""
+    return third_amplitude * cos(radians(third_phase_deg))
+
+
+def third_sine(third_amplitude: float, third_phase_deg: float) -> float:
+    """C sin c"""
+    return third_amplitude * sin(radians(third_phase_deg))
+
+
+def fourth_cosine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
+    """D cos d"""
+    return fourth_amplitude * cos(radians(fourth_phase_deg))
+
+
+def fourth_sine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
+    """D sin d"""
+    return fourth_amplitude * sin(radians(fourth_phase_deg))
+
+
+HARMONICS = (second_cosine, second_sine, third_cosine, third_sine, fourth_cosine, fourth_sine)
 
 
 def periodic(effect: str, period: FreeParameter, form: str) -> Candidate:

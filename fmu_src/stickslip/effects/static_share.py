@@ -8,8 +8,6 @@ r = 1: mu_s moves in proportion, as where the real area of contact changes; a = 
 mu_k, as where what a contact at rest holds beyond that is of its own kind; both 0: mu_s stays.
 """
 
-from __future__ import annotations
-
 from typing import Any
 
 from ..quantity import quantity
@@ -40,7 +38,14 @@ def static_absolute() -> Any:
 
 
 #: Form of a candidate beside that in which mu_s stays -> the parameter that is set to 1.
-STATIC_FORMS = {
-    "mu_s in proportion": "static_relative",
-    "mu_s by as much": "static_absolute",
-}
+STATIC_FORMS = {"mu_s in proportion": "static_relative", "mu_s by as much": "static_absolute"}
+
+
+def static_factor(
+    kinetic_factor: float, static_relative: float, static_absolute: float, mu_s: float, mu_k: float
+) -> float:
+    """mu_s over its value at the start, from what the effect makes of mu_k."""
+    share = static_relative
+    if mu_s > 0.0:
+        share += static_absolute * mu_k / mu_s
+    return max(0.0, 1.0 + share * (kinetic_factor - 1.0))

@@ -1,7 +1,5 @@
 """The friction law by itself: what a contact that slides steadily is braked by, what it feels."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 

@@ -3,8 +3,6 @@
 Each is asked of the kernel, interpreted, as the motion asks it, with every effect that is on.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any

@@ -3,8 +3,6 @@
 The table is over the sliding speed, or over that and the temperature of the interface.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -18,70 +16,40 @@ from .table_file import ABSOLUTE_ZERO, read_table
 
 
 class Friction(Table):
-    """Coulomb friction between block and surface."""
+    """Coulomb friction between block and surface.
 
-    mu_s: float = quantity(0.2815, "1", "static friction coefficient", ge=0)
-    mu_k: float = quantity(0.2086, "1", "kinetic friction coefficient", ge=0)
-    stick_creep: float = quantity(
-        0.0,
-        "m/s",
-        "sliding speed in stick at the load mu_s N, smaller in proportion to the load: a contact "
-        "is sheared before it slides; 0 is off",
-        ge=0,
-    )
-    transition_speed: float = quantity(
-        0.0,
-        "m/s",
-        "v_s, sliding speed over which friction falls from mu_s to mu_k: "
-        "mu_k + (mu_s - mu_k) exp(-(v / v_s)^transition_exponent); 0: at once",
-        ge=0,
-    )
-    transition_exponent: float = quantity(
-        1.0, "1", "of the transition: 1 exponential, 2 Gaussian", ge=0.5, le=3
-    )
-    presliding_distance: float = quantity(
-        0.0,
-        "m",
-        "z_0, shear of the contact under the load mu_s N: its bristles are deflected before they "
-        "slide (LuGre); needs transition_speed; 0: a rigid contact",
-        ge=0,
-        le=0.01,
-    )
-    bristle_damping: float = quantity(
-        0.4,
-        "1",
-        "of the bristles, as part of the critical damping 2 sqrt(sigma_0 m)",
-        ge=0,
-        le=2,
-    )
-    table: str = Field(
-        "",
-        description="CSV file with the columns v (m/s), mu and, where mu is of both, T_degC, from "
-        "which table_speed, table_temperature_degC and table_mu are read",
-    )
-    table_speed: tuple[float, ...] = Field(
-        (),
-        description="sliding speeds of a measured table, growing, at most 16; the table takes the "
-        "place of mu_k: PCHIP at the local sliding speed, constant beyond its ends",
-        json_schema_extra={"unit": "m/s"},
-        strict=False,
-        max_length=CURVE_LIMIT,
-    )
-    table_mu: tuple[float, ...] = Field(
-        (),
-        description="kinetic friction coefficients of the table, at all speeds; of a table over "
-        "temperatures too, at all speeds of the first, then of the second, and so on",
-        json_schema_extra={"unit": "1"},
-        strict=False,
-        max_length=TABLE_LIMIT,
-    )
-    table_temperature_degC: tuple[Annotated[float, Field(ge=ABSOLUTE_ZERO, le=1000)], ...] = Field(
-        (),
-        description="temperatures of the interface at which the table has its coefficients, "
-        "growing, 2 to 6; PCHIP between them, constant beyond; none: at any temperature",
-        json_schema_extra={"unit": "degC"},
-        strict=False,
-        max_length=TEMPERATURE_LIMIT,
+    mu_s : static friction coefficient
+    mu_k : kinetic friction coefficient
+    stick_creep : sliding speed in stick at the load mu_s N, smaller in proportion to the load: a
+        contact is sheared before it slides; 0 is off
+    transition_speed : v_s, sliding speed over which friction falls from mu_s to mu_k: mu_k + (mu_s
+        - mu_k) exp(-(v / v_s)^transition_exponent); 0: at once
+    transition_exponent : of the transition: 1 exponential, 2 Gaussian
+    presliding_distance : z_0, shear of the contact under the load mu_s N: its bristles are
+        deflected before they slide (LuGre); needs transition_speed; 0: a rigid contact
+    bristle_damping : of the bristles, as part of the critical damping 2 sqrt(sigma_0 m)
+    table : CSV file with the columns v (m/s), mu and, where mu is of both, T_degC, from which
+        table_speed, table_temperature_degC and table_mu are read
+    table_speed : sliding speeds of a measured table, growing, at most 16; the table takes the place
+        of mu_k: PCHIP at the local sliding speed, constant beyond its ends
+    table_mu : kinetic friction coefficients of the table, at all speeds; of a table over
+        temperatures too, at all speeds of the first, then of the second, and so on
+    table_temperature_degC : temperatures of the interface at which the table has its coefficients,
+        growing, 2 to 6; PCHIP between them, constant beyond; none: at any temperature
+    """
+
+    mu_s: float = quantity(0.2815, "1", ge=0)
+    mu_k: float = quantity(0.2086, "1", ge=0)
+    stick_creep: float = quantity(0.0, "m/s", ge=0)
+    transition_speed: float = quantity(0.0, "m/s", ge=0)
+    transition_exponent: float = quantity(1.0, "1", ge=0.5, le=3)
+    presliding_distance: float = quantity(0.0, "m", ge=0, le=0.01)
+    bristle_damping: float = quantity(0.4, "1", ge=0, le=2)
+    table: str = quantity("", None)
+    table_speed: tuple[float, ...] = quantity((), "m/s", strict=False, max_length=CURVE_LIMIT)
+    table_mu: tuple[float, ...] = quantity((), "1", strict=False, max_length=TABLE_LIMIT)
+    table_temperature_degC: tuple[Annotated[float, Field(ge=ABSOLUTE_ZERO, le=1000)], ...] = (
+        quantity((), "degC", strict=False, max_length=TEMPERATURE_LIMIT)
     )
 
     @property

@@ -1,7 +1,5 @@
 """A table of friction as a CSV file, and as the numbers that the FMU has of it."""
 
-from __future__ import annotations
-
 import csv
 import io
 import math

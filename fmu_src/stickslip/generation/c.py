@@ -9,8 +9,6 @@ with floats such a place gives inf or nan. A variable that Python has as int at 
 float at another is a float throughout.
 """
 
-from __future__ import annotations
-
 import ast
 from inspect import cleandoc
 

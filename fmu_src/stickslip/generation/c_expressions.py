@@ -1,14 +1,13 @@
 """Expressions as C, evaluated in Python's order and with Python's results."""
 
-from __future__ import annotations
-
 import ast
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from copy import copy
+from importlib import resources
 from typing import NamedTuple
 
-from .c_program import BUILTINS, C_TYPES, MATH, RESERVED, Function, Program, refuse
-from .c_types import Types
+from .c_program import BUILTINS, C_TYPES, MATH, RESERVED, Function, Program, assignments, refuse
 
 #: What binds how tightly in C; parentheses stand where less does within more.
 ATOM, UNARY, PRODUCT, SUM, ORDER, EQUALITY, AND, OR, CHOICE = 9, 8, 7, 6, 5, 4, 3, 2, 1
@@ -19,68 +18,11 @@ _COMPARISONS = {
 }
 _HELPED = {ast.FloorDiv: "floor_divide", ast.Mod: "modulo"}
 
-#: What C's own operators and functions do otherwise than Python's, as C.
-HELPERS = {
-    "larger": """\
-static inline double larger(double a, double b) {
-    return b > a ? b : a;
-}""",
-    "smaller": """\
-static inline double smaller(double a, double b) {
-    return b < a ? b : a;
-}""",
-    "larger_int": """\
-static inline int64_t larger_int(int64_t a, int64_t b) {
-    return b > a ? b : a;
-}""",
-    "smaller_int": """\
-static inline int64_t smaller_int(int64_t a, int64_t b) {
-    return b < a ? b : a;
-}""",
-    "absolute_int": """\
-static inline int64_t absolute_int(int64_t a) {
-    return a < 0 ? -a : a;
-}""",
-    "radians": """\
-static inline double radians(double degrees) {
-    return degrees * (3.141592653589793 / 180.0);
-}""",
-    "modulo_int": """\
-/* What is left of a after whole b, with the sign of b. */
-static inline int64_t modulo_int(int64_t a, int64_t b) {
-    const int64_t left = a % b;
-    return left != 0 && (left < 0) != (b < 0) ? left + b : left;
-}""",
-    "floor_divide_int": """\
-/* The largest whole number up to a / b. */
-static inline int64_t floor_divide_int(int64_t a, int64_t b) {
-    const int64_t left = a % b;
-    return a / b - (left != 0 && (left < 0) != (b < 0) ? 1 : 0);
-}""",
-    "modulo": """\
-/* What is left of a after whole b, with the sign of b. */
-static inline double modulo(double a, double b) {
-    const double left = fmod(a, b);
-    if (left == 0.0) {
-        return copysign(0.0, b);
-    }
-    return (left < 0.0) != (b < 0.0) ? left + b : left;
-}""",
-    "floor_divide": """\
-/* The largest whole number up to a / b, of a quotient that has been made exact before. */
-static inline double floor_divide(double a, double b) {
-    const double left = fmod(a, b);
-    double quotient = (a - left) / b;
-    if (left != 0.0 && (left < 0.0) != (b < 0.0)) {
-        quotient -= 1.0;
-    }
-    if (quotient == 0.0) {
-        return copysign(0.0, a / b);
-    }
-    const double whole = floor(quotient);
-    return quotient - whole > 0.5 ? whole + 1.0 : whole;
-}""",
-}
+#: What C's own operators and functions do otherwise than Python's, by name, as C.
+_TEXTS = (
+    (resources.files(__package__) / "c_helpers.c").read_text("utf-8").rstrip().split("\n\n")[1:]
+)
+HELPERS = {text.split("(")[0].split()[-1]: text for text in _TEXTS}
 
 
 class Made(NamedTuple):
@@ -101,17 +43,41 @@ class Expressions:
     Python evaluates operands from left to right; C says nothing of their order. Where it matters,
     because one writes into an array, those before the last go into constants of their own, in
     ``before``: lines for before the statement.
+
+    of_names : type of each variable, "float", "int", "bool" or "array": what all that is assigned
+        to it is; int and float together are float
     """
 
     def __init__(self, program: Program, function: Function, helpers: set[str]) -> None:
         self.program, self.where = program, function.where
-        self.types = Types(program, function)
         self.helpers = helpers
         self.before: list[str] = []
         self._always = True
         used = {n.id for n in ast.walk(function.node) if isinstance(n, ast.Name)}
         self._taken = {*used, *function.parameters, *RESERVED, *HELPERS, *program.constants}
-        self._names = {name: self._spelled(name) for name in self.types.of_names}
+        given = [each for each in assignments(function.node) if each[0] not in function.parameters]
+        self.of_names: dict[str, str | None] = {**function.parameters, **dict.fromkeys(dict(given))}
+        self._names = {name: self._spelled(name) for name in self.of_names}
+        self._find_types(given)
+
+    def _find_types(self, given: Sequence[tuple[str, ast.expr]]) -> None:
+        before = None
+        while before != self.of_names:
+            before = dict(self.of_names)
+            for name, value in given:
+                known, found = self.of_names[name], self._tried(value)
+                if known and found and known != found and {known, found} != {"int", "float"}:
+                    refuse(self.where, value, f"{known} and {found} in one place")
+                self.of_names[name] = "float" if "float" in (known, found) else known or found
+
+    def _tried(self, value: ast.expr) -> str | None:
+        """Type of an expression; None as long as nothing is known of its variables."""
+        trial = copy(self)
+        trial.helpers, trial.before, trial._taken = set(), [], set(self._taken)
+        try:
+            return trial.made(value).type
+        except ValueError:  # which is what comes of it in the end, where it stays so
+            return None
 
     def _spelled(self, name: str) -> str:
         if not name.isascii():
@@ -231,8 +197,8 @@ class Expressions:
         return "0" if self._as_number(node, value).type == "int" else "0.0"
 
     def _made_name(self, node: ast.expr, name: str) -> Made:
-        if name in self.types.of_names:
-            kind = self.types.of_names[name]
+        if name in self.of_names:
+            kind = self.of_names[name]
             if kind not in ("float", "int", "bool"):
                 refuse(
                     self.where, node, "an array as a whole" if kind else "nothing is known of it"
@@ -245,9 +211,9 @@ class Expressions:
         return Made(name if own else number_text(number), type(number).__name__)
 
     def _array(self, node: ast.AST, name: str) -> str:
-        if self.types.of_names.get(name) == "array":
+        if self.of_names.get(name) == "array":
             return self.name(name)
-        if name in self.types.of_names or not isinstance(self.program.number(name), tuple):
+        if name in self.of_names or not isinstance(self.program.number(name), tuple):
             refuse(self.where, node, f"{name} is no array")
         return name
 
@@ -323,7 +289,7 @@ class Expressions:
         return Made(f"{test} ? {one.within(OR)} : {other.within(OR)}", one.type, CHOICE)
 
     def _made_call(self, node: ast.expr, name: str, given: list[ast.expr]) -> Made:
-        if name in self.types.of_names:
+        if name in self.of_names:
             refuse(self.where, node, f"{name} is a variable")
         if name in self.program.functions:
             return self._made_kernel_call(node, self.program.functions[name], given)
@@ -389,7 +355,7 @@ class Expressions:
         return Made(f"{function_name(function.name)}({', '.join(texts)})", function.returns)
 
     def _whole_array(self, node: ast.expr) -> str:
-        if isinstance(node, ast.Name) and self.types.of_names.get(node.id) == "array":
+        if isinstance(node, ast.Name) and self.of_names.get(node.id) == "array":
             return self.name(node.id)
         refuse(self.where, node, "no array as a whole")
 

@@ -1,4 +1,4 @@
-"""What of the text becomes C: its constants and functions, who writes into arrays, and refusals."""
+"""What of the text becomes C: constants, functions, what is assigned to variables; and refusals."""
 
 from __future__ import annotations
 
@@ -196,3 +196,26 @@ class Function:
             match node:
                 case ast.Subscript(value=ast.Name(id=name), ctx=ast.Store()):
                     yield name
+
+
+def assignments(function: ast.FunctionDef) -> Iterator[tuple[str, ast.expr]]:
+    """Name of a variable, and what is assigned to it."""
+    for node in ast.walk(function):
+        match node:
+            case ast.Assign(targets=targets, value=value):
+                for target in targets:
+                    for one, given in pairs(target, value):
+                        if isinstance(one, ast.Name):
+                            yield one.id, given
+            case ast.AugAssign(target=ast.Name(id=name), op=op, value=value):
+                yield name, ast.copy_location(ast.BinOp(ast.Name(name), op, value), node)
+            case ast.For(target=ast.Name(id=name)):
+                yield name, ast.copy_location(ast.Constant(0), node)
+
+
+def pairs(target: ast.expr, value: ast.expr) -> list[tuple[ast.expr, ast.expr]]:
+    """Targets with what each is given; those of a tuple one by one."""
+    match target, value:
+        case ast.Tuple(elts=targets), ast.Tuple(elts=values) if len(targets) == len(values):
+            return list(zip(targets, values, strict=True))
+    return [(target, value)]

@@ -1,14 +1,11 @@
 """A function as C: statements, and where its variables are declared."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Callable
 
 from .c_expressions import SUM, Expressions, Made, function_name
-from .c_program import C_TYPES, Function, Program, refuse
-from .c_types import pairs
+from .c_program import C_TYPES, Function, Program, pairs, refuse
 
 _WIDTH = 100
 _TAB = "    "
@@ -78,7 +75,7 @@ class Statements:
     def _begin(self, body: list[ast.stmt]) -> None:
         """Declare what its first assignment cannot; say which arguments are for others."""
         self.homes: dict[str, ast.stmt] = {}
-        for name, kind in self.made.types.of_names.items():
+        for name, kind in self.made.of_names.items():
             if name in self.function.parameters:
                 if not any(mentions(statement, name) for statement in body):
                     self._line(f"(void){self.made.name(name)};")
@@ -187,10 +184,10 @@ class Statements:
     def _place(self, node: ast.stmt, target: ast.expr) -> tuple[str, str]:
         """What is assigned to, in C, and its type."""
         match target:
-            case ast.Name(id=name) if self.made.types.of_names[name] in _NOTHING:
-                return self.made.name(name), self.made.types.of_names[name] or ""
+            case ast.Name(id=name) if self.made.of_names[name] in _NOTHING:
+                return self.made.name(name), self.made.of_names[name] or ""
             case ast.Subscript(value=ast.Name(id=name)):
-                if self.made.types.of_names.get(name) == "array":
+                if self.made.of_names.get(name) == "array":
                     return self.made.made(target).text, "float"
         refuse(self.where, node, "assigned to what is neither a variable nor an element")
 
@@ -267,7 +264,7 @@ class Statements:
         if isinstance(step, ast.UnaryOp) and isinstance(step.op, ast.USub):
             sign, size = -1, step.operand
         value: object = size.value if isinstance(size, ast.Constant) else None
-        if isinstance(size, ast.Name) and size.id not in self.made.types.of_names:
+        if isinstance(size, ast.Name) and size.id not in self.made.of_names:
             value = self.program.constants.get(size.id)
         if not isinstance(value, int) or value == 0:
             refuse(self.where, node, "the step of a range is a whole constant")

@@ -1,7 +1,5 @@
 """What a declaration must be for the kernel to be made of it, each rule with its own line."""
 
-from __future__ import annotations
-
 from collections import Counter
 
 from ..effects.effect import Effect
@@ -21,10 +19,8 @@ def check(effect: Effect) -> None:
     places = [place.name for place in (*PLACES, *PACKED)]
     for term in effect.terms:
         if term.__name__ not in places:
-            raise ValueError(
-                f"effect {effect.id}: no place {term.__name__!r} in the kernel; "
-                f"there are {', '.join(sorted(places))}"
-            )
+            there = ", ".join(sorted(places))
+            effect.refuse(f"no place {term.__name__!r} in the kernel; there are {there}")
     if kernel_terms(effect):
         _check_zero_is_off(effect)
     _check_names(effect)
@@ -33,7 +29,7 @@ def check(effect: Effect) -> None:
 def _check_zero_is_off(effect: Effect) -> None:
     for name in effect.switch:
         if effect.table.model_fields[name].default != 0.0:
-            raise ValueError(f"effect {effect.id}: {name} is not off at 0")
+            effect.refuse(f"{name} is not off at 0")
 
 
 def _check_names(effect: Effect) -> None:
@@ -43,13 +39,13 @@ def _check_names(effect: Effect) -> None:
     own = Counter([*effect.table.model_fields, *derived, *states, *effect.sums, *effect.draws])
     words = sorted(own.keys() & KERNEL_WORDS)
     if words:
-        raise ValueError(f"effect {effect.id}: {', '.join(words)}: the kernel's own words")
+        effect.refuse(f"{', '.join(words)}: the kernel's own words")
     twice = sorted(name for name, times in own.items() if times > 1)
     if twice:
-        raise ValueError(f"effect {effect.id}: {', '.join(twice)}: two numbers of one name")
+        effect.refuse(f"{', '.join(twice)}: two numbers of one name")
     for state in effect.states:
         if state.start and state.start not in effect.table.model_fields:
-            raise ValueError(
-                f"effect {effect.id}: state {state.name} starts from {state.start!r}, "
-                f"which is no parameter; there are {', '.join(effect.table.model_fields)}"
+            effect.refuse(
+                f"state {state.name} starts from {state.start!r}, which is no parameter; there are "
+                f"{', '.join(effect.table.model_fields)}"
             )

@@ -1,7 +1,5 @@
 """C to shared libraries: by zig for every platform, by the compiler of the system for this one."""
 
-from __future__ import annotations
-
 import importlib.util
 import logging
 import os

@@ -1,7 +1,5 @@
 """The functions of an effect's file as text that stands by itself: prefixed, constants put in."""
 
-from __future__ import annotations
-
 import ast
 import inspect
 import linecache
@@ -46,9 +44,10 @@ class EffectFunctions:
 
     @cached_property
     def _file(self) -> ast.Module:
-        module = sys.modules[self.effect.table.__module__]
-        # a custom effect's is the text that was executed, not what the file holds by now
-        return ast.parse(vars(module).get(TEXT) or inspect.getsource(module))
+        """The effect's own, and behind it those that some of its functions come from."""
+        functions = (*self.effect.terms, *self.effect.derived)
+        files = [self.effect.table.__module__, *(each.__module__ for each in functions)]
+        return ast.Module([node for file in dict.fromkeys(files) for node in _statements(file)], [])
 
     @cached_property
     def _defined(self) -> dict[str, ast.FunctionDef]:
@@ -78,16 +77,16 @@ class EffectFunctions:
         wanted, imports = list(dict.fromkeys(each.__name__ for each in functions)), set()
         for name in wanted:  # grows as it goes
             if name not in self._defined:
-                raise ValueError(f"effect {self.effect.id}: {name} is no function of its file")
+                self.effect.refuse(f"{name} is no function of its file")
             for used in dict.fromkeys(node.id for node in names_in(self._defined[name])):
                 if used in self._defined:
                     wanted += [] if used in wanted else [used]
                 elif used in self._imported:
                     imports.add(used)
                 elif used not in self._numbers and used not in NAMES:
-                    raise ValueError(
-                        f"effect {self.effect.id}: term {name} uses {used}: a term may use "
-                        'numbers, functions of its file and "from math import ..."'
+                    self.effect.refuse(
+                        f"term {name} uses {used}: a term may use numbers, functions of its file "
+                        'and "from math import ..."'
                     )
         parts = [self._renamed(node) for name, node in self._defined.items() if name in wanted]
         return "\n\n\n".join(parts), imports
@@ -110,6 +109,13 @@ class EffectFunctions:
         renamed.body = [Rename().visit(part) for part in renamed.body]
         renamed.name = f"{self.effect.id}_{function.name}"
         return ast.unparse(ast.fix_missing_locations(renamed))
+
+
+@cache
+def _statements(module: str) -> list[ast.stmt]:
+    # a custom effect's is the text that was executed, not what the file holds by now
+    text = vars(sys.modules[module]).get(TEXT) or inspect.getsource(sys.modules[module])
+    return ast.parse(text).body
 
 
 def names_in(function: ast.FunctionDef) -> Iterator[ast.Name]:

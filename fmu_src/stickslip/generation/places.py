@@ -1,12 +1,11 @@
 """The places of the kernel at which an effect can enter, and the words its terms can take.
 
 A term is a function of numbers in an effect's file, named by its place. Its arguments are bound by
-name: a parameter of the effect, one of its derived numbers, sums or states, or a word: one of
-`WORDS`, or one of those that the place itself has. A term is left out where all the switches among
-its arguments are zero; one that takes no switch, where all the switches of its effect are.
+name: a parameter of the effect, one of its derived numbers, sums or states, what another of its
+terms gives, or a word: one of `WORDS`, or one of those that the place itself has. A term is left
+out where all the switches among its arguments are zero; one that takes no switch, where all the
+switches of its effect are.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """The platforms that a native unit brings a library for, and how zig names them."""
 
-from __future__ import annotations
-
 import platform
 import sys
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Which numbers of an effect have a slot in the kernel's arrays, and by which names."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 
 from ..effects.effect import Effect, Term

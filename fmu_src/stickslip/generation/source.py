@@ -3,8 +3,6 @@
 That one text is what becomes C, and what travels inside the FMU.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 from functools import cache

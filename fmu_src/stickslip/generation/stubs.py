@@ -21,7 +21,8 @@ def stubs() -> dict[str, str]:
 
 def _numbers() -> str:
     kinds = {tuple: "tuple[float, ...]", float: "float", int: "int"}
-    return "".join(f"{name}: {kinds[type(value)]}\n" for name, value in tables.constants().items())
+    lines = [f"{name}: {kinds[type(value)]}" for name, value in tables.constants().items()]
+    return "\n".join(["from . import Floats as Floats", "", *lines, ""])
 
 
 def _functions() -> str:

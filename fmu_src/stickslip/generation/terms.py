@@ -1,28 +1,27 @@
-"""Text of the functions through which the kernel calls the effects' terms.
+"""Text of the functions through which the kernel calls the effects' terms, and makes their numbers.
 
 For each of the `PLACES` one function ``with_<place>`` that takes what is there and returns it with
 every effect that is on; for the states their rates, starts and scales; the questions that the core
 asks of the effects: whether they feel an input, have a memory, or vary over the contact; and what
-makes their numbers when parameters are packed. The calls are direct, and what is off costs a
-comparison.
+makes their numbers in ``p`` from values and random draws when parameters are packed. The calls are
+direct, and what is off costs a comparison.
 """
 
-from __future__ import annotations
-
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from ..effects.effect import Effect, Term
 from .check import check
-from .derived import is_on, packing_functions, place_function
 from .functions import EffectFunctions, arguments
-from .places import ARRAY, CONSTANTS, LOCAL, MEMORY, PLACES, RATE, SCALE, WORDS, Place
+from .places import ARRAY, CONSTANTS, LOCAL, MEMORY, PACKED, PLACES, RATE, SCALE, WORDS, Place
 from .slots import (
     derived_slots,
+    draw_slot,
     functions_in_kernel,
     kernel_terms,
     packed_terms,
     parameter_slots,
     state_slot,
+    value_slot,
 )
 
 
@@ -40,17 +39,21 @@ def terms_source(effects: Sequence[Effect]) -> str:
     texts += [_place_function(place, effects) for place in PLACES]
     texts += _state_functions(effects)
     texts += _questions(effects)
-    texts += packing_functions(effects)
+    texts.append(_set_numbers(effects))
+    texts += [_packed_function(place, effects) for place in PACKED]
     head = [f"from math import {', '.join(sorted(imports))}"] if imports else []
     return "\n\n\n".join([*head, *texts]) + "\n"
 
 
-def bound(effect: Effect, function: Term, name: str, place: Place) -> str:
+def _in_motion(effect: Effect, function: Term, name: str, place: Place) -> str:
     """The kernel's expression for an argument of a term, or of a sum or state's function."""
     if name in place.local:
         return name
     if name in effect.sums:
         return _sum_call(effect, name, place)
+    for other in kernel_terms(effect):
+        if other.__name__ == name:
+            return _call(effect, other, place)
     if name in parameter_slots(effect):
         return f"p[{parameter_slots(effect)[name]}]"
     if name in derived_slots(effect):
@@ -60,24 +63,66 @@ def bound(effect: Effect, function: Term, name: str, place: Place) -> str:
     moving = WORDS | {
         state.name: f"w[W_STATE + {state_slot(effect, state.name)}]" for state in effect.states
     }
-    term = f"effect {effect.id}: {function.__name__} takes {name!r}"
+    term = f"{function.__name__} takes {name!r}"
     if name not in moving:
-        raise ValueError(f"{term}: neither a number of the effect nor a word of {place.name}")
+        effect.refuse(f"{term}: neither a number of the effect nor a word of {place.name}")
     if not place.sees_motion:
-        raise ValueError(f"{term}: {place.name} knows nothing of the motion but its own words")
+        effect.refuse(f"{term}: {place.name} knows nothing of the motion but its own words")
     return moving[name]
+
+
+def _in_packing(effect: Effect, function: Term, name: str) -> str:
+    """The expression for an argument; of member ``i`` where there is a series."""
+    if name in effect.table.model_fields:
+        return f"v[{_values(effect)[name]}]"
+    in_series = function.__name__ in effect.series
+    if name in derived_slots(effect) and (in_series or name not in effect.series):
+        more = " + i" if name in effect.series else ""
+        return f"p[{derived_slots(effect)[name][0]}{more}]"
+    if name in effect.draws and in_series:
+        number = list(effect.draws).index(name)
+        return f"d[{draw_slot(effect)} + {len(effect.draws)} * i + {number}]"
+    if name in CONSTANTS:
+        return CONSTANTS[name]
+    effect.refuse(
+        f"{function.__name__} takes {name!r}: no number of the effect, and none that a run begins "
+        "with"
+    )
 
 
 def guard(effect: Effect, function: Term) -> str:
     """Condition under which a term counts."""
+    return _condition(effect, function, "p", parameter_slots(effect))
+
+
+def is_on(effect: Effect, function: Term) -> str:
+    """Condition under which a function counts, by the values of the parameters."""
+    return _condition(effect, function, "v", _values(effect))
+
+
+def _values(effect: Effect) -> dict[str, str]:
+    """Parameter -> its place in ``v``."""
+    return {name: value_slot(f"{effect.id}.{name}") for name in effect.table.model_fields}
+
+
+def _condition(effect: Effect, function: Term, array: str, slots: Mapping[str, str]) -> str:
+    """That one of its switches is on; of a function that takes none, one of its effect's."""
     taken = [name for name in effect.switch if name in arguments(function)] or effect.switch
-    slots = parameter_slots(effect)
-    return " or ".join(f"p[{slots[name]}] != 0.0" for name in taken)
+    fields = effect.table.model_fields
+    return " or ".join(f"{array}[{slots[name]}] != {fields[name].default!r}" for name in taken)
+
+
+def _written(effect: Effect, function: Term, bound: Callable[[str], str]) -> str:
+    given = ", ".join(bound(name) for name in arguments(function))
+    return f"{EffectFunctions(effect).name(function)}({given})"
 
 
 def _call(effect: Effect, function: Term, place: Place) -> str:
-    given = ", ".join(bound(effect, function, name, place) for name in arguments(function))
-    return f"{EffectFunctions(effect).name(function)}({given})"
+    return _written(effect, function, lambda name: _in_motion(effect, function, name, place))
+
+
+def _packed_call(effect: Effect, function: Term) -> str:
+    return _written(effect, function, lambda name: _in_packing(effect, function, name))
 
 
 def _terms_at(place: str, effects: Iterable[Effect]) -> list[tuple[Effect, Term]]:
@@ -96,7 +141,7 @@ def _place_function(place: Place, effects: Sequence[Effect]) -> str:
         calls.append([guard(effect, term), _call(effect, term, place)])
         if place.name == "surface_acceleration" and number + 1 < len(terms):
             calls[-1] += _speed_for_the_next(effect, effects)
-    return place_function(place, _signature(place), calls)
+    return _place_text(place, _signature(place), calls)
 
 
 def _speed_for_the_next(effect: Effect, effects: Sequence[Effect]) -> list[str]:
@@ -106,6 +151,24 @@ def _speed_for_the_next(effect: Effect, effects: Sequence[Effect]) -> list[str]:
         if other is effect:
             return [f"        {place.so_far} = {_call(other, term, place)}"]
     return []
+
+
+def _place_text(place: Place, signature: str, calls: Iterable[Sequence[str]]) -> str:
+    """Of a place; calls: condition and call of each term, and lines that follow it."""
+    value = place.so_far or "value"
+    joined = {
+        "add": f"{value} += {{}}",
+        "multiply": f"{value} *= {{}}",
+        "replace": f"{value} = {{}}",
+        "largest": f"{value} = max({value}, {{}})",
+    }[place.joins]
+    lines = [
+        f"def with_{place.name}({signature}) -> float:",
+        f'    """Returns with every effect: {place.meaning}."""',
+    ]
+    for condition, call, *more in calls:
+        lines += [f"    if {condition}:", f"        {joined.format(call)}", *more]
+    return "\n".join([*lines, f"    return {value}"])
 
 
 def _sum(effect: Effect, word: str) -> str:
@@ -132,7 +195,7 @@ def _sum(effect: Effect, word: str) -> str:
 def _sum_call(effect: Effect, word: str, place: Place) -> str:
     member = effect.sums[word]
     names = [name for name in arguments(member) if name not in effect.series]
-    given = ", ".join(["p", *(bound(effect, member, name, place) for name in names)])
+    given = ", ".join(["p", *(_in_motion(effect, member, name, place) for name in names)])
     return f"{effect.id}_{word}({given})"
 
 
@@ -213,3 +276,28 @@ def _asked(begins: str, meaning: str, conditions: list[str]) -> str:
     for condition in dict.fromkeys(conditions):
         lines += [f"    if {condition}:", "        return True"]
     return "\n".join([*lines, "    return False"])
+
+
+def _set_numbers(effects: Sequence[Effect]) -> str:
+    lines = [
+        f"def set_effect_numbers(v: {ARRAY}, d: {ARRAY}, p: {ARRAY}):",
+        '    """Put parameters and derived numbers of the effects where the kernel looks."""',
+    ]
+    for effect in effects:
+        for name, slot in parameter_slots(effect).items():
+            lines.append(f"    p[{slot}] = v[{_values(effect)[name]}]")
+    for effect in effects:
+        for function in effect.derived:
+            slot, size = derived_slots(effect)[function.__name__]
+            if function.__name__ in effect.series:
+                lines.append(f"    for i in range({size}):")
+                lines.append(f"        p[{slot} + i] = {_packed_call(effect, function)}")
+            else:
+                lines.append(f"    p[{slot}] = {_packed_call(effect, function)}")
+    return "\n".join([*lines, "    return"])
+
+
+def _packed_function(place: Place, effects: Sequence[Effect]) -> str:
+    terms = [(e, term) for e in effects for term in packed_terms(e) if term.__name__ == place.name]
+    calls = [(is_on(effect, term), _packed_call(effect, term)) for effect, term in terms]
+    return _place_text(place, f"p: {ARRAY}, v: {ARRAY}, value: float", calls)

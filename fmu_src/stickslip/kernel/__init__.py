@@ -14,10 +14,8 @@ Copying ``z`` saves the run; putting it back continues it bit for bit.
 The files here are the core: motion, contact, integrator. What an effect adds stands in its own file
 (`stickslip.effects`) and is called by way of `terms`, which is made from the effects'
 declarations, as the places in `layout` are. `stickslip.generation.source` joins all to one text, so
-that every file takes all names of `layout`.
+that every file takes all names of `layout`, and all of the files before it that it needs.
 """
-
-from __future__ import annotations
 
 from typing import Protocol
 

@@ -5,38 +5,21 @@ reached by a shorter step from HERE that leaves the grid alone. As long as the i
 change, the trajectory therefore does not depend on when anybody looks at it.
 """
 
-from __future__ import annotations
-
 from math import isfinite
 
-from . import Floats
-from .bristles.law import has_bristles
-from .bristles.step import (
-    choose_bristles,
-    fast_slip_bound,
-    finish_bristle_step,
-    settle_bristles,
-    stable_step,
-)
-from .contact import rest_speed, scaled_sliding_speed
-from .events import (
-    break_away,
-    choose_sliding,
-    keep_direction_steady,
-    look_at,
-    set_direction,
-    settle,
-    time_to_rest,
-)
-from .friction.coefficient import holding_coefficient, is_felt
-from .interpolant import copy_instant, look_inside, set_interpolant
+from .bristles.law import *
+from .bristles.step import *
+from .contact import *
+from .events import *
+from .friction.coefficient import *
+from .interpolant import *
 from .layout import *
-from .motion import block_energy
-from .rig.drive import set_surface_phase
-from .rig.springs import shortest_spring
-from .runge_kutta import begin_step, load_instant, take_step
-from .steady_sliding import direction_is_free
-from .terms import set_starting_states
+from .motion import *
+from .rig.drive import *
+from .rig.springs import *
+from .runge_kutta import *
+from .steady_sliding import *
+from .terms import *
 
 
 def initialise(p: Floats, z: Floats, time: float) -> None:
@@ -85,9 +68,9 @@ def first_step(p: Floats, mode: float) -> float:
 
 def sliding_along(p: Floats, z: Floats, w: Floats, at: int) -> float:
     """Sliding velocity in ``w`` along the direction of an instant, m/s: below 0 if reversed."""
-    along = w[W_SLIDING] * z[at + DIRECTION]
-    along += p[P_LATERAL] * w[W_SLIDING + 1] * z[at + DIRECTION + 1]
-    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * z[at + DIRECTION + 2]
+    along = 0.0
+    for i in range(3):
+        along += w[W_SCALED + i] * z[at + DIRECTION + i]
     return along
 
 
@@ -115,7 +98,7 @@ def try_step(p: Floats, u: Floats, z: Floats, w: Floats, bound: float, grip: flo
             good = h
         elif z[HERE + MODE] == SLIP:
             look_at(p, u, z, w, NEXT)
-            moves = scaled_sliding_speed(p, w) > rest_speed(p, u)
+            moves = scaled_sliding_speed(w) > rest_speed(p, u)
             if sliding_along(p, z, w, HERE) < 0.0 and grip > 0.0 and moves and h > 16.0 * finest:
                 error = 2.0
                 h *= 0.5
@@ -131,7 +114,7 @@ def finish_slip_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> N
 
     Takes the contact at NEXT that `try_step` has left in ``w``.
     """
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     if sliding_along(p, z, w, HERE) < 0.0:
         settle(p, u, z, w, e, NEXT)
     elif z[NEXT + QUASI_STEADY] == 1.0:
@@ -146,10 +129,10 @@ def land(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, rest: float) -> 
     Where what is left of the sliding has turned away from the frozen friction, the landing misses;
     then the block is stopped where it is.
     """
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     take_step(p, u, z, w, HERE, NEXT, rest)
     look_at(p, u, z, w, NEXT)
-    if scaled_sliding_speed(p, w) > 0.1 * speed:
+    if scaled_sliding_speed(w) > 0.1 * speed:
         copy_instant(z, HERE, NEXT)
     settle(p, u, z, w, e, NEXT)
 
@@ -193,7 +176,7 @@ def internal_step(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, cap: fl
             choose_sliding(p, u, z, w)
         rest = time_to_rest(p, u, w)
     to_run_up = p[P_RUN_UP] - z[HERE + TIME]
-    slow = scaled_sliding_speed(p, w) <= rest_speed(p, u)
+    slow = scaled_sliding_speed(w) <= rest_speed(p, u)
     # a landing that takes longer is no landing, and none crosses the end of the speed ramp
     if slow and 0.0 < rest and rest * p[P_RATE] < 1e-3 and not 0.0 < to_run_up < rest:
         land(p, u, z, w, e, rest)
@@ -231,7 +214,7 @@ def has_just_begun(p: Floats, u: Floats, z: Floats, w: Floats) -> bool:
     if z[Z_STATUS] != MODE_CHANGED or z[SHOWN + MODE] != SLIP or has_bristles(p):
         return False
     look_at(p, u, z, w, SHOWN)
-    return scaled_sliding_speed(p, w) <= rest_speed(p, u)
+    return scaled_sliding_speed(w) <= rest_speed(p, u)
 
 
 def take_inputs(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> int:

@@ -1,29 +1,35 @@
 """Does the contact hold? The limit surface in stick, and the way a slip begins."""
 
-from __future__ import annotations
-
 from math import sqrt
 
-from . import Floats
-from .friction.coefficient import holding_coefficient, onset_coefficient
-from .friction.disc import disc_friction
+from .friction.coefficient import *
+from .friction.disc import *
 from .layout import *
-from .rig.drive import input_at, surface_motion
-from .rig.springs import add_damping, add_spring_forces
+from .rig.drive import *
+from .rig.springs import *
 
 
-def set_sliding_velocity(w: Floats, state: int) -> None:
-    """Velocity of the block relative to the surface under its centre, into ``w[W_SLIDING:]``."""
-    w[W_SLIDING] = w[state + VX] - w[W_SURFACE]
-    w[W_SLIDING + 1] = w[state + VY] - w[W_SURFACE + 1]
-    w[W_SLIDING + 2] = w[state + OMEGA] - w[W_SURFACE + 2]
+def set_sliding_velocity(p: Floats, w: Floats, state: int) -> None:
+    """Velocity of the block relative to the surface under its centre, into ``w[W_SLIDING:]``.
+
+    And as the contact feels it, into ``w[W_SCALED:]``.
+    """
+    for i in range(3):
+        w[W_SLIDING + i] = w[state + VX + i] - w[W_SURFACE + i]
+    scale_sliding(p, w)
 
 
-def scaled_sliding_speed(p: Floats, w: Floats) -> float:
-    """Length of the scaled sliding velocity (U_x, kappa U_y, kappa a Omega), m/s."""
-    sx = w[W_SLIDING]
-    sy = p[P_LATERAL] * w[W_SLIDING + 1]
-    sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+def scale_sliding(p: Floats, w: Floats) -> None:
+    """The scaled sliding velocity (U_x, kappa U_y, kappa a Omega), into ``w[W_SCALED:]``."""
+    for i in range(3):
+        w[W_SCALED + i] = p[P_SCALES + i] * w[W_SLIDING + i]
+
+
+def scaled_sliding_speed(w: Floats) -> float:
+    """Length of the scaled sliding velocity, m/s."""
+    sx = w[W_SCALED]
+    sy = w[W_SCALED + 1]
+    sr = w[W_SCALED + 2]
     return sqrt(sx * sx + sy * sy + sr * sr)
 
 
@@ -40,12 +46,11 @@ def set_holding_load(p: Floats, w: Floats) -> None:
     M a_surface - loads, for the directions in which friction acts and the block is free;
     guides carry the rest.
     """
-    w[W_FRICTION] = p[P_MASS] * w[W_SURFACE + 3] - w[W_LOAD]
-    w[W_FRICTION + 1] = 0.0
-    w[W_FRICTION + 2] = 0.0
-    if p[P_LATERAL] > 0.0:
-        w[W_FRICTION + 1] = p[P_FREE_Y] * (p[P_MASS] * w[W_SURFACE + 4] - w[W_LOAD + 1])
-        w[W_FRICTION + 2] = p[P_FREE_PHI] * (p[P_INERTIA] * w[W_SURFACE + 5] - w[W_LOAD + 2])
+    for i in range(3):
+        w[W_FRICTION + i] = 0.0
+        if p[P_SCALES + i] > 0.0:
+            load = p[P_MASS + i] * w[W_SURFACE + 3 + i] - w[W_LOAD + i]
+            w[W_FRICTION + i] = p[P_FREE + i] * load
 
 
 def spin_under_load(force: float, moment: float, w: Floats) -> float:
@@ -251,4 +256,4 @@ def set_contact(p: Floats, u: Floats, w: Floats, state: int) -> None:
     """Loads, surface and sliding velocity at a moment: what every law of the contact needs."""
     set_loads(p, u, w, state)
     surface_motion(p, u, w, state)
-    set_sliding_velocity(w, state)
+    set_sliding_velocity(p, w, state)

@@ -3,34 +3,18 @@
 Both are events, located to rounding. How what slides comes to rest, and what the contact does then.
 """
 
-from __future__ import annotations
-
 from math import log, sqrt
 
-from . import Floats
-from .bristles.law import has_bristles, set_bristle_friction, yielding_share
-from .contact import (
-    holding_ratio,
-    rest_speed,
-    scaled_sliding_speed,
-    set_contact,
-    set_holding_load,
-    set_onset_direction,
-)
-from .friction.coefficient import age_left, holding_coefficient
-from .friction.force import friction_in_slip
+from .bristles.law import *
+from .contact import *
+from .friction.coefficient import *
+from .friction.force import *
 from .layout import *
-from .motion import kinetic_energy
-from .rig.drive import set_surface_phase
-from .runge_kutta import begin_step, follow_surface, load_instant, take_step
-from .steady_sliding import (
-    may_slide_quasi_steadily,
-    set_steady_direction,
-    slides_quasi_steadily,
-    sliding_energy,
-    turn_to_steady_direction,
-)
-from .stick import fastest_presliding, set_stick_velocity
+from .motion import *
+from .rig.drive import *
+from .runge_kutta import *
+from .steady_sliding import *
+from .stick import *
 
 # Of v_s: sliding slower than this is a stick of a contact with bristles.
 STICK_SPEED = 0.1
@@ -63,9 +47,14 @@ def excess_load(p: Floats, u: Floats, z: Floats, w: Floats, instant: int, phase:
     """
     set_contact_in_phase(p, u, z, w, instant, phase)
     set_holding_load(p, w)
+    return judged_ratio(p, u, w) - 1.0
+
+
+def judged_ratio(p: Floats, u: Floats, w: Floats) -> float:
+    """`holding_ratio` of the part of the load in ``w`` that stick is judged by."""
     for i in range(3):
         w[W_FRICTION + i] *= p[P_STICK_RATIO]
-    return holding_ratio(p, u, w) - 1.0
+    return holding_ratio(p, u, w)
 
 
 def stop_sliding(
@@ -100,9 +89,7 @@ def stick_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> fl
     """`excess_load` of a block that were to stick, with the presliding that it would then have."""
     load_instant(p, z, w, instant)
     set_stick_velocity(p, u, w, p[P_PRESLIDING])
-    for i in range(3):
-        w[W_FRICTION + i] *= p[P_STICK_RATIO]
-    return holding_ratio(p, u, w) - 1.0
+    return judged_ratio(p, u, w) - 1.0
 
 
 def come_to_rest(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> float:
@@ -126,10 +113,10 @@ def stopping_time(p: Floats, w: Floats) -> float:
 
     With the slopes of `begin_step` and the contact in ``w``.
     """
-    rate = sliding_rate(p, w, w[W_SLOPES + VX - 1], w[W_SLOPES + VY - 1], w[W_SLOPES + OMEGA - 1])
+    rate = sliding_rate(p, w, W_SLOPES + VX - 1)
     if rate >= 0.0:
         return -1.0
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     return speed * speed / -rate
 
 
@@ -141,7 +128,7 @@ def time_to_rest(p: Floats, u: Floats, w: Floats) -> float:
     friction of a slower slip in ``w``.
     """
     rest = stopping_time(p, w)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     far = rest < 0.0 or rest > p[P_LONGEST_STEP]
     if p[P_LOCAL_LAW] == 0.0 or far or speed <= rest_speed(p, u):
         return rest
@@ -156,33 +143,29 @@ def time_to_rest(p: Floats, u: Floats, w: Floats) -> float:
     return time
 
 
-def sliding_rate(p: Floats, w: Floats, ax: float, ay: float, ar: float) -> float:
-    """Scaled sliding velocity in ``w`` times its rate, m^2/s^3, where the block accelerates so."""
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
-    rate = w[W_SLIDING] * (ax - w[W_SURFACE + 3])
-    rate += kappa * kappa * w[W_SLIDING + 1] * (ay - w[W_SURFACE + 4])
-    rate += arm * arm * w[W_SLIDING + 2] * (ar - w[W_SURFACE + 5])
+def sliding_rate(p: Floats, w: Floats, at: int) -> float:
+    """Scaled sliding velocity in ``w`` times its rate, m^2/s^3, of an acceleration ``w[at:]``."""
+    rate = 0.0
+    for i in range(3):
+        scale = p[P_SCALES + i]
+        rate += scale * scale * w[W_SLIDING + i] * (w[at + i] - w[W_SURFACE + 3 + i])
     return rate
 
 
 def slower_sliding_rate(p: Floats, u: Floats, w: Floats, part: float) -> float:
     """As `sliding_rate`, with the friction of a part of the sliding velocity in ``w``."""
-    kappa = p[P_LATERAL]
-    sy = kappa * w[W_SLIDING + 1]
-    sr = kappa * p[P_RADIUS] * w[W_SLIDING + 2]
-    friction_in_slip(p, u, w, part * w[W_SLIDING], part * sy, part * sr)
-    ax = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
-    ay = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]
-    ar = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
-    return sliding_rate(p, w, ax, ay, ar)
+    sx = w[W_SCALED]
+    friction_in_slip(p, u, w, part * sx, part * w[W_SCALED + 1], part * w[W_SCALED + 2])
+    for i in range(3):
+        force = w[W_LOAD + i] + w[W_FRICTION + i]
+        w[W_RATES + i] = p[P_FREE + i] * force / p[P_MASS + i]
+    return sliding_rate(p, w, W_RATES)
 
 
 def set_direction(p: Floats, z: Floats, w: Floats, instant: int, speed: float) -> None:
     """Remember the direction of sliding, from the sliding velocity in ``w``."""
-    z[instant + DIRECTION] = w[W_SLIDING] / speed
-    z[instant + DIRECTION + 1] = p[P_LATERAL] * w[W_SLIDING + 1] / speed
-    z[instant + DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
+    for i in range(3):
+        z[instant + DIRECTION + i] = w[W_SCALED + i] / speed
 
 
 def note_mode(p: Floats, z: Floats, w: Floats, e: Floats, instant: int) -> None:
@@ -211,7 +194,7 @@ def release(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """
     z[instant + MODE] = SLIP
     z[instant + QUASI_STEADY] = 0.0
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     if speed > rest_speed(p, u):
         set_direction(p, z, w, instant, speed)
     else:
@@ -228,7 +211,7 @@ def settle(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, instant: int) 
     """
     look_at(p, u, z, w, instant)
     before = z[instant + MODE]
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     slow = rest_speed(p, u)
     if before == STICK:
         slow += fastest_presliding(p, u, w)
@@ -252,7 +235,7 @@ def mode_excess(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> flo
     The instant's mode says whether a break-away or a new stick is looked for.
     """
     look_at(p, u, z, w, instant)
-    speed = scaled_sliding_speed(p, w) / p[P_TRANSITION_SPEED]
+    speed = scaled_sliding_speed(w) / p[P_TRANSITION_SPEED]
     if z[instant + MODE] == STICK:
         grown = log(max(speed, 1e-9))  # it grows by e in a time
         if grown < 0.0:
@@ -348,12 +331,10 @@ def turn(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """
     energy = kinetic_energy(p, z, instant)
     turn_to_steady_direction(p, w)
-    z[instant + VX] = w[W_STATE + VX]
-    z[instant + VY] = p[P_FREE_Y] * w[W_STATE + VY]
-    z[instant + OMEGA] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
-    z[instant + WORK_SURFACE] += kinetic_energy(p, z, instant) - energy
     for i in range(3):
+        z[instant + VX + i] = p[P_FREE + i] * w[W_STATE + VX + i]
         z[instant + DIRECTION + i] = w[W_STEADY + i]
+    z[instant + WORK_SURFACE] += kinetic_energy(p, z, instant) - energy
 
 
 def keep_direction_steady(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:

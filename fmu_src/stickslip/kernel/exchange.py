@@ -28,39 +28,19 @@ Inputs may change in events, and between them too: then their rates, and with th
 of the surface, come from their past, see `rig.history`.
 """
 
-from __future__ import annotations
-
-from . import Floats
-from .advance import settle_contact, sliding_along
-from .bristles.law import has_bristles
-from .contact import (
-    holding_ratio,
-    rest_speed,
-    scaled_sliding_speed,
-    set_contact,
-    set_holding_load,
-    speed_scale,
-)
-from .events import (
-    excess_load,
-    look_at,
-    mode_excess,
-    note_mode,
-    release,
-    set_direction,
-    settle,
-    stop_sliding,
-    switch_mode,
-)
-from .friction.coefficient import holding_coefficient
+from .advance import *
+from .bristles.law import *
+from .contact import *
+from .events import *
+from .friction.coefficient import *
 from .layout import *
-from .motion import set_slopes
-from .outputs import show
-from .rig.springs import shortest_spring
-from .runge_kutta import load_instant, state_scale
-from .steady_sliding import LOOK_AHEAD
-from .stick import set_stick_velocity
-from .terms import has_state_law
+from .motion import *
+from .outputs import *
+from .rig.springs import *
+from .runge_kutta import *
+from .steady_sliding import *
+from .stick import *
+from .terms import *
 
 # What a load may lack of the limit, relative to that, for a host's event to be the break-away.
 AT_THE_LIMIT = 1e-9
@@ -134,21 +114,17 @@ def set_rates_in_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     along = sliding_along(p, z, w, SHOWN)
     if along < 0.0:
         back = 2.0 * along
-        w[W_STATE + VX] -= back * z[SHOWN + DIRECTION]
-        if p[P_LATERAL] > 0.0:
-            w[W_STATE + VY] -= back * z[SHOWN + DIRECTION + 1] / p[P_LATERAL]
-            arm = p[P_LATERAL] * p[P_RADIUS]
-            w[W_STATE + OMEGA] -= back * z[SHOWN + DIRECTION + 2] / arm
+        for i in range(3):
+            if p[P_SCALES + i] > 0.0:
+                w[W_STATE + VX + i] -= back * z[SHOWN + DIRECTION + i] / p[P_SCALES + i]
     elif z[Z_SLIDING] == SLIDING_GOES_ON:
-        speed = scaled_sliding_speed(p, w)
+        speed = scaled_sliding_speed(w)
         if speed > 0.0:
-            w[W_DIRECTION] = w[W_SLIDING] / speed
-            w[W_DIRECTION + 1] = p[P_LATERAL] * w[W_SLIDING + 1] / speed
-            w[W_DIRECTION + 2] = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] / speed
+            for i in range(3):
+                w[W_DIRECTION + i] = w[W_SCALED + i] / speed
     set_slopes(p, u, w, SLIP, W_SLOPES)
-    w[W_SLOPES + X - 1] = z[SHOWN + VX]
-    w[W_SLOPES + Y - 1] = p[P_FREE_Y] * z[SHOWN + VY]
-    w[W_SLOPES + PHI - 1] = p[P_FREE_PHI] * z[SHOWN + OMEGA]
+    for i in range(3):
+        w[W_SLOPES + X - 1 + i] = p[P_FREE + i] * z[SHOWN + VX + i]
 
 
 def set_presliding_velocity(p: Floats, u: Floats, z: Floats, w: Floats, ahead: float) -> None:
@@ -168,26 +144,21 @@ def keep_to_velocity(p: Floats, z: Floats, w: Floats) -> None:
     surface. What that leaves a state behind goes at the motion's own rate. What the rates make of
     the kinetic energy is the surface's work, see `stick.held_energy`: the ledger is closed.
     """
-    held = 1
-    if p[P_LATERAL] > 0.0:
-        held = 3
-    for i in range(held):
-        inertia = p[P_MASS]
-        if VX + i == OMEGA:
-            inertia = p[P_INERTIA]
-        behind = w[W_STATE + VX + i] - z[SHOWN + VX + i]
-        rate = w[W_SLOPES + VX - 1 + i] + p[P_RATE] * behind
-        w[W_SLOPES + VX - 1 + i] = rate
-        w[W_SLOPES + WORK_SURFACE - 1] += inertia * z[SHOWN + VX + i] * rate
+    for i in range(3):
+        if p[P_SCALES + i] > 0.0:
+            behind = w[W_STATE + VX + i] - z[SHOWN + VX + i]
+            rate = w[W_SLOPES + VX - 1 + i] + p[P_RATE] * behind
+            w[W_SLOPES + VX - 1 + i] = rate
+            w[W_SLOPES + WORK_SURFACE - 1] += p[P_MASS + i] * z[SHOWN + VX + i] * rate
 
 
 def set_rates_in_stick(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     """Slopes of a stick without presliding, into ``w[W_SLOPES:]``."""
     set_slopes(p, u, w, STICK, W_SLOPES)
-    work = w[W_SURFACE + 3] * w[W_SURFACE] * p[P_MASS]
-    if p[P_LATERAL] > 0.0:
-        work += p[P_FREE_Y] * w[W_SURFACE + 4] * w[W_SURFACE + 1] * p[P_MASS]
-        work += p[P_FREE_PHI] * w[W_SURFACE + 5] * w[W_SURFACE + 2] * p[P_INERTIA]
+    work = 0.0
+    for i in range(3):
+        if p[P_SCALES + i] > 0.0:
+            work += p[P_FREE + i] * w[W_SURFACE + 3 + i] * w[W_SURFACE + i] * p[P_MASS + i]
     w[W_SLOPES + WORK_SURFACE - 1] -= work
     keep_to_velocity(p, z, w)
 
@@ -200,16 +171,13 @@ def set_rates_in_presliding(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     load_moment(p, z, w)
     set_slopes(p, u, w, STICK, W_SLOPES)
     ahead = LOOK_AHEAD / p[P_RATE]
-    held = 1
-    if p[P_LATERAL] > 0.0:
-        held = 3
     set_presliding_velocity(p, u, z, w, ahead)
-    for i in range(held):
-        w[W_SLOPES + VX - 1 + i] = w[W_STATE + VX + i]
+    for i in range(3):
+        w[W_RATES + i] = w[W_STATE + VX + i]
     set_presliding_velocity(p, u, z, w, -ahead)
-    for i in range(held):
-        rate = (w[W_SLOPES + VX - 1 + i] - w[W_STATE + VX + i]) / (2.0 * ahead)
-        w[W_SLOPES + VX - 1 + i] = rate
+    for i in range(3):
+        if p[P_SCALES + i] > 0.0:
+            w[W_SLOPES + VX - 1 + i] = (w[W_RATES + i] - w[W_STATE + VX + i]) / (2.0 * ahead)
     set_presliding_velocity(p, u, z, w, 0.0)
     keep_to_velocity(p, z, w)
 
@@ -241,9 +209,7 @@ def stick_reserve(p: Floats, u: Floats, z: Floats, w: Floats) -> float:
     if p[P_PRESLIDING] == 0.0:
         set_contact(p, u, w, W_STATE)
         set_holding_load(p, w)
-    for i in range(3):
-        w[W_FRICTION + i] *= p[P_STICK_RATIO]
-    return 1.0 - holding_ratio(p, u, w)
+    return 1.0 - judged_ratio(p, u, w)
 
 
 def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats) -> None:
@@ -262,7 +228,7 @@ def set_indicators(p: Floats, u: Floats, z: Floats, w: Floats, g: Floats) -> Non
     load_moment(p, z, w)
     set_contact(p, u, w, W_STATE)
     slow = slowest_slip(p, u)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     g[0] = sliding_along(p, z, w, SHOWN)
     if z[Z_SLIDING] == SLIDING_BEGINS:
         g[0] += TURNED_BACK * slow
@@ -300,7 +266,7 @@ def settle_sliding(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     if z[SHOWN + MODE] == STICK:
         return
     look_at(p, u, z, w, SHOWN)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     if speed > slowest_slip(p, u):
         slide_on(p, u, z, speed)
     if speed > 0.0 and sliding_along(p, z, w, SHOWN) < 0.0:  # nothing has stopped it: no friction
@@ -334,7 +300,7 @@ def end_part_of_slip(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats) -> N
     """
     look_at(p, u, z, w, SHOWN)
     slow = slowest_slip(p, u)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     along = sliding_along(p, z, w, SHOWN)
     grip = holding_coefficient(p, u, w)  # without it nothing comes to rest
     if along < -REVERSED * speed and grip > 0.0:
@@ -389,7 +355,7 @@ def complete_step(p: Floats, u: Floats, z: Floats, w: Floats) -> int:
     """
     if z[SHOWN + MODE] == SLIP and z[Z_SLIDING] == SLIDING_GOES_ON and not has_bristles(p):
         look_at(p, u, z, w, SHOWN)
-        speed = scaled_sliding_speed(p, w)
+        speed = scaled_sliding_speed(w)
         if sliding_along(p, z, w, SHOWN) > 0.0 and speed > slowest_slip(p, u):
             set_direction(p, z, w, SHOWN, speed)
             if z[Z_FASTER] == 0.0 or z[Z_FASTER] > FASTER * speed:

@@ -11,14 +11,11 @@ the equations of motion. Where it does not, in the first instants of a slip that
 an instant is reached by steps of the integrator that leave its own grid alone.
 """
 
-from __future__ import annotations
-
 from math import isfinite
 
-from . import Floats
-from .bristles.law import has_bristles
+from .bristles.law import *
 from .layout import *
-from .runge_kutta import add_stage, begin_step, finish_stick, load_instant, state_scale, take_step
+from .runge_kutta import *
 
 
 def copy_instant(z: Floats, source: int, target: int) -> None:

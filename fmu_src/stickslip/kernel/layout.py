@@ -3,6 +3,7 @@
 Counted from `tables`; ``layout.pyi`` tells the names to who checks types, see `generation.stubs`.
 """
 
+from . import Floats as Floats
 from .tables import constants
 
 globals().update(constants())

@@ -1,4 +1,6 @@
 # made by stickslip.generation.stubs
+from . import Floats as Floats
+
 GRAVITY: float
 STICK: int
 SLIP: int
@@ -105,8 +107,10 @@ P_MASS: int
 P_INERTIA: int
 P_NORMAL_FORCE: int
 P_RADIUS: int
+P_FREE: int
 P_FREE_Y: int
 P_FREE_PHI: int
+P_SCALES: int
 P_STIFFNESS: int
 P_NATURAL_LENGTH: int
 P_ATTACH: int
@@ -392,15 +396,25 @@ W_STATE: int
 W_SLOPES: int
 W_LOAD: int
 W_SLIDING: int
+W_SCALED: int
 W_FRICTION: int
 W_MEAN_SPEED: int
 W_SURFACE: int
 W_PAIR: int
 W_DIRECTION: int
 W_STEADY: int
+W_TURNING: int
+W_HELD: int
+W_BEFORE: int
+W_STORED: int
+W_PLACE: int
+W_RATES: int
 W_RUNNING_UP: int
 W_SPAN: int
 W_EXCESS: int
+W_KINETIC: int
+W_AGED: int
+W_WHOLE: int
 W_SHEARING: int
 W_YIELD_RATE: int
 W_SIZE: int

@@ -1,17 +1,14 @@
 """Equations of motion: slopes of the integrated state in stick and in slip."""
 
-from __future__ import annotations
-
-from . import Floats
-from .bristles.law import bristle_energy, has_bristles, set_bristle_friction, storing_power
-from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load
-from .friction.force import friction_at_onset, friction_in_slip
+from .bristles.law import *
+from .contact import *
+from .friction.force import *
 from .layout import *
-from .rig.drive import input_at, surface_speed
-from .rig.springs import damping_power, elastic_energy
-from .steady_sliding import set_quasi_steady_motion
-from .stick import set_presliding
-from .terms import set_state_rates
+from .rig.drive import *
+from .rig.springs import *
+from .steady_sliding import *
+from .stick import *
+from .terms import *
 
 
 def set_slip_friction(p: Floats, u: Floats, w: Floats) -> None:
@@ -20,13 +17,10 @@ def set_slip_friction(p: Floats, u: Floats, w: Floats) -> None:
     Where the sliding velocity is too small to have a direction, at the first instant of a slip,
     the direction is the one of `set_onset_direction`.
     """
-    if scaled_sliding_speed(p, w) > rest_speed(p, u):
-        sx = w[W_SLIDING]
-        sy = p[P_LATERAL] * w[W_SLIDING + 1]
-        sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
-        friction_in_slip(p, u, w, sx, sy, sr)
+    speed = scaled_sliding_speed(w)
+    if speed > rest_speed(p, u):
+        friction_in_slip(p, u, w, w[W_SCALED], w[W_SCALED + 1], w[W_SCALED + 2])
     else:
-        speed = scaled_sliding_speed(p, w)
         friction_at_onset(p, u, w, w[W_DIRECTION], w[W_DIRECTION + 1], w[W_DIRECTION + 2], speed)
         w[W_MEAN_SPEED] = speed
 
@@ -59,10 +53,7 @@ def set_motion(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> float:
     else:
         set_holding_load(p, w)
         w[W_MEAN_SPEED] = 0.0
-        w[W_STATE + VX] = w[W_SURFACE]
-        if p[P_LATERAL] > 0.0:
-            w[W_STATE + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
-            w[W_STATE + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
+        ride_surface(p, w)
     set_rates(p, w, out)
     return 0.0
 
@@ -70,16 +61,15 @@ def set_motion(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> float:
 def set_rates(p: Floats, w: Floats, out: int) -> None:
     """Rates of x, y, phi and of their velocities, into ``w[out:]``, from loads and friction."""
     set_rates_of_place(p, w, out)
-    w[out + VX - 1] = (w[W_LOAD] + w[W_FRICTION]) / p[P_MASS]
-    w[out + VY - 1] = p[P_FREE_Y] * (w[W_LOAD + 1] + w[W_FRICTION + 1]) / p[P_MASS]
-    w[out + OMEGA - 1] = p[P_FREE_PHI] * (w[W_LOAD + 2] + w[W_FRICTION + 2]) / p[P_INERTIA]
+    for i in range(3):
+        force = w[W_LOAD + i] + w[W_FRICTION + i]
+        w[out + VX - 1 + i] = p[P_FREE + i] * force / p[P_MASS + i]
 
 
 def set_rates_of_place(p: Floats, w: Floats, out: int) -> None:
     """Rates of x, y, phi, into ``w[out:]``: the velocities, where the block is free."""
-    w[out + X - 1] = w[W_STATE + VX]
-    w[out + Y - 1] = p[P_FREE_Y] * w[W_STATE + VY]
-    w[out + PHI - 1] = p[P_FREE_PHI] * w[W_STATE + OMEGA]
+    for i in range(3):
+        w[out + X - 1 + i] = p[P_FREE + i] * w[W_STATE + VX + i]
 
 
 def set_slopes(p: Floats, u: Floats, w: Floats, mode: float, out: int) -> None:

@@ -5,17 +5,14 @@ be seen of a block - the heat and the age of its contact, the distance slid, the
 surface - goes on from the model's own past.
 """
 
-from __future__ import annotations
-
 from math import isfinite
 
-from . import Floats
-from .advance import advance
-from .events import look_at
+from .advance import *
+from .events import *
 from .layout import *
-from .motion import block_energy
-from .rig.drive import surface_speed
-from .runge_kutta import begin_step, follow_surface
+from .motion import *
+from .rig.drive import *
+from .runge_kutta import *
 
 
 def energy_residual(p: Floats, z: Floats) -> float:

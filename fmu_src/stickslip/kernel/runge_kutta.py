@@ -1,17 +1,14 @@
 """One explicit Runge-Kutta step with an error estimate (tableau: ``dormand_prince.toml``)."""
 
-from __future__ import annotations
-
 from math import sqrt
 
-from . import Floats
-from .bristles.law import has_bristles
-from .contact import speed_scale
+from .bristles.law import *
+from .contact import *
 from .layout import *
-from .motion import set_slopes
-from .rig.drive import set_surface_phase
-from .stick import held_energy, set_stick_velocity
-from .terms import with_state_scale
+from .motion import *
+from .rig.drive import *
+from .stick import *
+from .terms import *
 
 
 def load_instant(p: Floats, z: Floats, w: Floats, instant: int) -> None:
@@ -123,10 +120,9 @@ def follow_surface(
     for i in range(INSTANT):
         w[W_STATE + i] = z[instant + i]
     set_stick_velocity(p, u, w, presliding)
-    z[instant + VX] = w[W_STATE + VX]
-    if p[P_LATERAL] > 0.0:
-        z[instant + VY] = w[W_STATE + VY]
-        z[instant + OMEGA] = w[W_STATE + OMEGA]
+    for i in range(3):
+        if p[P_SCALES + i] > 0.0:
+            z[instant + VX + i] = w[W_STATE + VX + i]
 
 
 def finish_stick(p: Floats, u: Floats, z: Floats, w: Floats, start: int, end: int) -> None:

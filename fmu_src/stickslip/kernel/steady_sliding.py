@@ -17,22 +17,12 @@ direction of the stored velocity stays that of the step's beginning and is turne
 at the same sigma.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
-from . import Floats
-from .contact import (
-    rest_speed,
-    scaled_sliding_speed,
-    set_contact,
-    set_holding_load,
-    set_yielding_motion,
-    speed_scale,
-)
-from .friction.coefficient import feels_slow_speed, onset_coefficient, slow_coefficient
-from .friction.disc import disc_friction
-from .friction.force import friction_at_onset, friction_in_slip
+from .contact import *
+from .friction.coefficient import *
+from .friction.disc import *
+from .friction.force import *
 from .layout import *
 
 # Of the motion's own speed; above it an explicit step is long enough to follow the turning.
@@ -70,46 +60,33 @@ def mean_part(w: Floats) -> float:
     return w[W_PAIR] * sliding + w[W_PAIR + 1] * spinning
 
 
-def solve_direction(
-    p: Floats, u: Floats, w: Floats, speed: float, qx: float, qy: float, qr: float
-) -> float:
+def solve_direction(p: Floats, u: Floats, w: Floats, speed: float) -> float:
     """Direction n under the loads in ``w``, into ``w[W_STEADY:]``; returns a, m/s^2.
 
-    ``speed`` is the mean local sliding speed, (qx, qy, qr) is s n', in the velocities of the
+    ``speed`` is the mean local sliding speed, ``w[W_TURNING:]`` is s n', in the velocities of the
     block. The search ends where a comes to a tenth of
     what friction gives: that is not quasi-steady.
     """
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
-    m = p[P_MASS]
-    j = p[P_INERTIA]
     set_holding_load(p, w)
-    hx = w[W_FRICTION] + m * qx
-    hy = w[W_FRICTION + 1] + p[P_FREE_Y] * m * qy
-    hr = w[W_FRICTION + 2] + p[P_FREE_PHI] * j * qr
-    ex = w[W_DIRECTION]
-    ey = w[W_DIRECTION + 1]
-    er = w[W_DIRECTION + 2]
+    for i in range(3):
+        w[W_HELD + i] = w[W_FRICTION + i] + p[P_FREE + i] * p[P_MASS + i] * w[W_TURNING + i]
+        w[W_BEFORE + i] = w[W_DIRECTION + i]
     limit = slow_coefficient(p, u, w, speed) * p[P_NORMAL_FORCE]
     a = 0.0
-    more = limit / m
+    more = limit / p[P_MASS]
     sweep = 0
-    while abs(more) > 1e-12 * limit / m and abs(a) < 0.1 * limit / m and sweep < 20:
-        w[W_FRICTION] = hx
-        w[W_FRICTION + 1] = hy
-        w[W_FRICTION + 2] = hr
-        if sweep > 0:
-            w[W_FRICTION] += a * m * w[W_DIRECTION]
-            w[W_FRICTION + 1] += a * p[P_FREE_Y] * m * w[W_DIRECTION + 1] / kappa
-            w[W_FRICTION + 2] += a * p[P_FREE_PHI] * j * w[W_DIRECTION + 2] / arm
+    while abs(more) > 1e-12 * limit / p[P_MASS] and abs(a) < 0.1 * limit / p[P_MASS] and sweep < 20:
+        for i in range(3):
+            w[W_FRICTION + i] = w[W_HELD + i]
+            if sweep > 0:
+                turned = a * p[P_FREE + i] * p[P_MASS + i] * w[W_DIRECTION + i]
+                w[W_FRICTION + i] += turned / p[P_SCALES + i]
         more = set_yielding_motion(p, limit, w)
         a += more
         sweep += 1
     for i in range(3):
         w[W_STEADY + i] = w[W_DIRECTION + i]
-    w[W_DIRECTION] = ex
-    w[W_DIRECTION + 1] = ey
-    w[W_DIRECTION + 2] = er
+        w[W_DIRECTION + i] = w[W_BEFORE + i]
     return a
 
 
@@ -118,39 +95,33 @@ def set_steady_direction(p: Floats, u: Floats, w: Floats, sigma: float) -> float
 
     n goes into ``w[W_STEADY:]``.
     """
-    a = solve_direction(p, u, w, 0.0, 0.0, 0.0, 0.0)
+    for i in range(3):
+        w[W_TURNING + i] = 0.0
+    a = solve_direction(p, u, w, 0.0)
     speed = sigma / sqrt(sliding_inertia(p, w, W_STEADY))
     if speed <= 0.0:
         return a
     mean = 0.0
     if feels_slow_speed(p):  # what the contact holds is known once its speed is
         mean = speed * mean_part(w)
-        a = solve_direction(p, u, w, mean, 0.0, 0.0, 0.0)
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
+        a = solve_direction(p, u, w, mean)
     ahead = LOOK_AHEAD / p[P_RATE]
-    nx = w[W_STEADY]
-    ny = w[W_STEADY + 1]
-    nr = w[W_STEADY + 2]
-    time = w[W_STATE + TIME]
-    x = w[W_STATE + X]
-    y = w[W_STATE + Y]
-    phi = w[W_STATE + PHI]
-    w[W_STATE + TIME] = time + ahead
-    w[W_STATE + X] = x + ahead * (w[W_SURFACE] + speed * nx)
-    w[W_STATE + Y] = y + ahead * p[P_FREE_Y] * (w[W_SURFACE + 1] + speed * ny / kappa)
-    w[W_STATE + PHI] = phi + ahead * p[P_FREE_PHI] * (w[W_SURFACE + 2] + speed * nr / arm)
+    for i in range(4):
+        w[W_PLACE + i] = w[W_STATE + TIME + i]
+    w[W_STATE + TIME] += ahead
+    for i in range(3):
+        w[W_RATES + i] = w[W_STEADY + i]
+        velocity = w[W_SURFACE + i] + speed * w[W_STEADY + i] / p[P_SCALES + i]
+        w[W_STATE + X + i] += ahead * p[P_FREE + i] * velocity
     set_contact(p, u, w, W_STATE)
-    solve_direction(p, u, w, mean, 0.0, 0.0, 0.0)
-    qx = speed * (w[W_STEADY] - nx) / ahead
-    qy = speed * (w[W_STEADY + 1] - ny) / (kappa * ahead)
-    qr = speed * (w[W_STEADY + 2] - nr) / (arm * ahead)
-    w[W_STATE + TIME] = time
-    w[W_STATE + X] = x
-    w[W_STATE + Y] = y
-    w[W_STATE + PHI] = phi
+    solve_direction(p, u, w, mean)
+    for i in range(3):
+        change = speed * (w[W_STEADY + i] - w[W_RATES + i])
+        w[W_TURNING + i] = change / (p[P_SCALES + i] * ahead)
+    for i in range(4):
+        w[W_STATE + TIME + i] = w[W_PLACE + i]
     set_contact(p, u, w, W_STATE)
-    return solve_direction(p, u, w, mean, qx, qy, qr)
+    return solve_direction(p, u, w, mean)
 
 
 def sliding_energy(p: Floats, w: Floats) -> float:
@@ -168,46 +139,40 @@ def set_quasi_steady_motion(p: Floats, u: Floats, w: Floats, out: int) -> float:
     sliding into ``w``. Returns what the surface's power differs by from friction times velocity, W:
     the stored velocity keeps its direction, and the surface's work is that on its momentum.
     """
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
-    m = p[P_MASS]
-    j = p[P_INERTIA]
-    ex = w[W_DIRECTION]
-    ey = w[W_DIRECTION + 1] / kappa
-    er = w[W_DIRECTION + 2] / arm
     root = sqrt(sliding_inertia(p, w, W_DIRECTION))
-    ux = w[W_SLIDING]
-    uy = w[W_SLIDING + 1]
-    ur = w[W_SLIDING + 2]
-    sigma = (m * (ux * ex + uy * ey) + j * ur * er) / root
+    ey = w[W_DIRECTION + 1] / p[P_SCALES + 1]
+    er = w[W_DIRECTION + 2] / p[P_SCALES + 2]
+    along = p[P_MASS] * (w[W_SLIDING] * w[W_DIRECTION] + w[W_SLIDING + 1] * ey)
+    sigma = (along + p[P_INERTIA] * w[W_SLIDING + 2] * er) / root
+    for i in range(3):
+        w[W_STORED + i] = w[W_SLIDING + i]
     set_steady_direction(p, u, w, sigma)
-    nx = w[W_STEADY]
-    ny = w[W_STEADY + 1] / kappa
-    nr = w[W_STEADY + 2] / arm
     root_n = sqrt(sliding_inertia(p, w, W_STEADY))
     speed = sigma / root_n
-    w[W_STATE + VX] = w[W_SURFACE] + speed * nx
-    w[W_STATE + VY] = w[W_SURFACE + 1] + speed * ny
-    w[W_STATE + OMEGA] = w[W_SURFACE + 2] + speed * nr
+    for i in range(3):
+        sliding = speed * (w[W_STEADY + i] / p[P_SCALES + i])
+        w[W_STATE + VX + i] = w[W_SURFACE + i] + sliding
     set_contact(p, u, w, W_STATE)
     if speed > 0.0:
-        sy = speed * w[W_STEADY + 1]
-        friction_in_slip(p, u, w, speed * nx, sy, speed * w[W_STEADY + 2])
+        sx = speed * w[W_STEADY]
+        friction_in_slip(p, u, w, sx, speed * w[W_STEADY + 1], speed * w[W_STEADY + 2])
     else:
-        friction_at_onset(p, u, w, nx, w[W_STEADY + 1], w[W_STEADY + 2], 0.0)
+        friction_at_onset(p, u, w, w[W_STEADY], w[W_STEADY + 1], w[W_STEADY + 2], 0.0)
         w[W_MEAN_SPEED] = 0.0
-    fx = w[W_LOAD] + w[W_FRICTION] - m * w[W_SURFACE + 3]
-    fy = w[W_LOAD + 1] + w[W_FRICTION + 1] - m * w[W_SURFACE + 4]
-    fr = w[W_LOAD + 2] + w[W_FRICTION + 2] - j * w[W_SURFACE + 5]
-    rate = (nx * fx + ny * fy + nr * fr) / (root_n * root)
-    w[out + VX - 1] = w[W_SURFACE + 3] + rate * ex
-    w[out + VY - 1] = p[P_FREE_Y] * (w[W_SURFACE + 4] + rate * ey)
-    w[out + OMEGA - 1] = p[P_FREE_PHI] * (w[W_SURFACE + 5] + rate * er)
-    power = w[W_SURFACE] * (m * rate * ex - fx) + w[W_SURFACE + 1] * (m * rate * ey - fy)
-    power += w[W_SURFACE + 2] * (j * rate * er - fr)
-    power += m * w[W_SURFACE + 3] * (ux - w[W_SLIDING])
-    power += m * w[W_SURFACE + 4] * (uy - w[W_SLIDING + 1])
-    power += j * w[W_SURFACE + 5] * (ur - w[W_SLIDING + 2])
+    rate = 0.0
+    for i in range(3):
+        carried = p[P_MASS + i] * w[W_SURFACE + 3 + i]
+        w[W_HELD + i] = w[W_LOAD + i] + w[W_FRICTION + i] - carried
+        rate += w[W_STEADY + i] / p[P_SCALES + i] * w[W_HELD + i]
+    rate /= root_n * root
+    power = 0.0
+    for i in range(3):
+        e = w[W_DIRECTION + i] / p[P_SCALES + i]
+        w[out + VX - 1 + i] = p[P_FREE + i] * (w[W_SURFACE + 3 + i] + rate * e)
+        power += w[W_SURFACE + i] * (p[P_MASS + i] * rate * e - w[W_HELD + i])
+    for i in range(3):
+        slower = w[W_STORED + i] - w[W_SLIDING + i]
+        power += p[P_MASS + i] * w[W_SURFACE + 3 + i] * slower
     return power
 
 
@@ -217,7 +182,7 @@ def slides_quasi_steadily(p: Floats, u: Floats, w: Floats, before: float) -> boo
     ``before`` is 1 where it has done so; then it may be twice as fast, so that it does not
     change back and forth. Leaves the direction in ``w[W_STEADY:]``.
     """
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     if speed > (1.0 + before) * QUASI_STEADY_SPEED * speed_scale(p, u):
         return False
     a = set_steady_direction(p, u, w, sqrt(sliding_energy(p, w)))
@@ -226,8 +191,9 @@ def slides_quasi_steadily(p: Floats, u: Floats, w: Floats, before: float) -> boo
         return False
     if before == 1.0 or speed <= rest_speed(p, u):
         return True
-    along = w[W_SLIDING] * w[W_STEADY] + p[P_LATERAL] * w[W_SLIDING + 1] * w[W_STEADY + 1]
-    along += p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2] * w[W_STEADY + 2]
+    along = 0.0
+    for i in range(3):
+        along += w[W_SCALED + i] * w[W_STEADY + i]
     return along > 0.999 * speed
 
 
@@ -236,30 +202,23 @@ def may_slide_quasi_steadily(p: Floats, u: Floats, w: Floats) -> bool:
 
     A cheap look that spares ordinary slips the search for the direction.
     """
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
-    dx = w[W_DIRECTION]
-    dy = w[W_DIRECTION + 1]
-    dr = w[W_DIRECTION + 2]
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     if speed > QUASI_STEADY_SPEED * speed_scale(p, u):
         return False
-    if speed > rest_speed(p, u):
-        dx = w[W_SLIDING] / speed
-        dy = kappa * w[W_SLIDING + 1] / speed
-        dr = arm * w[W_SLIDING + 2] / speed
-    rate = dx * (w[W_SLOPES + VX - 1] - w[W_SURFACE + 3])
-    rate += dy * kappa * (w[W_SLOPES + VY - 1] - w[W_SURFACE + 4])
-    rate += dr * arm * (w[W_SLOPES + OMEGA - 1] - w[W_SURFACE + 5])
+    moves = speed > rest_speed(p, u)
+    rate = 0.0
+    for i in range(3):
+        along = w[W_DIRECTION + i]
+        if moves:
+            along = w[W_SCALED + i] / speed
+        rate += along * p[P_SCALES + i] * (w[W_SLOPES + VX - 1 + i] - w[W_SURFACE + 3 + i])
     limit = onset_coefficient(p, u, w) * p[P_NORMAL_FORCE]
     return abs(rate) < 10.0 * QUASI_STEADY_ACCELERATION * limit / p[P_MASS]
 
 
 def turn_to_steady_direction(p: Floats, w: Floats) -> None:
     """Turn the velocities in ``w[W_STATE:]`` to ``w[W_STEADY:]``, at the same energy of sliding."""
-    kappa = p[P_LATERAL]
     speed = sqrt(sliding_energy(p, w) / sliding_inertia(p, w, W_STEADY))
-    w[W_STATE + VX] = w[W_SURFACE] + speed * w[W_STEADY]
-    w[W_STATE + VY] = w[W_SURFACE + 1] + speed * w[W_STEADY + 1] / kappa
-    turning = speed * w[W_STEADY + 2] / (kappa * p[P_RADIUS])
-    w[W_STATE + OMEGA] = w[W_SURFACE + 2] + turning
+    for i in range(3):
+        sliding = speed * w[W_STEADY + i] / p[P_SCALES + i]
+        w[W_STATE + VX + i] = w[W_SURFACE + i] + sliding

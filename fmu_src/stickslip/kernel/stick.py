@@ -17,21 +17,25 @@ would lag behind this by v_c / (mu_s g), and be stiff. What the block's momentum
 surface's work, see `held_energy`. (Quasi-steady sliding, see `steady_sliding`, is a slip.)
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
-from . import Floats
-from .contact import set_contact, set_holding_load, set_sliding_velocity
-from .friction.coefficient import holding_coefficient
-from .friction.disc import disc_friction
+from .contact import *
+from .friction.coefficient import *
+from .friction.disc import *
 from .layout import *
-from .rig.drive import surface_motion
-from .rig.springs import damping_per_speed
+from .rig.drive import *
+from .rig.springs import *
 
 # Each multiplies what the presliding velocity is off by by the presliding speed per load times the
 # damping per speed: hundredths where a contact sticks.
 QUADRATIC_SWEEPS = 8
+
+
+def ride_surface(p: Floats, w: Floats) -> None:
+    """Give ``w[W_STATE:]`` the surface's velocity where friction acts, and guides let it."""
+    for i in range(3):
+        if p[P_SCALES + i] > 0.0:
+            w[W_STATE + VX + i] = p[P_FREE + i] * w[W_SURFACE + i]
 
 
 def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float) -> None:
@@ -42,14 +46,11 @@ def set_stick_velocity(p: Floats, u: Floats, w: Floats, presliding: float) -> No
     and what guides keep from following.
     """
     surface_motion(p, u, w, W_STATE)
-    w[W_STATE + VX] = w[W_SURFACE]
-    if p[P_LATERAL] > 0.0:
-        w[W_STATE + VY] = p[P_FREE_Y] * w[W_SURFACE + 1]
-        w[W_STATE + OMEGA] = p[P_FREE_PHI] * w[W_SURFACE + 2]
+    ride_surface(p, w)
     if presliding != 0.0:
         add_presliding(p, u, w, presliding)
     else:
-        set_sliding_velocity(w, W_STATE)
+        set_sliding_velocity(p, w, W_STATE)
 
 
 def add_presliding(p: Floats, u: Floats, w: Floats, c: float) -> None:
@@ -95,7 +96,7 @@ def add_presliding(p: Floats, u: Floats, w: Floats, c: float) -> None:
     w[W_LOAD + 2] -= p[P_DAMPING_ROTATION] * ur
     if p[P_CURVATURE] != 0.0:
         surface_motion(p, u, w, W_STATE)
-    set_sliding_velocity(w, W_STATE)
+    set_sliding_velocity(p, w, W_STATE)
     set_holding_load(p, w)
 
 
@@ -111,8 +112,8 @@ def set_presliding(p: Floats, u: Floats, w: Floats) -> float:
     power = -p[P_MASS] * w[W_SURFACE + 3] * w[W_STATE + VX]
     kappa = p[P_LATERAL]
     if kappa > 0.0:
-        uy = kappa * w[W_SLIDING + 1]
-        spinning = abs(kappa * p[P_RADIUS] * w[W_SLIDING + 2])
+        uy = w[W_SCALED + 1]
+        spinning = abs(w[W_SCALED + 2])
         sliding = sqrt(ux * ux + uy * uy)
         disc_friction(sliding, spinning, w)
         w[W_MEAN_SPEED] = w[W_PAIR] * sliding + w[W_PAIR + 1] * spinning

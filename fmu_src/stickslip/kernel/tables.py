@@ -28,8 +28,6 @@ Nobody numbers by hand: the lists below name what stands in each array and how m
 the effects' declarations name theirs, and `constants` counts.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from math import cos, pi, sin, sqrt
@@ -160,12 +158,14 @@ GIVEN = (
 
 # --- p: parameters; those of the effects follow -----------------------------------------------
 PARAMETERS = (
-    ("P_MASS", 1),
+    ("P_MASS", 2),  # against motion along x and along y; with the inertia three in a row
     ("P_INERTIA", 1),
     ("P_NORMAL_FORCE", 1),
     ("P_RADIUS", 1),  # contact radius, m
-    ("P_FREE_Y", 1),  # 1 free, 0 guided
+    ("P_FREE", 1),  # of x, y and phi in a row: 1 free, 0 guided
+    ("P_FREE_Y", 1),
     ("P_FREE_PHI", 1),
+    ("P_SCALES", 3),  # of a sliding velocity x, y, phi as the contact feels it: 1, kappa, kappa a
     ("P_STIFFNESS", 1),  # one spring, N/m
     ("P_NATURAL_LENGTH", 1),
     ("P_ATTACH", 8),  # x, y of each attachment in the block's frame
@@ -294,15 +294,25 @@ def scratch(size: int, states: int) -> Slots:
         ("W_SLOPES", ALL_STAGES * states),  # ALL_STAGES rows of slopes
         ("W_LOAD", 3),  # springs, damping and external loads on the block: x, y, phi
         ("W_SLIDING", 3),  # velocity of the block relative to the surface: x, y, phi
+        ("W_SCALED", 3),  # the same as the contact feels it: U_x, kappa U_y, kappa a Omega, m/s
         ("W_FRICTION", 3),  # friction on the block: x, y, phi
         ("W_MEAN_SPEED", 1),  # local sliding speed, mean over the contact, m/s
         ("W_SURFACE", 6),  # velocity and acceleration of the surface under the block
         ("W_PAIR", 2),  # return values of functions with two results
         ("W_DIRECTION", 3),  # direction of sliding where the velocity is too small to tell
         ("W_STEADY", 3),  # direction of sliding that the load asks for, see steady_sliding
+        ("W_TURNING", 3),  # acceleration of a sliding that turns, see steady_sliding
+        ("W_HELD", 3),  # the load that the surface would have to hold then
+        ("W_BEFORE", 3),  # a direction of sliding that is put back
+        ("W_STORED", 3),  # a sliding velocity, and what it becomes, see steady_sliding
+        ("W_PLACE", 4),  # time and place that are put back
+        ("W_RATES", 3),  # rates of velocities
         ("W_RUNNING_UP", 1),  # 1 while the internal step lies in the surface's speed ramp
         ("W_SPAN", 1),  # size of the step that the slopes belong to, s
         ("W_EXCESS", 1),  # of friction at the first instant of a slip over mu_k, see coefficient
+        ("W_KINETIC", 1),  # mu_k before the local sliding speed, for the integral over the disc
+        ("W_AGED", 1),  # what the contact's age adds to it
+        ("W_WHOLE", 1),  # friction of the whole contact, which the integral is to correct
         ("W_SHEARING", 3),  # rates of the contact's shear, m/s
         ("W_YIELD_RATE", 1),  # at which it gives way, 1/s
     )
@@ -369,9 +379,7 @@ def quadrature() -> dict[str, tuple[float, ...]]:
     return found
 
 
-def constants(
-    effects: Sequence[Effect] = EFFECTS,
-) -> dict[str, int | float | tuple[float, ...]]:
+def constants(effects: Sequence[Effect] = EFFECTS) -> dict[str, int | float | tuple[float, ...]]:
     """Name -> value of everything that the kernel knows as a constant, with these effects."""
     plain = (int, float)
     own = {k: v for k, v in _OWN.items() if k.isupper() and type(v) in plain}

@@ -4,8 +4,6 @@ What they are is in `stickslip.generation.terms`; ``print(stickslip.kernel.terms
 ``terms.pyi`` tells them to who checks types.
 """
 
-from __future__ import annotations
-
 from ..effects import EFFECTS
 from ..generation.functions import define
 from ..generation.terms import terms_source

@@ -1,7 +1,5 @@
 """Whether the terms of a file can become C, and if not, at which of its lines."""
 
-from __future__ import annotations
-
 import ast
 import re
 from collections.abc import Callable, Iterator

@@ -1,7 +1,5 @@
 """A file to an effect, and whatever is wrong with it in one line."""
 
-from __future__ import annotations
-
 import ast
 import hashlib
 import re

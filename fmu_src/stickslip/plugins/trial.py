@@ -4,8 +4,6 @@ A term that gives no number makes every comparison in the kernel false: the bloc
 and nobody is told. So each is called here before it becomes part of one.
 """
 
-from __future__ import annotations
-
 import inspect
 import math
 import sys

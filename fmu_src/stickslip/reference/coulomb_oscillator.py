@@ -5,8 +5,6 @@ is a free oscillation about F_k/k of amplitude sqrt(a^2 + v^2/omega^2); it ends 
 that speed again, at F_k/k - a, and the belt carries the block back.
 """
 
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 

@@ -16,8 +16,6 @@ that runs up as v t/t_r stick and slip follow one another as long as a slip catc
 belt, which grows faster by v/t_r all the while: the sequence is worked off piece by piece.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -6,8 +6,6 @@ solution a slip, over the 2 s and at the 100 samples a second of the study. The 
 `linearised` with faults F6 and F15 and the constant mu_k.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

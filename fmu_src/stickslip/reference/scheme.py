@@ -1,7 +1,5 @@
 """The compiled loop of the study's scheme, `scheme.c`: what it reads and writes."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from ctypes import CDLL, CFUNCTYPE, POINTER, Structure, addressof, byref, c_double, c_int64, memmove
 from functools import cache

@@ -5,8 +5,6 @@ elements allow: springs linear in x, y and phi, a disc of strips along y, stick 
 With all faults mended and the block guided along x it is the kernel's (the tests hold it to that).
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 

@@ -3,8 +3,6 @@
 g_i = (C, D, D A - C B) with A = r cos beta_i, B = r sin beta_i, C = cos alpha_i, D = sin alpha_i.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -6,8 +6,6 @@ too, with the variances sum f_j^2 and sum (f_j y_j)^2 and no covariance (the str
 two draws stand for a hundred, exactly.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,18 +1,16 @@
 """What a run's motion is worth: could a rig make it, and does another exist beside it?"""
 
-from __future__ import annotations
-
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import asdict, dataclass, replace
+from typing import Any, TypeVar
 
 from ..parameters import Parameters
 from .borders import Border, nearest_borders
-from .live import DRY, Interface, RunEnded
+from .live import DRY, Interface, RunEnded, steps_per_second
 from .pretension import COARSE, PretensionBorders, pretension_borders
 from .regimes import Regime, coexisting, grouped, regimes
 from .stability import Stability, stability
-from .work import OutOfWork, Work, steps_per_second
+from .work import OutOfWork, Work, unwatched
 
 #: Part at constant speed that is looked at: the longest, s and in natural periods, of which the
 #: longer holds, and the shortest, in natural periods.
@@ -83,7 +81,7 @@ def assess(
     interface: Interface = DRY,
     *,
     most_steps: float = MOST_STEPS,
-    look: Callable[[], None] = lambda: None,
+    look: Callable[[], None] = unwatched,
 ) -> Assessment | None:
     """Assess a run of ``duration`` (s), of which at most a minute, or 40 swings, at constant speed.
 
@@ -104,34 +102,33 @@ def assess(
     duration = min(duration, ramp + max(LONGEST, PERIODS / frequency))
     try:
         density = steps_per_second(parameters, duration, interface)
-        work = Work(most_steps, density, look)
-        stable = stability(parameters, duration, interface, work)
-        found = regimes(parameters, duration, interface, work)
+        interface = replace(interface, work=Work(most_steps, density, look))
+        stable = stability(parameters, duration, interface)
+        found = regimes(parameters, duration, interface)
     except (RunEnded, OutOfWork):
         return None
-    whole = work.left >= 0.0
-    borders = _borders(parameters, duration, interface, work) if whole else None
+    whole = interface.work.left >= 0.0
+    borders = near = None
+    if whole:
+        borders = _if_followed(lambda: _borders(parameters, duration, interface))
+        near = _if_followed(lambda: nearest_borders(parameters, duration, interface))
     rig = parameters.rig
     pretension = rig.spring_length - rig.spring_natural_length
-    near = _near(parameters, duration, interface, work) if whole else None
     return Assessment(stable, found, pretension, borders, whole, near, steady)
 
 
-def _near(
-    parameters: Parameters, duration: float, interface: Interface, work: Work
-) -> list[Border] | None:
-    try:
-        return nearest_borders(parameters, duration, interface, work)
-    except OutOfWork:
-        return None
+Found = TypeVar("Found")
 
 
-def _borders(
-    parameters: Parameters, duration: float, interface: Interface, work: Work
-) -> PretensionBorders | None:
-    if parameters.rig.degrees_of_freedom == ("x",):
-        return PretensionBorders(())
+def _if_followed(find: Callable[[], Found]) -> Found | None:
+    """What is found; None where a motion cannot be followed, or no steps are left for that."""
     try:
-        return pretension_borders(parameters, duration, interface, step=COARSE, work=work)
+        return find()
     except (RunEnded, OutOfWork):
         return None
+
+
+def _borders(parameters: Parameters, duration: float, interface: Interface) -> PretensionBorders:
+    if parameters.rig.degrees_of_freedom == ("x",):
+        return PretensionBorders(())
+    return pretension_borders(parameters, duration, interface, COARSE)

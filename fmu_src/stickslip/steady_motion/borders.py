@@ -4,8 +4,6 @@ Each number is changed alone, in steps, until the block does something else: sti
 leaves its line. Between the last two values the border is bisected.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -17,7 +15,6 @@ from .live import DRY, Interface, RunEnded
 from .numbers import Number, numbers_of
 from .regimes import ENDED, regime_of
 from .starts import disturbed
-from .work import Work
 
 #: Factors at which a number is tried, up and down, and of one that is 0, times its first value.
 FACTORS, FROM_NOTHING = (1.1, 1.25, 1.5, 2.0), (1.0, 2.0, 5.0, 10.0)
@@ -69,10 +66,7 @@ class Border:
 
 
 def nearest_borders(
-    parameters: Parameters,
-    duration: float = 30.0,
-    interface: Interface = DRY,
-    work: Work | None = None,
+    parameters: Parameters, duration: float = 30.0, interface: Interface = DRY
 ) -> list[Border]:
     """The nearest border in each of `numbers_of`, within half and twice what it is above its least.
 
@@ -83,7 +77,7 @@ def nearest_borders(
     steady = duration - parameters.surface.run_up_time
     found = []
     for number in numbers_of(parameters):
-        does = follower(disturbed(parameters), number, steady, interface, work)
+        does = follower(disturbed(parameters), number, steady, interface)
         sides = (next(changes(does, number, values, COARSE), None) for values in _outward(number))
         found += sorted(filter(None, sides), key=lambda border: border.margin or 0.0)[:1]
     return sorted(found, key=lambda border: 1.0 if border.margin is None else border.margin)
@@ -116,18 +110,14 @@ def all_borders(
 
 
 def follower(
-    parameters: Parameters,
-    number: Number,
-    steady: float,
-    interface: Interface = DRY,
-    work: Work | None = None,
+    parameters: Parameters, number: Number, steady: float, interface: Interface = DRY
 ) -> Callable[[float], Kind]:
     """What the block does for a value of a number, in a run of ``steady`` s at constant speed."""
 
     def does(value: float) -> Kind:
         changed = number.change(parameters, value)
         try:
-            regime = regime_of(changed, steady + changed.surface.run_up_time, interface, work)
+            regime = regime_of(changed, steady + changed.surface.run_up_time, interface)
         except RunEnded:
             return ENDED, False
         return regime.name, regime.is_aside

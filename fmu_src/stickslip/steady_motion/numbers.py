@@ -1,7 +1,5 @@
 """The numbers of a rig that decide what its block does, and how each is changed alone."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi

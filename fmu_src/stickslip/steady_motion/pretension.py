@@ -4,8 +4,6 @@ Springs without pretension push sideways where they are compressed, and turn the
 line on which friction drags it. Pretension holds it there, as the tension of a string does.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +12,6 @@ from ..parameters import Parameters
 from .live import DRY, Interface
 from .roots import root_between
 from .stability import GRAZING, Stability, cycle_stability
-from .work import Work
 
 #: Pretensions that are looked at, as parts of the spring's installed length: steps and the most.
 FINE, COARSE, MOST = 0.005, 0.01, 0.30
@@ -45,21 +42,16 @@ class PretensionBorders:
 
 
 def pretension_borders(
-    parameters: Parameters,
-    duration: float = 30.0,
-    interface: Interface = DRY,
-    *,
-    step: float = FINE,
-    work: Work | None = None,
+    parameters: Parameters, duration: float = 30.0, interface: Interface = DRY, step: float = FINE
 ) -> PretensionBorders:
     """Where a run of ``duration`` (s) is unstable, everything but the pretension as given.
 
     interface: its temperature and the water in it. step: of the search, part of the installed
-    length. work: steps that are left. Raises `live.RunEnded` where a motion cannot be followed.
+    length. Raises `live.RunEnded` where a motion cannot be followed.
     """
 
     def at(pretension: float) -> Stability:
-        return cycle_stability(with_pretension(parameters, pretension), duration, interface, work)
+        return cycle_stability(with_pretension(parameters, pretension), duration, interface)
 
     def excess(motion: Stability) -> float:
         return motion.growth - 1.0 - ROUNDING

@@ -15,9 +15,9 @@ import numpy as np
 
 from ..parameters import Parameters
 from ..trajectory import Trajectory, break_away_frequency, slip_share
-from .live import DRY, Interface, RunEnded
+from .live import DRY, Interface, RunEnded, simulated
 from .starts import BALANCED, OWN, balanced, disturbed, other_starts, started
-from .work import OutOfWork, Work
+from .work import OutOfWork
 
 STICK_SLIP, SLIDING, STICKING, CREEPING = "stick-slip", "sliding", "sticking", "creeping"
 #: Of a run that cannot be followed.
@@ -143,10 +143,7 @@ def _tolerance(name: str, value: float) -> float:
 
 
 def regimes(
-    parameters: Parameters,
-    duration: float = 30.0,
-    interface: Interface = DRY,
-    work: Work | None = None,
+    parameters: Parameters, duration: float = 30.0, interface: Interface = DRY
 ) -> dict[str, Regime]:
     """The regime of the scenario's own run and of the other starts, by the names of `STARTS`.
 
@@ -155,15 +152,14 @@ def regimes(
     `live.RunEnded` where the own motion cannot be followed; another start of which that is so, or
     for which no work is left, is not in the answer.
     """
-    work = work or Work()
-    found = {OWN: regime_of(parameters, duration, interface, work)}
+    found = {OWN: regime_of(parameters, duration, interface)}
     natural = PERIODS / max(parameters.natural_frequency, 0.1)
     steady = max(duration - parameters.surface.run_up_time, SHORTEST, natural)
     followed: list[tuple[Parameters, Regime]] = []
     for name, start in _starts(parameters, interface):
         known = next((regime for other, regime in followed if other == start), None)
         try:
-            found[name] = known or settled_regime(start, steady, interface, work)
+            found[name] = known or settled_regime(start, steady, interface)
         except RunEnded:
             continue
         except OutOfWork:
@@ -204,16 +200,14 @@ def coexisting(found: dict[str, Regime]) -> dict[str, Regime]:
     return {start: found[start] for start in found if start != OWN and groups[start] == start}
 
 
-def settled_regime(
-    parameters: Parameters, steady: float, interface: Interface = DRY, work: Work | None = None
-) -> Regime:
+def settled_regime(parameters: Parameters, steady: float, interface: Interface = DRY) -> Regime:
     """The regime that a run comes to, made longer until its numbers repeat.
 
     steady: length at constant speed to begin with, s.
     """
     for doubling in range(DOUBLINGS + 1):
         length = parameters.surface.run_up_time + steady * 2.0**doubling
-        found = regime_of(parameters, length, interface, work)
+        found = regime_of(parameters, length, interface)
         irregular = abs(found.change["frequency"]) > IRREGULAR * found.frequency
         if found.repeats or (irregular and doubling >= ENOUGH):
             break
@@ -224,18 +218,11 @@ def settled_regime(
     return found
 
 
-def regime_of(
-    parameters: Parameters,
-    duration: float,
-    interface: Interface = DRY,
-    work: Work | None = None,
-) -> Regime:
+def regime_of(parameters: Parameters, duration: float, interface: Interface = DRY) -> Regime:
     """The regime that a run of ``duration`` (s) has come to. RunEnded where it ends early."""
     period = 1.0 / max(parameters.natural_frequency, 0.1)
     interval = min(0.05 * period, 0.01 * duration)
-    run = (work or Work()).simulate(parameters, duration, interval, interface)
-    if not run.complete:
-        raise RunEnded(run.reason)
+    run = simulated(parameters, duration, interval, interface)
     constant = min(parameters.surface.run_up_time, duration)
     return read_regime(run, duration - LATE * (duration - constant))
 

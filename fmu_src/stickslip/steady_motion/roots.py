@@ -1,7 +1,5 @@
 """A root between two places: here, since scipy's takes longer to import than to find it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from math import copysign, sqrt
 

@@ -17,8 +17,6 @@ made longer until they do. A motion that does not stick is looked at once in eac
 one that slides evenly once in a natural period.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
@@ -27,8 +25,7 @@ import numpy as np
 from ..arrays import RunArrays
 from ..parameters import Parameters
 from ..trajectory import Trajectory
-from .live import DRY, Interface, RunEnded, live_run
-from .work import Work
+from .live import DRY, Interface, live_run, simulated
 
 STABLE, NEUTRAL, UNSTABLE, GUIDED = "stable", "neutral", "unstable", "guided"
 GRAZING = "grazing"
@@ -102,31 +99,25 @@ def _verdict(growth: float) -> str:
 
 
 def stability(
-    parameters: Parameters,
-    duration: float = 30.0,
-    interface: Interface = DRY,
-    work: Work | None = None,
+    parameters: Parameters, duration: float = 30.0, interface: Interface = DRY
 ) -> Stability:
     """Multipliers of the cycle that a run of ``duration`` (s) comes to, and what grows on the way.
 
-    interface: its temperature and the water in it. work: steps that are left. Raises
-    `live.RunEnded` where the motion cannot be followed that far.
+    interface: its temperature and the water in it. Raises `live.RunEnded` where the motion cannot
+    be followed that far.
     """
-    found = cycle_stability(parameters, duration, interface, work)
+    found = cycle_stability(parameters, duration, interface)
     if not found.multipliers.size:
         amplified = 0.0
     elif found.straight:
-        amplified = _amplification(_as_drawn(parameters), duration, interface, work)
+        amplified = _amplification(_as_drawn(parameters), duration, interface)
     else:
         amplified = np.nan
     return replace(found, amplification=amplified)
 
 
 def cycle_stability(
-    parameters: Parameters,
-    duration: float = 30.0,
-    interface: Interface = DRY,
-    work: Work | None = None,
+    parameters: Parameters, duration: float = 30.0, interface: Interface = DRY
 ) -> Stability:
     """`stability` without the amplification, in half the time: for searches and maps."""
     straight = _has_line(parameters)
@@ -136,7 +127,7 @@ def cycle_stability(
         on_line = guided(parameters)
     free = parameters.rig.degrees_of_freedom
     beside = [i for name in ("y", "phi") if name in free for i in BESIDE[name]]
-    moments, sticking = _converged(on_line, parameters, duration, interface, work)
+    moments, sticking = _converged(on_line, parameters, duration, interface)
     period = float(np.mean(np.diff(moments)))
     if not beside:
         return Stability(np.empty(0), period, np.nan, straight)
@@ -148,7 +139,7 @@ def cycle_stability(
     products = {kind: np.eye(len(beside)) for kind in kinds}
     scale = _scale(parameters)
     for begin, end in pairwise(moments):
-        (work or Work()).spend((1.0 + len(kinds) * len(beside)) * (end - begin))
+        interface.work.spend((1.0 + len(kinds) * len(beside)) * (end - begin))
         disturbed = live.advance(begin).of(parameters)
         undisturbed = disturbed.copy().advance(end).state
         course = _course(disturbed, end) if sticking else np.zeros(6)
@@ -171,19 +162,13 @@ def guided(parameters: Parameters) -> Parameters:
 
 
 def _converged(
-    on_line: Parameters,
-    parameters: Parameters,
-    duration: float,
-    interface: Interface,
-    work: Work | None,
+    on_line: Parameters, parameters: Parameters, duration: float, interface: Interface
 ) -> tuple[np.ndarray, bool]:
     """Moments, s, of one cycle, or of as many as there are; whether the block sticks there."""
     ramp = parameters.surface.run_up_time
     for doubling in range(DOUBLINGS + 1):
         length = ramp + (duration - ramp) * 2.0**doubling
-        run = (work or Work()).simulate(on_line, length, _sampling(parameters), interface)
-        if not run.complete:
-            raise RunEnded(run.reason)
+        run = simulated(on_line, length, _sampling(parameters), interface)
         moments, sticking = _sections(run)
         count = _sticks_in_a_cycle(np.diff(moments))
         if count:
@@ -291,9 +276,7 @@ def _transfer(
     return np.column_stack(columns)
 
 
-def _amplification(
-    parameters: Parameters, duration: float, interface: Interface, work: Work | None
-) -> float:
+def _amplification(parameters: Parameters, duration: float, interface: Interface) -> float:
     """Largest distance from the line over that at the start, of a block displaced, and turned."""
     arm, largest = parameters.rig.contact_radius, 0.0
     for name in ("y", "phi"):
@@ -301,7 +284,7 @@ def _amplification(
             continue
         start = {name: START / (arm if name == "phi" else 1.0)}
         moved = parameters.with_values("initial", **start)
-        run = (work or Work()).simulate(moved, duration, _sampling(parameters), interface)
+        run = simulated(moved, duration, _sampling(parameters), interface, whole=False)
         far = np.hypot(run["y"], arm * run["phi"])
         largest = max(largest, float(far.max()) / START)
     return largest

@@ -6,13 +6,12 @@ springs balance friction goes on to do so: that motion always exists, and runs f
 ramp may never come near it.
 """
 
-from __future__ import annotations
-
+from dataclasses import replace
 from math import pi
 
 from ..packing import GRAVITY
 from ..parameters import Parameters
-from .live import DRY, Interface, RunEnded
+from .live import DRY, Interface, RunEnded, simulated
 from .work import Work
 
 OWN, DISTURBED, REST, RIDING, BALANCED = "own", "disturbed", "rest", "riding", "balanced"
@@ -93,8 +92,7 @@ def balanced(parameters: Parameters, interface: Interface = DRY) -> Parameters:
     relaxation = coefficient / (rig.mass * rate**2)
     still = started(parameters, dict.fromkeys(STATE, 0.0), 0.0)
     damped = still.with_values("structural_damping", coefficient=coefficient)
-    run = Work().simulate(damped, RELAXATIONS * relaxation, relaxation, interface)
-    if not run.complete:
-        raise RunEnded(run.reason)
+    uncounted = replace(interface, work=Work())
+    run = simulated(damped, RELAXATIONS * relaxation, relaxation, uncounted)
     place = {name: float(run[name][-1]) for name in ("x", "y", "phi")}
     return started(parameters, dict.fromkeys(STATE, 0.0) | place, 0.0)

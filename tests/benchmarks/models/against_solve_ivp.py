@@ -88,7 +88,7 @@ class ScipyRun:
         self.look(t, y)
         if self.p[layout.P_LATERAL] == 0.0:
             return self.w[layout.W_SURFACE] - y[layout.VX - 1]
-        return self.kernel.scaled_sliding_speed(self.p, self.w) - self.rest
+        return self.kernel.scaled_sliding_speed(self.w) - self.rest
 
     def follow_surface(self, t, y):
         self.look(t, y)

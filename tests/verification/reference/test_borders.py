@@ -7,6 +7,7 @@ import pytest
 from stickslip import Friction, LateralFriction, Parameters, Rig, StructuralDamping, Surface
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
+from stickslip.steady_motion import Interface
 from stickslip.steady_motion.borders import all_borders, nearest_borders
 from stickslip.steady_motion.numbers import DAMPING, RAMP, RATIO, SPEED, numbers_of
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP
@@ -91,4 +92,4 @@ def test_the_reference_is_near_its_borders():
 
 def test_no_more_steps_are_taken_than_are_allowed():
     with pytest.raises(OutOfWork):
-        nearest_borders(REFERENCE, work=Work(1e4, 45.0))
+        nearest_borders(REFERENCE, interface=Interface(work=Work(1e4, 45.0)))

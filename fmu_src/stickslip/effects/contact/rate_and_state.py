@@ -6,8 +6,6 @@ at rest holds, and is smooth on the way there. (Cut off at v_c instead, it has a
 slowly loaded slip stays, and no step across an edge passes the error test.)
 """
 
-from __future__ import annotations
-
 from math import log, sqrt
 
 from ...quantity import Table, quantity
@@ -19,26 +17,21 @@ class RateAndState(Table):
 
     mu_k + a ln(v / v*) + b ln(v* theta / D), theta' = 1 - v theta / D. The age also says what a
     contact at rest holds; mu_s is then not used.
+
+    direct : a, direct effect of the speed
+    evolution : b, effect of the age
+    distance : D, distance over which contacts are renewed
+    reference_speed : v*, at which mu_k holds in steady sliding
+    creep_speed : v_c, the law's sqrt(v^2 + v_c^2) for v: at rest it is as at this speed
+    initial_age : age of the contact at the start
     """
 
-    direct: float = quantity(0.0, "1", "a, direct effect of the speed", ge=0, typical=(0.005, 0.1))
-    evolution: float = quantity(0.0, "1", "b, effect of the age", ge=0, typical=(0.005, 0.15))
-    distance: float = quantity(
-        1e-5, "m", "D, distance over which contacts are renewed", gt=0, typical=(1e-6, 1e-3)
-    )
-    reference_speed: float = quantity(
-        1e-4, "m/s", "v*, at which mu_k holds in steady sliding", gt=0, typical=(1e-5, 1e-2)
-    )
-    creep_speed: float = quantity(
-        1e-6,
-        "m/s",
-        "v_c, the law's sqrt(v^2 + v_c^2) for v: at rest it is as at this speed",
-        ge=1e-9,
-        typical=(1e-7, 1e-5),
-    )
-    initial_age: float = quantity(
-        1.0, "s", "age of the contact at the start", gt=0, typical=(0.1, 100.0)
-    )
+    direct: float = quantity(0.0, "1", ge=0, typical=(0.005, 0.1))
+    evolution: float = quantity(0.0, "1", ge=0, typical=(0.005, 0.15))
+    distance: float = quantity(1e-5, "m", gt=0, typical=(1e-6, 1e-3))
+    reference_speed: float = quantity(1e-4, "m/s", gt=0, typical=(1e-5, 1e-2))
+    creep_speed: float = quantity(1e-6, "m/s", ge=1e-9, typical=(1e-7, 1e-5))
+    initial_age: float = quantity(1.0, "s", gt=0, typical=(0.1, 100.0))
 
 
 def state_law(
@@ -77,10 +70,6 @@ EFFECT = Effect(
     states=(State("age", age_rate, start="initial_age", scale=age_scale, unit="s"),),
     case=Case(
         {"direct": 0.01, "evolution": 0.03, "distance": 1e-5},
-        {
-            "surface": {"speed": 1e-3},
-            "initial": {"vx": 1e-3},
-            "springs": {"stiffness": 300.0},
-        },
+        {"surface": {"speed": 1e-3}, "initial": {"vx": 1e-3}, "springs": {"stiffness": 300.0}},
     ),
 )

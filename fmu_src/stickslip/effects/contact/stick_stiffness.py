@@ -3,23 +3,17 @@
 The load that a stick takes is compared with mu_s N after it was multiplied by the ratio.
 """
 
-from __future__ import annotations
-
 from ...quantity import Table, quantity
 from ..effect import Case, Effect
 
 
 class StickStiffness(Table):
-    """Stick is judged by a part of the spring force: the study counts one spring of four."""
+    """Stick is judged by a part of the spring force: the study counts one spring of four.
 
-    ratio: float = quantity(
-        1.0,
-        "1",
-        "part of the load that stick is judged by: 1 all, 0.25 the study",
-        gt=0,
-        le=1,
-        typical=(0.25, 0.75),
-    )
+    ratio : part of the load that stick is judged by: 1 all, 0.25 the study
+    """
+
+    ratio: float = quantity(1.0, "1", gt=0, le=1, typical=(0.25, 0.75))
 
 
 EFFECT = Effect(

@@ -7,52 +7,33 @@ grows with the root of the local speed v. A film that shears thin or thick gives
     b sqrt(v) + P (v / v_p)^n + S v / (v + v_s), over N, beside mu_k.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import sqrt
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
 class FilmDrag(Table):
-    """Friction grows with the sliding speed: a film of melt or water is sheared."""
+    """Friction grows with the sliding speed: a film of melt or water is sheared.
 
-    coefficient: float = quantity(
-        0.0, "N.s/m", "force of the whole contact per sliding speed", ge=0, typical=(0.05, 5.0)
-    )
-    root_coefficient: float = quantity(
-        0.0,
-        "N",
-        "force of the whole contact at 1 m/s, growing with the root of the local speed",
-        ge=0,
-        typical=(0.05, 2.0),
-    )
-    power: float = quantity(
-        0.0,
-        "N",
-        "P, force of the whole contact at power_speed, growing with a power of the local speed",
-        ge=0,
-        typical=(0.02, 1.0),
-    )
-    exponent: float = quantity(
-        1.0, "1", "n, of the power: below 1 it shears thin", ge=0.2, le=4, tried=(0.5, 2.0)
-    )
-    power_speed: float = quantity(
-        0.1, "m/s", "v_p, speed at which the force is that", gt=0, tried=(0.05, 0.3)
-    )
-    saturating: float = quantity(
-        0.0,
-        "N",
-        "S, force of the whole contact that a fast sliding comes to",
-        ge=0,
-        typical=(0.05, 1.0),
-    )
-    saturation_speed: float = quantity(
-        0.1, "m/s", "v_s, speed at which it is half of that", gt=0, tried=(0.03, 0.3)
-    )
+    coefficient : force of the whole contact per sliding speed
+    root_coefficient : force of the whole contact at 1 m/s, growing with the root of the local speed
+    power : P, force of the whole contact at power_speed, growing with a power of the local speed
+    exponent : n, of the power: below 1 it shears thin
+    power_speed : v_p, speed at which the force is that
+    saturating : S, force of the whole contact that a fast sliding comes to
+    saturation_speed : v_s, speed at which it is half of that
+    """
+
+    coefficient: float = quantity(0.0, "N.s/m", ge=0, typical=(0.05, 5.0))
+    root_coefficient: float = quantity(0.0, "N", ge=0, typical=(0.05, 2.0))
+    power: float = quantity(0.0, "N", ge=0, typical=(0.02, 1.0))
+    exponent: float = quantity(1.0, "1", ge=0.2, le=4, tried=(0.5, 2.0))
+    power_speed: float = quantity(0.1, "m/s", gt=0, tried=(0.05, 0.3))
+    saturating: float = quantity(0.0, "N", ge=0, typical=(0.05, 1.0))
+    saturation_speed: float = quantity(0.1, "m/s", gt=0, tried=(0.03, 0.3))
 
 
 def contact_drag(coefficient: float) -> float:
@@ -79,35 +60,24 @@ def film_friction(
     return force / normal_force
 
 
+own = FormsOf("film_drag")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Each film by itself."""
     drag = 0.02 * s.force / s.speed
-    linear = FreeParameter("film_drag.coefficient", drag, drag, 0.0, 1e3 * drag)
-    yield Candidate("film_drag", "linear", (linear,))
+    yield own.form("linear", own.free("coefficient", drag, drag, 0.0, 1e3 * drag))
     much = 0.02 * s.force / s.speed**0.5
-    root = FreeParameter("film_drag.root_coefficient", much, much, 0.0, 1e3 * much)
-    yield Candidate("film_drag", "root", (root,))
+    yield own.form("root", own.free("root_coefficient", much, much, 0.0, 1e3 * much))
     force = 0.02 * s.force
-    yield Candidate(
-        "film_drag",
-        "power",
-        (
-            FreeParameter("film_drag.power", force, force, 0.0, 1e3 * force),
-            FreeParameter("film_drag.exponent", 1.5, 0.3, 0.3, 3.0),
-        ),
-        {"film_drag.power_speed": s.speed},
-    )
+    power = own.free("power", force, force, 0.0, 1e3 * force)
+    exponent = own.free("exponent", 1.5, 0.3, 0.3, 3.0)
+    yield own.form("power", power, exponent, power_speed=s.speed)
+    most = own.free("saturating", 2.0 * force, force, 0.0, 1e3 * force)
     # over a much smaller speed it would be another mu_k, not a law of the sliding speed
-    knee = FreeParameter(
-        "film_drag.saturation_speed",
-        0.5 * s.speed,
-        0.4,
-        0.1 * s.speed,
-        1e2 * s.speed,
-        log=True,
-    )
-    most = FreeParameter("film_drag.saturating", 2.0 * force, force, 0.0, 1e3 * force)
-    yield Candidate("film_drag", "saturating", (most, knee))
+    low, high = 0.1 * s.speed, 1e2 * s.speed
+    knee = own.free("saturation_speed", 0.5 * s.speed, 0.4, low, high, log=True)
+    yield own.form("saturating", most, knee)
 
 
 EFFECT = Effect(

@@ -4,24 +4,18 @@ With the ratio kappa the contact feels the scaled sliding velocity (U_x, kappa U
 answers it with (F_x, kappa F_y, kappa M).
 """
 
-from __future__ import annotations
-
 from ...quantity import Table, quantity
 from ..effect import Case, Effect
 
 
 class LateralFriction(Table):
-    """Friction along the local relative velocity: lateral and spin components."""
+    """Friction along the local relative velocity: lateral and spin components.
 
-    ratio: float = quantity(
-        0.0,
-        "1",
-        "friction across the motion relative to that along x: 0 along x only, 1 along the local "
-        "relative velocity",
-        ge=0,
-        le=1,
-        typical=(0.5, 1.0),
-    )
+    ratio : friction across the motion relative to that along x: 0 along x only, 1 along the local
+        relative velocity
+    """
+
+    ratio: float = quantity(0.0, "1", ge=0, le=1, typical=(0.5, 1.0))
 
 
 EFFECT = Effect(

@@ -7,40 +7,27 @@ beside the load, so that there is a force of friction without any (Derjaguin, 19
 decade is how measured coefficients are often stated. mu_s and mu_k are those at N_0.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import log10
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
 class LoadDependence(Table):
-    """Friction coefficients fall (or grow) with the normal force."""
+    """Friction coefficients fall (or grow) with the normal force.
 
-    exponent: float = quantity(
-        0.0, "1", "n of mu (N / reference_force)^-n", ge=-2, le=2, typical=(-0.5, 0.5)
-    )
-    reference_force: float = quantity(
-        6.57,
-        "N",
-        "normal force at which mu_s and mu_k hold (0.67 kg)",
-        gt=0,
-        tried=(3.0, 12.0),
-    )
-    adhesion: float = quantity(
-        0.0, "N", "A, force that presses beside the load", ge=0, typical=(0.1, 5.0)
-    )
-    logarithmic: float = quantity(
-        0.0,
-        "1",
-        "c, part of mu_s and mu_k lost per decade of the normal force, down to none left",
-        ge=-2,
-        le=2,
-        typical=(0.05, 0.5),
-    )
+    exponent : n of mu (N / reference_force)^-n
+    reference_force : normal force at which mu_s and mu_k hold (0.67 kg)
+    adhesion : A, force that presses beside the load
+    logarithmic : c, part of mu_s and mu_k lost per decade of the normal force, down to none left
+    """
+
+    exponent: float = quantity(0.0, "1", ge=-2, le=2, typical=(-0.5, 0.5))
+    reference_force: float = quantity(6.57, "N", gt=0, tried=(3.0, 12.0))
+    adhesion: float = quantity(0.0, "N", ge=0, typical=(0.1, 5.0))
+    logarithmic: float = quantity(0.0, "1", ge=-2, le=2, typical=(0.05, 0.5))
 
 
 def coefficient_factor(
@@ -56,21 +43,19 @@ def coefficient_factor(
     return factor * max(0.0, 1.0 - logarithmic * log10(normal_force / reference_force))
 
 
+own = FormsOf("load_dependence")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Falling or growing from the campaign's own mean, adhesion, or so much a decade."""
-    at_mean = {"load_dependence.reference_force": s.force}
-    for sign in (0.1, -0.1):
-        yield Candidate(
-            "load_dependence",
-            "power law",
-            (FreeParameter("load_dependence.exponent", sign, 0.1, -2.0, 2.0),),
-            at_mean,
-        )
     much = 0.2 * s.force
-    adhesion = FreeParameter("load_dependence.adhesion", much, much, 0.0, 1e2 * much)
-    yield Candidate("load_dependence", "adhesion", (adhesion,), at_mean)
-    decade = FreeParameter("load_dependence.logarithmic", 0.2, 0.2, -2.0, 2.0)
-    yield Candidate("load_dependence", "logarithmic", (decade,), at_mean)
+    for form, free in (
+        ("power law", own.free("exponent", 0.1, 0.1, -2.0, 2.0)),
+        ("power law", own.free("exponent", -0.1, 0.1, -2.0, 2.0)),
+        ("adhesion", own.free("adhesion", much, much, 0.0, 1e2 * much)),
+        ("logarithmic", own.free("logarithmic", 0.2, 0.2, -2.0, 2.0)),
+    ):
+        yield own.form(form, free, reference_force=s.force)
 
 
 EFFECT = Effect(

@@ -8,45 +8,32 @@ change may undo the first, as where a surface polishes and then wears. mu_s stay
 share (static_relative, static_absolute).
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import replace
 from math import exp
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, FreeParameter, Scales
 from ..effect import Case, Effect
-from ..static_share import STATIC_FORMS, static_absolute, static_relative
+from ..static_share import STATIC_FORMS, static_absolute, static_factor, static_relative
 
 
 class RunIn(Table):
-    """Kinetic friction drifts with the distance slid: wear, polishing, wetting."""
+    """Kinetic friction drifts with the distance slid: wear, polishing, wetting.
 
-    change: float = quantity(
-        0.0, "1", "final change of mu_k, part of it", ge=-0.95, le=5, typical=(-0.5, 0.5)
-    )
-    distance: float = quantity(
-        1.0,
-        "m",
-        "distance over which the change is approached exponentially",
-        gt=0,
-        tried=(0.1, 3.0),
-    )
-    stretching: float = quantity(
-        1.0,
-        "1",
-        "n of 1 - exp(-(s / distance)^n): 1 exponential, below 1 long drawn out, above 1 delayed",
-        ge=0.2,
-        le=4,
-        tried=(0.5, 2.0),
-    )
-    later_change: float = quantity(
-        0.0, "1", "change that comes beside it, part of mu_k", ge=-5, le=5, typical=(-0.5, 0.5)
-    )
-    later_distance: float = quantity(
-        3.0, "m", "distance over which that one is approached", gt=0, tried=(0.3, 9.0)
-    )
+    change : final change of mu_k, part of it
+    distance : distance over which the change is approached exponentially
+    stretching : n of 1 - exp(-(s / distance)^n): 1 exponential, below 1 long drawn out, above 1
+        delayed
+    later_change : change that comes beside it, part of mu_k
+    later_distance : distance over which that one is approached
+    """
+
+    change: float = quantity(0.0, "1", ge=-0.95, le=5, typical=(-0.5, 0.5))
+    distance: float = quantity(1.0, "m", gt=0, tried=(0.1, 3.0))
+    stretching: float = quantity(1.0, "1", ge=0.2, le=4, tried=(0.5, 2.0))
+    later_change: float = quantity(0.0, "1", ge=-5, le=5, typical=(-0.5, 0.5))
+    later_distance: float = quantity(3.0, "m", gt=0, tried=(0.3, 9.0))
     static_relative: float = static_relative()
     static_absolute: float = static_absolute()
 
@@ -70,46 +57,23 @@ def kinetic_factor(
     return max(0.0, factor)
 
 
-def static_factor(
-    slid: float,
-    change: float,
-    distance: float,
-    stretching: float,
-    later_change: float,
-    later_distance: float,
-    static_relative: float,
-    static_absolute: float,
-    mu_s: float,
-    mu_k: float,
-) -> float:
-    """mu_s over its value at the start."""
-    share = static_relative
-    if mu_s > 0.0:
-        share += static_absolute * mu_k / mu_s
-    kinetic = kinetic_factor(slid, change, distance, stretching, later_change, later_distance)
-    return max(0.0, 1.0 + share * (kinetic - 1.0))
+own = FormsOf("run_in")
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
     """A growth or a fall, over a tenth or half of a run; mu_s with it; or stretched."""
     for share in (0.1, 0.5):
         for change in (0.1, -0.1):
-            yield Candidate("run_in", "exponential", _drift(s, share, change))
+            yield own.form("exponential", *_drift(s, share, change))
     for form, static in STATIC_FORMS.items():
         for change in (0.1, -0.1):
-            yield Candidate(
-                "run_in",
-                f"exponential, {form}",
-                _drift(s, 0.3, change),
-                {f"run_in.{static}": 1.0},
-            )
-    bend = FreeParameter("run_in.stretching", 0.7, 0.2, 0.3, 3.0)
-    yield Candidate("run_in", "stretched", (*_drift(s, 0.3, -0.1), bend))
+            yield own.form(f"exponential, {form}", *_drift(s, 0.3, change), **{static: 1.0})
+    yield own.form("stretched", *_drift(s, 0.3, -0.1), own.free("stretching", 0.7, 0.2, 0.3, 3.0))
     for change in (0.3, -0.3):
         first = _drift(s, 0.1, change)
-        after = FreeParameter("run_in.later_change", -change, 0.1, -5.0, 5.0)
+        after = own.free("later_change", -change, 0.1, -5.0, 5.0)
         over = replace(first[1], key="run_in.later_distance", start=3.0 * first[1].start)
-        yield Candidate("run_in", "there and back", (*first, after, over))
+        yield own.form("there and back", *first, after, over)
 
 
 def _drift(s: Scales, share: float, change: float) -> tuple[FreeParameter, ...]:
@@ -118,8 +82,8 @@ def _drift(s: Scales, share: float, change: float) -> tuple[FreeParameter, ...]:
     low = min(max(1e-3 * s.distance, s.travel), 0.5 * share * s.distance)
     start, high = share * s.distance, 1e2 * s.distance
     return (
-        FreeParameter("run_in.change", change, 0.1, -0.95, 5.0),
-        FreeParameter("run_in.distance", start, 0.5, low, high, log=True),
+        own.free("change", change, 0.1, -0.95, 5.0),
+        own.free("distance", start, 0.5, low, high, log=True),
     )
 
 

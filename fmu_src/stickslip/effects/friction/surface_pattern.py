@@ -4,29 +4,26 @@ mu_s and mu_k times 1 + A (cos a + B cos(2 a + b) + C cos(3 a + c) + D cos(4 a +
 a = 2 pi s / wavelength + phase: a joint of the belt, a scratch or a patch is no sine.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import cos, pi, radians, sin
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
-from ..periodic import harmonic_amplitude, harmonic_phase, periodic
+from ..periodic import HARMONICS, harmonic_amplitude, harmonic_phase, periodic
 
 
 class SurfacePattern(Table):
-    """Friction is periodic in the place on the surface."""
+    """Friction is periodic in the place on the surface.
 
-    amplitude: float = quantity(
-        0.0, "1", "amplitude as part of mu_s and mu_k", ge=0, le=1, typical=(0.02, 0.4)
-    )
-    wavelength: float = quantity(
-        0.1, "m", "length of a period along the surface", gt=0, typical=(0.005, 1.0)
-    )
-    phase_deg: float = quantity(
-        0.0, "deg", "phase where the block stands at the start", tried=(-180.0, 180.0)
-    )
+    amplitude : amplitude as part of mu_s and mu_k
+    wavelength : length of a period along the surface
+    phase_deg : phase where the block stands at the start
+    """
+
+    amplitude: float = quantity(0.0, "1", ge=0, le=1, typical=(0.02, 0.4))
+    wavelength: float = quantity(0.1, "m", gt=0, typical=(0.005, 1.0))
+    phase_deg: float = quantity(0.0, "deg", tried=(-180.0, 180.0))
     second_amplitude: float = harmonic_amplitude("second")
     second_phase_deg: float = harmonic_phase("second")
     third_amplitude: float = harmonic_amplitude("third")
@@ -43,40 +40,6 @@ def wavenumber(wavelength: float) -> float:
 def phase(phase_deg: float) -> float:
     """rad"""
     return radians(phase_deg)
-
-
-# B sin(2 a + b) = B cos b sin 2 a + B sin b cos 2 a: what is a harmonic's own is worked out once,
-# and sines and cosines of multiples of a follow from those of a, at a twentieth of their price.
-
-
-def second_cosine(second_amplitude: float, second_phase_deg: float) -> float:
-    """B cos b"""
-    return second_amplitude * cos(radians(second_phase_deg))
-
-
-def second_sine(second_amplitude: float, second_phase_deg: float) -> float:
-    """B sin b"""
-    return second_amplitude * sin(radians(second_phase_deg))
-
-
-def third_cosine(third_amplitude: float, third_phase_deg: float) -> float:
-    """C cos c"""
-    return third_amplitude * cos(radians(third_phase_deg))
-
-
-def third_sine(third_amplitude: float, third_phase_deg: float) -> float:
-    """C sin c"""
-    return third_amplitude * sin(radians(third_phase_deg))
-
-
-def fourth_cosine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
-    """D cos d"""
-    return fourth_amplitude * cos(radians(fourth_phase_deg))
-
-
-def fourth_sine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
-    """D sin d"""
-    return fourth_amplitude * sin(radians(fourth_phase_deg))
 
 
 def place_variation(
@@ -102,14 +65,15 @@ def place_variation(
     return amplitude * wave
 
 
+own = FormsOf("surface_pattern")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """A sine; a scan says where it starts."""
     # what no run passes once is no pattern: it would be a drift by another name
     longest = s.longest or s.distance
-    start = min(0.1, 0.5 * longest)
-    length = FreeParameter(
-        "surface_pattern.wavelength", start, 0.02, min(1e-3, 0.1 * longest), longest, log=True
-    )
+    low = min(1e-3, 0.1 * longest)
+    length = own.free("wavelength", min(0.1, 0.5 * longest), 0.02, low, longest, log=True)
     yield periodic("surface_pattern", length, "sine")
 
 
@@ -121,16 +85,7 @@ EFFECT = Effect(
     axis="place",
     source="waves along the track, as in paper-on-paper records (Colas et al., 2019)",
     terms=(place_variation,),
-    derived=(
-        wavenumber,
-        phase,
-        second_cosine,
-        second_sine,
-        third_cosine,
-        third_sine,
-        fourth_cosine,
-        fourth_sine,
-    ),
+    derived=(wavenumber, phase, *HARMONICS),
     candidates=candidates,
     case=Case({"amplitude": 0.15, "wavelength": 0.3}),
 )

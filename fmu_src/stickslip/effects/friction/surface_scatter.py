@@ -5,8 +5,6 @@ mu_k. A Gaussian correlation of length L has normally distributed wavenumbers, d
 belongs to the place, so a place met again has the same friction, whatever the steps.
 """
 
-from __future__ import annotations
-
 from math import cos, pi, sqrt
 
 from ...quantity import Table, quantity
@@ -16,19 +14,16 @@ WAVES = 16
 
 
 class SurfaceScatter(Table):
-    """Friction scatters from place to place on the surface: a random field, the same every time."""
+    """Friction scatters from place to place on the surface: a random field, the same every time.
 
-    deviation: float = quantity(
-        0.0, "1", "standard deviation as part of mu_s and mu_k", ge=0, le=0.5, typical=(0.02, 0.3)
-    )
-    correlation_length: float = quantity(
-        0.02,
-        "m",
-        "distance over which the field forgets itself: exp(-(d/L)^2 / 2)",
-        gt=0,
-        tried=(0.005, 0.1),
-    )
-    seed: int = quantity(1, "1", "which field it is", ge=0, le=2**31 - 1, tried=(1, 10**6))
+    deviation : standard deviation as part of mu_s and mu_k
+    correlation_length : distance over which the field forgets itself: exp(-(d/L)^2 / 2)
+    seed : which field it is
+    """
+
+    deviation: float = quantity(0.0, "1", ge=0, le=0.5, typical=(0.02, 0.3))
+    correlation_length: float = quantity(0.02, "m", gt=0, tried=(0.005, 0.1))
+    seed: int = quantity(1, "1", ge=0, le=2**31 - 1, tried=(1, 10**6))
 
 
 def wavenumber(deviate: float, correlation_length: float) -> float:

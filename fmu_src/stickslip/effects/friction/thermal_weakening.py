@@ -13,15 +13,13 @@ states, of the times tau / 22 and 29 tau, give that to 3 % for heating times of 
 q + d (6.5 q_fast + 0.29 q_slow) in place of q, with d = 1.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import exp
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, FreeParameter, Scales
 from ..effect import Case, Effect, State
-from ..static_share import STATIC_FORMS, static_absolute, static_relative
+from ..static_share import STATIC_FORMS, static_absolute, static_factor, static_relative
 
 #: Memories beside tau, shorter and longer by so much, and their weights: those with which the rise
 #: under a constant power is nearest to the root of the time, in the largest relative distance.
@@ -32,30 +30,18 @@ SLOW_WEIGHT = 0.29
 
 
 class ThermalWeakening(Table):
-    """Kinetic friction falls as friction heat gathers at the interface, and recovers in time."""
+    """Kinetic friction falls as friction heat gathers at the interface, and recovers in time.
 
-    per_joule: float = quantity(
-        0.0, "1/J", "part of mu_k lost per joule of recent friction heat", ge=0, typical=(0.05, 5.0)
-    )
-    relaxation_time: float = quantity(
-        5.0, "s", "time in which recent heat is forgotten", gt=0, typical=(0.3, 30.0)
-    )
-    curvature: float = quantity(
-        -1.0,
-        "1",
-        "of the decline of mu_k: -1 linear, 0 exponential, 1 hyperbolic",
-        ge=-1,
-        le=1,
-        tried=(-1.0, 1.0),
-    )
-    diffusion: float = quantity(
-        0.0,
-        "1",
-        "1: heat is forgotten as a half-space does, about relaxation_time; 0: exponentially",
-        ge=0,
-        le=1,
-        tried=(0.0, 1.0),
-    )
+    per_joule : part of mu_k lost per joule of recent friction heat
+    relaxation_time : time in which recent heat is forgotten
+    curvature : of the decline of mu_k: -1 linear, 0 exponential, 1 hyperbolic
+    diffusion : 1: heat is forgotten as a half-space does, about relaxation_time; 0: exponentially
+    """
+
+    per_joule: float = quantity(0.0, "1/J", ge=0, typical=(0.05, 5.0))
+    relaxation_time: float = quantity(5.0, "s", gt=0, typical=(0.3, 30.0))
+    curvature: float = quantity(-1.0, "1", ge=-1, le=1, tried=(-1.0, 1.0))
+    diffusion: float = quantity(0.0, "1", ge=0, le=1, tried=(0.0, 1.0))
     static_relative: float = static_relative()
     static_absolute: float = static_absolute()
 
@@ -86,26 +72,6 @@ def kinetic_factor(
     return decline(per_joule * heat, curvature)
 
 
-def static_factor(
-    recent_heat: float,
-    fast_heat: float,
-    slow_heat: float,
-    per_joule: float,
-    curvature: float,
-    diffusion: float,
-    static_relative: float,
-    static_absolute: float,
-    mu_s: float,
-    mu_k: float,
-) -> float:
-    """What is left of mu_s."""
-    share = static_relative
-    if mu_s > 0.0:
-        share += static_absolute * mu_k / mu_s
-    heat = remembered(recent_heat, fast_heat, slow_heat, diffusion)
-    return max(0.0, 1.0 + share * (decline(per_joule * heat, curvature) - 1.0))
-
-
 def recent_heat_rate(friction_power: float, recent_heat: float, relaxation_time: float) -> float:
     """Rate of the lumped thermal state, W."""
     return friction_power - recent_heat / relaxation_time
@@ -129,37 +95,31 @@ def slow_heat_rate(
     return friction_power - slow_heat / (SLOWER * relaxation_time)
 
 
+own = FormsOf("thermal_weakening")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Linear in the heat of a short or a long memory, and bent; mu_s with it; a half-space."""
     for time in (0.5, 5.0, 50.0):
-        yield Candidate("thermal_weakening", "relaxing", _memory(s, time))
-    bend = FreeParameter("thermal_weakening.curvature", 0.0, 0.3, -1.0, 1.0)
-    yield Candidate("thermal_weakening", "relaxing, bent", (*_memory(s, 50.0), bend))
+        yield own.form("relaxing", *_memory(s, time))
+    yield own.form("relaxing, bent", *_memory(s, 50.0), own.free("curvature", 0.0, 0.3, -1.0, 1.0))
     for form, static in STATIC_FORMS.items():
-        settings = {f"thermal_weakening.{static}": 1.0}
-        yield Candidate("thermal_weakening", f"relaxing, {form}", _memory(s, 5.0), settings)
+        yield own.form(f"relaxing, {form}", *_memory(s, 5.0), **{static: 1.0})
     # the slowest of the three memories reaches over a run, the fastest over a part of a cycle
-    yield Candidate(
-        "thermal_weakening",
-        "half-space",
-        (_weak(0.3 * s.heat),),
-        {
-            "thermal_weakening.diffusion": 1.0,
-            "thermal_weakening.relaxation_time": 0.05 * s.duration,
-        },
-    )
+    time = 0.05 * s.duration
+    yield own.form("half-space", _weak(0.3 * s.heat), diffusion=1.0, relaxation_time=time)
 
 
 def _weak(heat: float) -> FreeParameter:
     """A tenth is lost by so much heat, J."""
-    return FreeParameter("thermal_weakening.per_joule", 0.1 / heat, 0.1 / heat, 0.0, 1e3 / heat)
+    return own.free("per_joule", 0.1 / heat, 0.1 / heat, 0.0, 1e3 / heat)
 
 
 def _memory(s: Scales, time: float) -> tuple[FreeParameter, ...]:
     """A loss by the heat of the last ``time`` seconds, of what a run makes."""
     return (
         _weak(s.heat * min(1.0, time / s.duration)),
-        FreeParameter("thermal_weakening.relaxation_time", time, 0.5, 0.02, 1e4, log=True),
+        own.free("relaxation_time", time, 0.5, 0.02, 1e4, log=True),
     )
 
 

@@ -8,66 +8,39 @@ The hyperbolic law is that of Leine et al., Nonlinear Dynamics 16 (1998); the pe
 metals show (Dieterich, Pure Appl. Geophys. 116, 1978); the power is between all of them.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import exp, log10, sqrt
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
 class VelocityWeakening(Table):
-    """Kinetic friction falls with the local sliding speed."""
+    """Kinetic friction falls with the local sliding speed.
 
-    linear: float = quantity(
-        0.0, "s/m", "part of mu_k lost per m/s, down to none left", ge=0, typical=(0.1, 2.0)
-    )
-    hyperbolic: float = quantity(
-        0.0, "s/m", "delta of mu_k / (1 + delta v)", ge=0, typical=(0.2, 5.0)
-    )
-    inverse_root: float = quantity(
-        0.0, "s/m", "c of mu_k / sqrt(1 + c v): 1/sqrt(v) at high speed", ge=0, typical=(0.5, 50.0)
-    )
-    stribeck: float = quantity(
-        0.0, "1", "peak above mu_k at rest, as part of mu_k", ge=0, le=10, typical=(0.1, 1.0)
-    )
-    stribeck_speed: float = quantity(
-        0.05,
-        "m/s",
-        "speed over which the peak decays: exp(-v / stribeck_speed)",
-        gt=0,
-        tried=(0.01, 0.3),
-    )
-    power: float = quantity(
-        0.0,
-        "1",
-        "p of mu_k / (1 + p (v / power_speed)^exponent)",
-        ge=0,
-        typical=(0.03, 1.0),
-    )
-    exponent: float = quantity(
-        1.0, "1", "of the power: below 1 the fall is steepest at rest", ge=0.2, le=4, tried=(0.4, 2)
-    )
-    power_speed: float = quantity(
-        0.1, "m/s", "speed at which 1 + p divides mu_k", gt=0, tried=(0.03, 0.3)
-    )
-    logarithmic: float = quantity(
-        0.0,
-        "1",
-        "part of mu_k lost per decade of the speed, down to none left",
-        ge=0,
-        le=1,
-        typical=(0.02, 0.2),
-    )
-    logarithm_speed: float = quantity(
-        0.01,
-        "m/s",
-        "speed above which it is lost: log10(1 + v / logarithm_speed)",
-        gt=0,
-        tried=(1e-3, 0.1),
-    )
+    linear : part of mu_k lost per m/s, down to none left
+    hyperbolic : delta of mu_k / (1 + delta v)
+    inverse_root : c of mu_k / sqrt(1 + c v): 1/sqrt(v) at high speed
+    stribeck : peak above mu_k at rest, as part of mu_k
+    stribeck_speed : speed over which the peak decays: exp(-v / stribeck_speed)
+    power : p of mu_k / (1 + p (v / power_speed)^exponent)
+    exponent : of the power: below 1 the fall is steepest at rest
+    power_speed : speed at which 1 + p divides mu_k
+    logarithmic : part of mu_k lost per decade of the speed, down to none left
+    logarithm_speed : speed above which it is lost: log10(1 + v / logarithm_speed)
+    """
+
+    linear: float = quantity(0.0, "s/m", ge=0, typical=(0.1, 2.0))
+    hyperbolic: float = quantity(0.0, "s/m", ge=0, typical=(0.2, 5.0))
+    inverse_root: float = quantity(0.0, "s/m", ge=0, typical=(0.5, 50.0))
+    stribeck: float = quantity(0.0, "1", ge=0, le=10, typical=(0.1, 1.0))
+    stribeck_speed: float = quantity(0.05, "m/s", gt=0, tried=(0.01, 0.3))
+    power: float = quantity(0.0, "1", ge=0, typical=(0.03, 1.0))
+    exponent: float = quantity(1.0, "1", ge=0.2, le=4, tried=(0.4, 2))
+    power_speed: float = quantity(0.1, "m/s", gt=0, tried=(0.03, 0.3))
+    logarithmic: float = quantity(0.0, "1", ge=0, le=1, typical=(0.02, 0.2))
+    logarithm_speed: float = quantity(0.01, "m/s", gt=0, tried=(1e-3, 0.1))
 
 
 def dry_factor(
@@ -96,46 +69,27 @@ def dry_factor(
     return factor
 
 
+own = FormsOf("velocity_weakening")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Each law by itself."""
-    part = 0.15
-    for name in ("linear", "hyperbolic", "inverse_root"):
-        free = FreeParameter(
-            f"velocity_weakening.{name}",
-            part / s.speed,
-            0.1 / s.speed,
-            0.0,
-            {"linear": 10.0 / s.speed}.get(name, 1e3 / s.speed),
-        )
-        yield Candidate("velocity_weakening", name, (free,))
-    peak = FreeParameter("velocity_weakening.stribeck", 0.15, 0.1, 0.0, 10.0)
+    part, step = 0.15 / s.speed, 0.1 / s.speed
+    yield own.form("linear", own.free("linear", part, step, 0.0, 10.0 / s.speed))
+    for name in ("hyperbolic", "inverse_root"):
+        yield own.form(name, own.free(name, part, step, 0.0, 1e3 / s.speed))
+    peak = own.free("stribeck", 0.15, 0.1, 0.0, 10.0)
     for share in (0.3, 1.0):
         # over a much smaller speed it would be another mu_s, not a law of the sliding speed
-        speed = FreeParameter(
-            "velocity_weakening.stribeck_speed",
-            share * s.speed,
-            0.4,
-            0.1 * s.speed,
-            1e2 * s.speed,
-            log=True,
-        )
-        yield Candidate("velocity_weakening", "stribeck", (peak, speed))
-    yield Candidate(
-        "velocity_weakening",
-        "power",
-        (
-            FreeParameter("velocity_weakening.power", part, 0.1, 0.0, 1e3),
-            FreeParameter("velocity_weakening.exponent", 0.7, 0.2, 0.4, 2.0),
-        ),
-        {"velocity_weakening.power_speed": s.speed},
-    )
+        start, low, high = share * s.speed, 0.1 * s.speed, 1e2 * s.speed
+        speed = own.free("stribeck_speed", start, 0.4, low, high, log=True)
+        yield own.form("stribeck", peak, speed)
+    power = own.free("power", 0.15, 0.1, 0.0, 1e3)
+    exponent = own.free("exponent", 0.7, 0.2, 0.4, 2.0)
+    yield own.form("power", power, exponent, power_speed=s.speed)
     # set in so slowly that over the campaign's speeds it is a + b log v
-    yield Candidate(
-        "velocity_weakening",
-        "logarithmic",
-        (FreeParameter("velocity_weakening.logarithmic", 0.1, 0.05, 0.0, 1.0),),
-        {"velocity_weakening.logarithm_speed": 0.1 * s.speed},
-    )
+    decade = own.free("logarithmic", 0.1, 0.05, 0.0, 1.0)
+    yield own.form("logarithmic", decade, logarithm_speed=0.1 * s.speed)
 
 
 EFFECT = Effect(

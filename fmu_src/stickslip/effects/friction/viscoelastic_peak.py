@@ -8,33 +8,25 @@ a peak there (Grosch, Proc. R. Soc. A 274, 1963). On a logarithmic axis the fric
 as Savkoor fitted it (Wear 8, 1965). At rest, and far from the peak, mu_k is what is left.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import exp, log10
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
 class ViscoelasticPeak(Table):
-    """Kinetic friction has a peak at one sliding speed: a belt of rubber loses most there."""
+    """Kinetic friction has a peak at one sliding speed: a belt of rubber loses most there.
 
-    height: float = quantity(
-        0.0, "1", "c, height of the peak above mu_k, as part of mu_k", ge=0, le=10, typical=(0.1, 2)
-    )
-    peak_speed: float = quantity(
-        0.1, "m/s", "v_p, speed of the peak", gt=0, le=100, typical=(0.01, 1.0)
-    )
-    narrowness: float = quantity(
-        1.0,
-        "1",
-        "h: 1/h decades from the peak, 1/e of its height is left",
-        ge=0.1,
-        le=10,
-        tried=(0.3, 2.0),
-    )
+    height : c, height of the peak above mu_k, as part of mu_k
+    peak_speed : v_p, speed of the peak
+    narrowness : h: 1/h decades from the peak, 1/e of its height is left
+    """
+
+    height: float = quantity(0.0, "1", ge=0, le=10, typical=(0.1, 2))
+    peak_speed: float = quantity(0.1, "m/s", gt=0, le=100, typical=(0.01, 1.0))
+    narrowness: float = quantity(1.0, "1", ge=0.1, le=10, tried=(0.3, 2.0))
 
 
 def dry_factor(speed: float, height: float, peak_speed: float, narrowness: float) -> float:
@@ -45,19 +37,16 @@ def dry_factor(speed: float, height: float, peak_speed: float, narrowness: float
     return 1.0 + height * exp(-away * away)
 
 
+own = FormsOf("viscoelastic_peak")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """A peak below the campaign's speed, and one above it."""
-    height = FreeParameter("viscoelastic_peak.height", 0.3, 0.1, 0.0, 10.0)
+    height = own.free("height", 0.3, 0.1, 0.0, 10.0)
+    low, high = 1e-2 * s.speed, 1e2 * s.speed
     for share in (0.3, 3.0):
-        speed = FreeParameter(
-            "viscoelastic_peak.peak_speed",
-            share * s.speed,
-            0.4,
-            1e-2 * s.speed,
-            1e2 * s.speed,
-            log=True,
-        )
-        yield Candidate("viscoelastic_peak", "bell over the logarithm", (height, speed))
+        speed = own.free("peak_speed", share * s.speed, 0.4, low, high, log=True)
+        yield own.form("bell over the logarithm", height, speed)
 
 
 EFFECT = Effect(

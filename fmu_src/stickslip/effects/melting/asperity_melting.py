@@ -20,8 +20,6 @@ which is Tustin's exp(-v / v_c) of mixed lubrication (J. IEE 94, 1947):
 So friction tends to the dry value at rest at any temperature, the melting point too.
 """
 
-from __future__ import annotations
-
 from math import exp, pi, sqrt
 
 from ...quantity import Table, quantity
@@ -35,58 +33,23 @@ class AsperityMelting(Table):
     length l that slides for l / v warms ice of effusivity e from the interface temperature T to
     melting, 0 degC, and both bodies conduct from it. mu_k is what is left as v -> 0 and, where the
     contact is rough, below the speed at which melt carries, so mu_s >= mu_k stays the static value.
+
+    length : l, length of an asperity's contact along the sliding: that of a grain; 0 is off
+    hardness : H, pressure that an asperity of ice bears: some 1e7 near melting to 3e7 in the cold
+    effusivity : e of the ice, sqrt(k rho c)
+    constant : C: 1.128 isothermal contact, 1.329 uniform heat flux and melting in the mean, 0.886
+        uniform flux and melting at the trailing edge
+    conductivity : k, of both bodies together, which conduct from the contact at any speed: 2.2 of
+        ice, 0.5 of a belt; 0 leaves that out
+    roughness : s, of a contact's two faces: melt carries where it is thicker; 0 is at any speed
     """
 
-    length: float = quantity(
-        0.0,
-        "m",
-        "l, length of an asperity's contact along the sliding: that of a grain; 0 is off",
-        ge=0,
-        le=1,
-        typical=(1e-4, 1e-2),
-    )
-    hardness: float = quantity(
-        2e7,
-        "Pa",
-        "H, pressure that an asperity of ice bears: some 1e7 near melting to 3e7 in the cold",
-        ge=1e3,
-        le=1e10,
-        typical=(3e6, 3e7),
-    )
-    effusivity: float = quantity(
-        2034.0,
-        "W.s0.5/(m2.K)",
-        "e of the ice, sqrt(k rho c)",
-        ge=1,
-        le=1e6,
-        typical=(1900.0, 2200.0),
-    )
-    constant: float = quantity(
-        1.128,
-        "1",
-        "C: 1.128 isothermal contact, 1.329 uniform heat flux and melting in the mean, 0.886 "
-        "uniform flux and melting at the trailing edge",
-        ge=0.1,
-        le=10,
-        typical=(0.886, 1.329),
-    )
-    conductivity: float = quantity(
-        2.7,
-        "W/(m.K)",
-        "k, of both bodies together, which conduct from the contact at any speed: 2.2 of ice, 0.5 "
-        "of a belt; 0 leaves that out",
-        ge=0,
-        le=1e4,
-        typical=(2.4, 5.0),
-    )
-    roughness: float = quantity(
-        1e-8,
-        "m",
-        "s, of a contact's two faces: melt carries where it is thicker; 0 is at any speed",
-        ge=0,
-        le=1e-3,
-        typical=(1e-8, 1e-6),
-    )
+    length: float = quantity(0.0, "m", ge=0, le=1, typical=(1e-4, 1e-2))
+    hardness: float = quantity(2e7, "Pa", ge=1e3, le=1e10, typical=(3e6, 3e7))
+    effusivity: float = quantity(2034.0, "W.s0.5/(m2.K)", ge=1, le=1e6, typical=(1900.0, 2200.0))
+    constant: float = quantity(1.128, "1", ge=0.1, le=10, typical=(0.886, 1.329))
+    conductivity: float = quantity(2.7, "W/(m.K)", ge=0, le=1e4, typical=(2.4, 5.0))
+    roughness: float = quantity(1e-8, "m", ge=0, le=1e-3, typical=(1e-8, 1e-6))
 
 
 MELTING_POINT = 0.0  # of ice, degC

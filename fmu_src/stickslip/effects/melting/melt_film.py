@@ -5,8 +5,6 @@ mu_f = sqrt(2 eta v rho L / l) / p; it meets what friction is left of the solid 
 Churchill & Usagi, AIChE J. 18 (1972): mu^2 = mu_b^2 + mu_f^2.
 """
 
-from __future__ import annotations
-
 from math import pi, sqrt
 
 from ...quantity import Table, quantity
@@ -19,35 +17,18 @@ class MeltFilm(Table):
     mu_f = sqrt(2 eta v rho L / l) / p, where the pressure p is the load on the wetted part of the
     contact. The melt is taken to move with the surface; in Couette flow, at half its speed, the
     same friction belongs to half the length.
+
+    wetted_share : part of the contact's area that the film fills; p is the mean pressure over it; 0
+        is off
+    length : l, distance along the sliding over which a film grows: that of a wetted patch
+    viscosity : eta of water at 0 degC
+    latent_heat : rho L, heat that melts a volume of ice
     """
 
-    wetted_share: float = quantity(
-        0.0,
-        "1",
-        "part of the contact's area that the film fills; p is the mean pressure over it; 0 is off",
-        ge=0,
-        le=1,
-        typical=(3e-4, 3e-2),
-    )
-    length: float = quantity(
-        1e-3,
-        "m",
-        "l, distance along the sliding over which a film grows: that of a wetted patch",
-        ge=1e-9,
-        le=10,
-        typical=(1e-4, 1e-2),
-    )
-    viscosity: float = quantity(
-        1.79e-3, "Pa.s", "eta of water at 0 degC", gt=0, le=1e3, typical=(1.79e-3, 3e-3)
-    )
-    latent_heat: float = quantity(
-        3.06e8,
-        "J/m3",
-        "rho L, heat that melts a volume of ice",
-        gt=0,
-        le=1e10,
-        typical=(3.0e8, 3.1e8),
-    )
+    wetted_share: float = quantity(0.0, "1", ge=0, le=1, typical=(3e-4, 3e-2))
+    length: float = quantity(1e-3, "m", ge=1e-9, le=10, typical=(1e-4, 1e-2))
+    viscosity: float = quantity(1.79e-3, "Pa.s", gt=0, le=1e3, typical=(1.79e-3, 3e-3))
+    latent_heat: float = quantity(3.06e8, "J/m3", gt=0, le=1e10, typical=(3.0e8, 3.1e8))
 
 
 def film_square(

@@ -6,8 +6,6 @@ contact holds for the rest of it; the water, h / w thick where it is, is sheared
 eta v w / h on the share w. Water holds nothing at rest.
 """
 
-from __future__ import annotations
-
 from math import pi
 
 from ...quantity import Table, quantity
@@ -20,27 +18,15 @@ class MixedLubrication(Table):
     Its mean thickness h is an input: that of the heat model in a coupled run. It fills the share
     w = f h / (h + s) of a surface of roughness s, h / w thick there, and bears that share of the
     load: mu = (1 - w) mu_dry + w^2 eta v / (h p), p the mean pressure.
+
+    share : f, part of the contact that water can fill; 0 is off, 1 a surface that ends up afloat
+    roughness : s, of both faces together: water as thick as this fills half of what it can
+    viscosity : eta of water at 0 degC
     """
 
-    share: float = quantity(
-        0.0,
-        "1",
-        "f, part of the contact that water can fill; 0 is off, 1 a surface that ends up afloat",
-        ge=0,
-        le=1,
-        typical=(0.2, 1.0),
-    )
-    roughness: float = quantity(
-        5e-6,
-        "m",
-        "s, of both faces together: water as thick as this fills half of what it can",
-        ge=1e-9,
-        le=1e-2,
-        typical=(1e-6, 1e-4),
-    )
-    viscosity: float = quantity(
-        1.79e-3, "Pa.s", "eta of water at 0 degC", gt=0, le=1e3, typical=(1.79e-3, 3e-3)
-    )
+    share: float = quantity(0.0, "1", ge=0, le=1, typical=(0.2, 1.0))
+    roughness: float = quantity(5e-6, "m", ge=1e-9, le=1e-2, typical=(1e-6, 1e-4))
+    viscosity: float = quantity(1.79e-3, "Pa.s", gt=0, le=1e3, typical=(1.79e-3, 3e-3))
 
 
 def couette(viscosity: float, radius: float, normal_force: float) -> float:

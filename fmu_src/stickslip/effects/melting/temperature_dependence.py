@@ -4,8 +4,6 @@ McCarthy et al. (2017) on ice against rock; mu_k and mu_s each by their own slop
 1 - a (T - T_0).
 """
 
-from __future__ import annotations
-
 from ...quantity import Table, quantity
 from ..effect import Case, Effect
 
@@ -15,22 +13,15 @@ class TemperatureDependence(Table):
 
     Ice on rock, 0.52 at -20 degC to 0.02 at melting: mu_k = 0.52, reference_degC = -20,
     sensitivity = (1 - 0.02 / 0.52) / 20.
+
+    sensitivity : part of mu_k lost per kelvin above reference_degC
+    static_sensitivity : part of mu_s lost per kelvin above reference_degC
+    reference_degC : interface temperature at which mu_k and mu_s hold
     """
 
-    sensitivity: float = quantity(
-        0.0, "1/K", "part of mu_k lost per kelvin above reference_degC", ge=0, typical=(0.01, 0.12)
-    )
-    static_sensitivity: float = quantity(
-        0.0, "1/K", "part of mu_s lost per kelvin above reference_degC", ge=0, typical=(0.01, 0.12)
-    )
-    reference_degC: float = quantity(
-        -8.0,
-        "degC",
-        "interface temperature at which mu_k and mu_s hold",
-        ge=-273.15,
-        le=0,
-        tried=(-20.0, -1.0),
-    )
+    sensitivity: float = quantity(0.0, "1/K", ge=0, typical=(0.01, 0.12))
+    static_sensitivity: float = quantity(0.0, "1/K", ge=0, typical=(0.01, 0.12))
+    reference_degC: float = quantity(-8.0, "degC", ge=-273.15, le=0, tried=(-20.0, -1.0))
 
 
 def kinetic_temperature_factor(

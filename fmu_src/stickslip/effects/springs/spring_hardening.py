@@ -4,31 +4,24 @@ The force of a spring of extension e is k e + k_3 (e - e_n)^3 + k_5 (e - e_n)^5:
 force that is its own mirror image. The quintic one stays small for long and then bends sharply.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
 class SpringHardening(Table):
-    """Springs stiffen with their extension, or with its change since then."""
+    """Springs stiffen with their extension, or with its change since then.
 
-    cubic: float = quantity(
-        0.0, "N/m3", "k_3 of the spring force k e + k_3 (e - e_n)^3", ge=0, typical=(500.0, 5e4)
-    )
-    neutral_extension: float = quantity(
-        0.0,
-        "m",
-        "extension e_n at which these terms vanish: 0, or as installed",
-        ge=0,
-        tried=(0.0, 0.03),
-    )
-    quintic: float = quantity(
-        0.0, "N/m5", "k_5 of the spring force's term k_5 (e - e_n)^5", ge=0, typical=(1e5, 1e8)
-    )
+    cubic : k_3 of the spring force k e + k_3 (e - e_n)^3
+    neutral_extension : extension e_n at which these terms vanish: 0, or as installed
+    quintic : k_5 of the spring force's term k_5 (e - e_n)^5
+    """
+
+    cubic: float = quantity(0.0, "N/m3", ge=0, typical=(500.0, 5e4))
+    neutral_extension: float = quantity(0.0, "m", ge=0, tried=(0.0, 0.03))
+    quintic: float = quantity(0.0, "N/m5", ge=0, typical=(1e5, 1e8))
 
 
 def spring_force(extension: float, cubic: float, neutral_extension: float, quintic: float) -> float:
@@ -53,19 +46,17 @@ def spring_energy(
     return energy
 
 
+own = FormsOf("spring_hardening")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Either term in the extension, or in its change since the spring was installed."""
     for name, degree in (("cubic", 3), ("quintic", 5)):
         much = 0.1 * s.stiffness / s.travel ** (degree - 1)
-        term = FreeParameter(f"spring_hardening.{name}", much, much, 0.0, 1e4 * much)
-        yield Candidate("spring_hardening", name, (term,))
+        term = own.free(name, much, much, 0.0, 1e4 * much)
+        yield own.form(name, term)
         if s.extension != 0.0:  # as found by pulling at the block in its place
-            yield Candidate(
-                "spring_hardening",
-                f"{name} as installed",
-                (term,),
-                {"spring_hardening.neutral_extension": s.extension},
-            )
+            yield own.form(f"{name} as installed", term, neutral_extension=s.extension)
 
 
 EFFECT = Effect(

@@ -1,7 +1,5 @@
 """The springs stand off the axis: turned, each or with their frame, or with anchors shifted."""
 
-from __future__ import annotations
-
 from math import radians
 
 from ...quantity import Table, quantity
@@ -9,30 +7,19 @@ from ..effect import Case, Effect
 
 
 class SpringMisalignment(Table):
-    """The springs stand off the axis: turned, each or with their frame, or with anchors shifted."""
+    """The springs stand off the axis: turned, each or with their frame, or with anchors shifted.
 
-    angle_deg: float = quantity(
-        0.0, "deg", "turn of every spring about its attachment", ge=-60, le=60, typical=(-10, 10)
-    )
-    frame_angle_deg: float = quantity(
-        0.0,
-        "deg",
-        "turn of all anchors about the middle of the rig",
-        ge=-60,
-        le=60,
-        typical=(-10, 10),
-    )
-    lateral_offset: float = quantity(
-        0.0, "m", "shift of all anchors along y", ge=-1, le=1, typical=(-0.03, 0.03)
-    )
-    diagonal_offset: float = quantity(
-        0.0,
-        "m",
-        "shift of the anchors of springs 1 and 4 along y, of 2 and 3 by as much the other way",
-        ge=-1,
-        le=1,
-        typical=(-0.03, 0.03),
-    )
+    angle_deg : turn of every spring about its attachment
+    frame_angle_deg : turn of all anchors about the middle of the rig
+    lateral_offset : shift of all anchors along y
+    diagonal_offset : shift of the anchors of springs 1 and 4 along y, of 2 and 3 by as much the
+        other way
+    """
+
+    angle_deg: float = quantity(0.0, "deg", ge=-60, le=60, typical=(-10, 10))
+    frame_angle_deg: float = quantity(0.0, "deg", ge=-60, le=60, typical=(-10, 10))
+    lateral_offset: float = quantity(0.0, "m", ge=-1, le=1, typical=(-0.03, 0.03))
+    diagonal_offset: float = quantity(0.0, "m", ge=-1, le=1, typical=(-0.03, 0.03))
 
 
 def spring_turn(angle_deg: float) -> float:

@@ -5,53 +5,43 @@ bluff body), the last one dry friction in guides and joints, which turns round w
 moment r omega stands against the rotation.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
 
 
 class StructuralDamping(Table):
-    """A force against the velocity in the frame: viscous, with its square, or dry friction."""
+    """A force against the velocity in the frame: viscous, with its square, or dry friction.
 
-    coefficient: float = quantity(
-        0.0, "N.s/m", "force per velocity of the block", ge=0, typical=(0.05, 2.0)
-    )
-    rotational: float = quantity(
-        0.0, "N.m.s", "moment per angular velocity of the block", ge=0, typical=(1e-5, 1e-2)
-    )
-    quadratic: float = quantity(
-        0.0,
-        "N.s2/m2",
-        "q, force per square of the block's velocity",
-        ge=0,
-        typical=(0.1, 10.0),
-    )
-    dry_force: float = quantity(
-        0.0, "N", "F, dry friction of guides and joints", ge=0, typical=(0.003, 0.1)
-    )
-    dry_speed: float = quantity(
-        0.01, "m/s", "v_0, velocity within which dry friction turns round", gt=0, tried=(3e-3, 0.1)
-    )
+    coefficient : force per velocity of the block
+    rotational : moment per angular velocity of the block
+    quadratic : q, force per square of the block's velocity
+    dry_force : F, dry friction of guides and joints
+    dry_speed : v_0, velocity within which dry friction turns round
+    """
+
+    coefficient: float = quantity(0.0, "N.s/m", ge=0, typical=(0.05, 2.0))
+    rotational: float = quantity(0.0, "N.m.s", ge=0, typical=(1e-5, 1e-2))
+    quadratic: float = quantity(0.0, "N.s2/m2", ge=0, typical=(0.1, 10.0))
+    dry_force: float = quantity(0.0, "N", ge=0, typical=(0.003, 0.1))
+    dry_speed: float = quantity(0.01, "m/s", gt=0, tried=(3e-3, 0.1))
+
+
+own = FormsOf("structural_damping")
 
 
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Viscous, weak or strong, with the square of the velocity, or dry."""
     drag = 0.02 * (4.0 * s.stiffness * s.mass) ** 0.5  # a hundredth of the critical one
     for much in (1.0, 15.0):
-        free = FreeParameter("structural_damping.coefficient", much * drag, drag, 0.0, 100.0 * drag)
-        yield Candidate("structural_damping", "viscous", (free,))
+        yield own.form("viscous", own.free("coefficient", much * drag, drag, 0.0, 100.0 * drag))
     much = drag / s.speed
-    square = FreeParameter("structural_damping.quadratic", 5.0 * much, much, 0.0, 1e3 * much)
-    yield Candidate("structural_damping", "quadratic", (square,))
-    force = FreeParameter(
-        "structural_damping.dry_force", drag * s.speed, 0.3 * drag * s.speed, 0.0, s.force
-    )
-    within = FreeParameter("structural_damping.dry_speed", 0.3 * s.speed, 0.5, 1e-3, 1.0, log=True)
-    yield Candidate("structural_damping", "dry", (force, within))
+    yield own.form("quadratic", own.free("quadratic", 5.0 * much, much, 0.0, 1e3 * much))
+    force = own.free("dry_force", drag * s.speed, 0.3 * drag * s.speed, 0.0, s.force)
+    within = own.free("dry_speed", 0.3 * s.speed, 0.5, 1e-3, 1.0, log=True)
+    yield own.form("dry", force, within)
 
 
 EFFECT = Effect(

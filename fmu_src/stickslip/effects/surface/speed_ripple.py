@@ -3,25 +3,26 @@
 v (1 + A (sin a + B sin(2 a + b) + C sin(3 a + c) + D sin(4 a + d))),    a = 2 pi f t + phase
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from math import cos, pi, radians, sin
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FreeParameter, Scales
+from ..candidate import Candidate, FormsOf, Scales
 from ..effect import Case, Effect
-from ..periodic import harmonic_amplitude, harmonic_phase, periodic
+from ..periodic import HARMONICS, harmonic_amplitude, harmonic_phase, periodic
 
 
 class SpeedRipple(Table):
-    """The speed of the surface is periodic in time."""
+    """The speed of the surface is periodic in time.
 
-    amplitude: float = quantity(
-        0.0, "1", "amplitude as part of the speed", ge=0, le=1, typical=(0.02, 0.3)
-    )
-    frequency: float = quantity(1.0, "Hz", "frequency", gt=0, le=1000, typical=(0.1, 10.0))
-    phase_deg: float = quantity(0.0, "deg", "phase at the start", tried=(-180.0, 180.0))
+    amplitude : amplitude as part of the speed
+    frequency : frequency
+    phase_deg : phase at the start
+    """
+
+    amplitude: float = quantity(0.0, "1", ge=0, le=1, typical=(0.02, 0.3))
+    frequency: float = quantity(1.0, "Hz", gt=0, le=1000, typical=(0.1, 10.0))
+    phase_deg: float = quantity(0.0, "deg", tried=(-180.0, 180.0))
     second_amplitude: float = harmonic_amplitude("second")
     second_phase_deg: float = harmonic_phase("second")
     third_amplitude: float = harmonic_amplitude("third")
@@ -38,40 +39,6 @@ def angular_rate(frequency: float) -> float:
 def phase(phase_deg: float) -> float:
     """rad"""
     return radians(phase_deg)
-
-
-# B sin(2 a + b) = B cos b sin 2 a + B sin b cos 2 a: what is a harmonic's own is worked out once,
-# and sines and cosines of multiples of a follow from those of a, at a twentieth of their price.
-
-
-def second_cosine(second_amplitude: float, second_phase_deg: float) -> float:
-    """B cos b"""
-    return second_amplitude * cos(radians(second_phase_deg))
-
-
-def second_sine(second_amplitude: float, second_phase_deg: float) -> float:
-    """B sin b"""
-    return second_amplitude * sin(radians(second_phase_deg))
-
-
-def third_cosine(third_amplitude: float, third_phase_deg: float) -> float:
-    """C cos c"""
-    return third_amplitude * cos(radians(third_phase_deg))
-
-
-def third_sine(third_amplitude: float, third_phase_deg: float) -> float:
-    """C sin c"""
-    return third_amplitude * sin(radians(third_phase_deg))
-
-
-def fourth_cosine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
-    """D cos d"""
-    return fourth_amplitude * cos(radians(fourth_phase_deg))
-
-
-def fourth_sine(fourth_amplitude: float, fourth_phase_deg: float) -> float:
-    """D sin d"""
-    return fourth_amplitude * sin(radians(fourth_phase_deg))
 
 
 def fastest_rate(
@@ -138,11 +105,14 @@ def surface_acceleration(
     return rate + steady_speed * amplitude * angular_rate * slope
 
 
+own = FormsOf("speed_ripple")
+
+
 def candidates(s: Scales) -> Iterator[Candidate]:
     """Of a frequency, or of a roller, whose frequency goes with the speed."""
-    frequency = FreeParameter("speed_ripple.frequency", 1.0, 0.2 / s.duration, 0.05, 50.0)
+    frequency = own.free("frequency", 1.0, 0.2 / s.duration, 0.05, 50.0)
     yield periodic("speed_ripple", frequency, "sine")
-    length = FreeParameter("speed_ripple.wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
+    length = own.free("wavelength", 0.1, 0.02, 1e-3, 10.0, log=True)
     yield periodic("speed_ripple", length, "sine of a roller")
 
 
@@ -154,16 +124,7 @@ EFFECT = Effect(
     axis="time",
     source="the source study: the speed of the belt is not steady",
     terms=(surface_speed, surface_acceleration, fastest_rate),
-    derived=(
-        angular_rate,
-        phase,
-        second_cosine,
-        second_sine,
-        third_cosine,
-        third_sine,
-        fourth_cosine,
-        fourth_sine,
-    ),
+    derived=(angular_rate, phase, *HARMONICS),
     candidates=candidates,
     case=Case({"amplitude": 0.3, "frequency": 0.7}),
 )

@@ -4,23 +4,17 @@ With the curvature c = 1/R the surface turns at the rate v c about (0, R), with 
 installation.
 """
 
-from __future__ import annotations
-
 from ...quantity import Table, quantity
 from ..effect import Case, Effect
 
 
 class TurningSurface(Table):
-    """The surface is a turning slab: its speed varies over the disc and has a lateral part."""
+    """The surface is a turning slab: its speed varies over the disc and has a lateral part.
 
-    curvature: float = quantity(
-        0.0,
-        "1/m",
-        "1/R of a surface that turns about (0, R); 0 is a belt",
-        ge=-20,
-        le=20,
-        typical=(-4.0, 4.0),
-    )
+    curvature : 1/R of a surface that turns about (0, R); 0 is a belt
+    """
+
+    curvature: float = quantity(0.0, "1/m", ge=-20, le=20, typical=(-4.0, 4.0))
 
 
 EFFECT = Effect(

@@ -23,15 +23,12 @@ In a slip much faster than v_s the bristles only follow: they are left out there
 stays as it was, and friction is that of a slip, see `friction.force`.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
-from .. import Floats
-from ..contact import holding_ratio, scaled_sliding_speed, set_contact, set_holding_load
-from ..friction.force import add_contact_drag, set_sliding_coefficients
+from ..contact import *
+from ..friction.force import *
 from ..layout import *
-from ..steady_sliding import LOOK_AHEAD
+from ..steady_sliding import *
 
 # Of its friction that a contact keeps where a law leaves it none: without a limit bristles would
 # give way faster than any step could follow.
@@ -71,9 +68,9 @@ def set_bristle_friction(p: Floats, u: Floats, w: Floats) -> None:
     arm = kappa * p[P_RADIUS]
     stiffness = p[P_BRISTLE_STIFFNESS]
     damping = p[P_BRISTLE_DAMPING]
-    sx = w[W_SLIDING]
-    sy = kappa * w[W_SLIDING + 1]
-    sr = arm * w[W_SLIDING + 2]
+    sx = w[W_SCALED]
+    sy = w[W_SCALED + 1]
+    sr = w[W_SCALED + 2]
     set_sliding_coefficients(p, u, w, sx, sy, sr)
     force = p[P_NORMAL_FORCE] * w[W_PAIR]
     moment = p[P_NORMAL_FORCE] * w[W_PAIR + 1]
@@ -111,9 +108,9 @@ def bristle_energy(p: Floats, z: Floats, instant: int) -> float:
 
 def set_sliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: int) -> None:
     """Shear of a contact that slides steadily as in ``w``, not at rest, into ``z``."""
-    sx = w[W_SLIDING]
-    sy = p[P_LATERAL] * w[W_SLIDING + 1]
-    sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+    sx = w[W_SCALED]
+    sy = w[W_SCALED + 1]
+    sr = w[W_SCALED + 2]
     set_sliding_coefficients(p, u, w, sx, sy, sr)
     sliding = sqrt(sx * sx + sy * sy)
     most = p[P_NORMAL_FORCE] / p[P_BRISTLE_STIFFNESS]
@@ -145,8 +142,6 @@ def set_presliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: in
     z' is the rate of the load over sigma_0, and F the load; the sliding velocity s that has this
     solves s = z' + r(s) z, with the rate of yielding r, by iteration. Inertia is left out.
     """
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
     ahead = LOOK_AHEAD / p[P_RATE]
     for i in range(3):
         w[W_STEADY + i] = z[instant + SHEAR_X + i]  # under the load now
@@ -162,27 +157,27 @@ def set_presliding_shear(p: Floats, u: Floats, z: Floats, w: Floats, instant: in
         z[instant + SHEAR_X + i] = w[W_STEADY + i] - delay * w[W_DIRECTION + i]
         w[W_STATE + SHEAR_X + i] = z[instant + SHEAR_X + i]
         w[W_SLIDING + i] = 0.0
+        w[W_SCALED + i] = 0.0
     w[W_STATE + TIME] -= ahead
     most = p[P_TRANSITION_SPEED]
     change = most
     sweep = 0
     while change > 1e-9 * most and sweep < 100:
         set_bristle_friction(p, u, w)
-        ex = w[W_DIRECTION] - w[W_SHEARING]
-        ey = w[W_DIRECTION + 1] - w[W_SHEARING + 1]
-        er = w[W_DIRECTION + 2] - w[W_SHEARING + 2]
-        change = sqrt(ex * ex + ey * ey + er * er)
-        w[W_SLIDING] += ex
-        if kappa > 0.0:
-            w[W_SLIDING + 1] += ey / kappa
-            w[W_SLIDING + 2] += er / arm
-        if scaled_sliding_speed(p, w) > most:  # no load that grows is held any more
+        square = 0.0
+        for i in range(3):
+            off = w[W_DIRECTION + i] - w[W_SHEARING + i]
+            square += off * off
+            if p[P_SCALES + i] > 0.0:
+                w[W_SLIDING + i] += off / p[P_SCALES + i]
+        change = sqrt(square)
+        scale_sliding(p, w)
+        if scaled_sliding_speed(w) > most:  # no load that grows is held any more
             sweep = 100
         sweep += 1
     if sweep < 100:
-        z[instant + VX] += w[W_SLIDING]
-        z[instant + VY] += p[P_FREE_Y] * w[W_SLIDING + 1]
-        z[instant + OMEGA] += p[P_FREE_PHI] * w[W_SLIDING + 2]
+        for i in range(3):
+            z[instant + VX + i] += p[P_FREE + i] * w[W_SLIDING + i]
 
 
 def yielding_share(p: Floats, w: Floats) -> float:
@@ -190,9 +185,9 @@ def yielding_share(p: Floats, w: Floats) -> float:
 
     0 for bristles without load, 1 in steady sliding; below 0 where they spring back.
     """
-    sx = w[W_SLIDING]
-    sy = p[P_LATERAL] * w[W_SLIDING + 1]
-    sr = p[P_LATERAL] * p[P_RADIUS] * w[W_SLIDING + 2]
+    sx = w[W_SCALED]
+    sy = w[W_SCALED + 1]
+    sr = w[W_SCALED + 2]
     size = sx * sx + sy * sy + 0.5 * sr * sr
     if size == 0.0:
         return 0.0

@@ -11,29 +11,13 @@ sliding speeds far above v_s they would be the stiffer the faster the slip, and 
 say.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
-from .. import Floats
-from ..contact import scaled_sliding_speed, speed_scale
-from ..events import (
-    STICK_SPEED,
-    look_at,
-    note_mode,
-    step_to_event,
-    stopping_time,
-    switch_mode,
-)
+from ..contact import *
+from ..events import *
 from ..layout import *
-from ..runge_kutta import begin_step, load_instant, take_step
-from .law import (
-    bristle_energy,
-    set_holding_shear,
-    set_presliding_shear,
-    set_sliding_shear,
-    yielding_share,
-)
+from ..runge_kutta import *
+from .law import *
 
 # Of P_FAST_SLIP: a fast slip ends between it and this, and begins above the second. In between
 # either way of reckoning is good.
@@ -62,7 +46,7 @@ def settle_bristles(p: Floats, u: Floats, z: Floats, w: Floats, e: Floats, insta
     has the velocity of its presliding, too.
     """
     look_at(p, u, z, w, instant)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     fast = FAST_SLIP_ENDS * p[P_FAST_SLIP]
     if z[instant + BRISTLES] < 0.0:
         held = z[instant + BRISTLES] == HELD
@@ -117,7 +101,7 @@ def fast_slip_bound(p: Floats, w: Floats) -> float:
     rest = stopping_time(p, w)
     if rest < 0.0:
         return -1.0
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     aim = 0.5 * (1.0 + FAST_SLIP_ENDS) * p[P_FAST_SLIP]
     return rest * max(1e-3, 1.0 - aim / speed)
 
@@ -128,9 +112,9 @@ def end_fast_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     A step beyond that speed is taken again, shorter.
     """
     look_at(p, u, z, w, HERE)
-    fastest = scaled_sliding_speed(p, w)
+    fastest = scaled_sliding_speed(w)
     look_at(p, u, z, w, NEXT)
-    speed = scaled_sliding_speed(p, w)
+    speed = scaled_sliding_speed(w)
     aim = 0.5 * (1.0 + FAST_SLIP_ENDS) * p[P_FAST_SLIP]
     low = 0.0
     high = z[NEXT + TIME] - z[HERE + TIME]
@@ -144,7 +128,7 @@ def end_fast_slip(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
         load_instant(p, z, w, HERE)
         take_step(p, u, z, w, HERE, NEXT, h)
         look_at(p, u, z, w, NEXT)
-        speed = scaled_sliding_speed(p, w)
+        speed = scaled_sliding_speed(w)
         if speed < p[P_FAST_SLIP]:
             high = h
             slowest = speed
@@ -167,20 +151,19 @@ def turning_lag(p: Floats, w: Floats) -> float:
 
     With the slopes of `begin_step` and the contact in ``w``.
     """
-    kappa = p[P_LATERAL]
-    arm = kappa * p[P_RADIUS]
-    sx = w[W_SLIDING]
-    sy = kappa * w[W_SLIDING + 1]
-    sr = arm * w[W_SLIDING + 2]
-    ax = w[W_SLOPES + VX - 1] - w[W_SURFACE + 3]
-    ay = kappa * (w[W_SLOPES + VY - 1] - w[W_SURFACE + 4])
-    ar = arm * (w[W_SLOPES + OMEGA - 1] - w[W_SURFACE + 5])
-    size = sx * sx + sy * sy + sr * sr
-    along = (ax * sx + ay * sy + ar * sr) / size
-    ax -= along * sx
-    ay -= along * sy
-    ar -= along * sr
-    return shear_at_most(p) * sqrt(ax * ax + ay * ay + ar * ar) / size
+    size = 0.0
+    along = 0.0
+    for i in range(3):
+        rate = p[P_SCALES + i] * (w[W_SLOPES + VX - 1 + i] - w[W_SURFACE + 3 + i])
+        w[W_RATES + i] = rate
+        size += w[W_SCALED + i] * w[W_SCALED + i]
+        along += rate * w[W_SCALED + i]
+    along /= size
+    across = 0.0
+    for i in range(3):
+        rate = w[W_RATES + i] - along * w[W_SCALED + i]
+        across += rate * rate
+    return shear_at_most(p) * sqrt(across) / size
 
 
 def choose_bristles(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
@@ -189,7 +172,7 @@ def choose_bristles(p: Floats, u: Floats, z: Floats, w: Floats) -> None:
     They are left out where they hardly move any more, and come back where the sliding turns.
     """
     fast = FAST_SLIP_BEGINS * p[P_FAST_SLIP]
-    if z[HERE + MODE] == STICK or scaled_sliding_speed(p, w) < fast:
+    if z[HERE + MODE] == STICK or scaled_sliding_speed(w) < fast:
         return
     bristles = z[HERE + BRISTLES]
     lag = turning_lag(p, w)

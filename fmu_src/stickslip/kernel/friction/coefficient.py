@@ -15,15 +15,12 @@ the contact: the time at rest, and in slip what sliding has left of it, theta_0 
 the way s since the break-away (Dieterich's theta' = 1 - v theta / D without its 1).
 """
 
-from __future__ import annotations
-
 from math import exp
 
-from .. import Floats
 from ..layout import *
-from ..rig.drive import varies
+from ..rig.drive import *
 from ..terms import *
-from .table import table_coefficient
+from .table import *
 
 
 def surface_factor(p: Floats, u: Floats, w: Floats) -> float:

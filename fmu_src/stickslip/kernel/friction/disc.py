@@ -13,13 +13,10 @@ Ruina & Papadopoulos, Wear 143, 1991; Farkas et al., Phys. Rev. Lett. 90, 2003).
 over the contact is needed where mu is uniform, and none of its noise reaches the integrator.
 """
 
-from __future__ import annotations
-
 from math import pi, sqrt
 
-from .. import Floats
 from ..layout import *
-from .coefficient import sliding_coefficient
+from .coefficient import *
 
 
 def elliptic_pair(kc2: float, w: Floats) -> None:
@@ -98,42 +95,30 @@ def disc_friction(sliding: float, spinning: float, w: Floats) -> None:
         w[W_PAIR + 1] = 4.0 / (9.0 * pi) * ((3.0 - k * k) * b + (3.0 - 2.0 * k * k) * d)
 
 
-def add_local_law(
-    p: Floats,
-    u: Floats,
-    mu: float,
-    aged: float,
-    reference: float,
-    sliding: float,
-    spinning: float,
-    w: Floats,
-) -> None:
+def add_local_law(p: Floats, u: Floats, w: Floats, sliding: float, spinning: float) -> None:
     """Add to ``w[W_PAIR:]`` what a coefficient that varies with the local speed changes.
 
-    Integrates mu(|u|) + aged - reference over the disc (``aged``: the part of the contact's age),
+    Integrates `local_excess` over the disc,
     in coordinates centred on the centre of rotation: the local speed is the distance from it, the
     direction of sliding the angle, and nothing is singular. Outside the disc the angles are those
     of strips along the sliding (midpoint rule in psi, y = a sin psi: Gauss-Chebyshev), inside those
     of rays; along them Gauss-Legendre. Where the spin hardly tells, a few points do.
     """
     if spinning <= p[P_FEW_POINTS] * sliding:
-        add_law_at_points(p, u, mu, aged, reference, sliding, spinning / sliding, w)
+        add_law_at_points(p, u, w, sliding, spinning / sliding)
     elif sliding >= spinning:
-        add_law_over_strips(p, u, mu, aged, reference, sliding, spinning / sliding, w)
+        add_law_over_strips(p, u, w, sliding, spinning / sliding)
     else:
-        add_law_over_rays(p, u, mu, aged, reference, spinning, sliding / spinning, w)
+        add_law_over_rays(p, u, w, spinning, sliding / spinning)
 
 
-def add_law_at_points(
-    p: Floats,
-    u: Floats,
-    mu: float,
-    aged: float,
-    reference: float,
-    sliding: float,
-    k: float,
-    w: Floats,
-) -> None:
+def local_excess(p: Floats, u: Floats, w: Floats, speed: float) -> float:
+    """Friction at a local sliding speed, m/s, over that of the whole contact in ``w[W_WHOLE]``."""
+    mu = sliding_coefficient(p, u, w, w[W_KINETIC], speed)
+    return max(0.0, mu + w[W_AGED]) - w[W_WHOLE]
+
+
+def add_law_at_points(p: Floats, u: Floats, w: Floats, sliding: float, k: float) -> None:
     """The centre of rotation is far away: |u| = U |(1 - k y, k x)| is nearly uniform.
 
     Albrecht's twelve points of a disc, exact to the seventh degree (Stroud, Approximate Calculation
@@ -146,45 +131,26 @@ def add_law_at_points(
     on_axis = 2.0 / 27.0
     on_near = (551.0 + 41.0 * sqrt(29.0)) / 3132.0
     on_far = (551.0 - 41.0 * sqrt(29.0)) / 3132.0
-    add_law_at_point(p, u, mu, aged, reference, sliding, k, axis, 0.0, 2.0 * on_axis, w)
-    add_law_at_point(p, u, mu, aged, reference, sliding, k, 0.0, axis, on_axis, w)
-    add_law_at_point(p, u, mu, aged, reference, sliding, k, 0.0, -axis, on_axis, w)
-    add_law_at_point(p, u, mu, aged, reference, sliding, k, near, near, on_near, w)
-    add_law_at_point(p, u, mu, aged, reference, sliding, k, near, -near, on_near, w)
-    add_law_at_point(p, u, mu, aged, reference, sliding, k, far, far, on_far, w)
-    add_law_at_point(p, u, mu, aged, reference, sliding, k, far, -far, on_far, w)
+    add_law_at_point(p, u, w, sliding, k, axis, 0.0, 2.0 * on_axis)
+    add_law_at_point(p, u, w, sliding, k, 0.0, axis, on_axis)
+    add_law_at_point(p, u, w, sliding, k, 0.0, -axis, on_axis)
+    add_law_at_point(p, u, w, sliding, k, near, near, on_near)
+    add_law_at_point(p, u, w, sliding, k, near, -near, on_near)
+    add_law_at_point(p, u, w, sliding, k, far, far, on_far)
+    add_law_at_point(p, u, w, sliding, k, far, -far, on_far)
 
 
 def add_law_at_point(
-    p: Floats,
-    u: Floats,
-    mu: float,
-    aged: float,
-    reference: float,
-    sliding: float,
-    k: float,
-    x: float,
-    y: float,
-    weight: float,
-    w: Floats,
+    p: Floats, u: Floats, w: Floats, sliding: float, k: float, x: float, y: float, weight: float
 ) -> None:
     """What the part ``weight`` of a disc adds that slides as its point (x, y), in radii."""
     q = sqrt((1.0 - k * y) * (1.0 - k * y) + k * k * x * x)
-    excess = max(0.0, sliding_coefficient(p, u, w, mu, sliding * q) + aged) - reference
+    excess = local_excess(p, u, w, sliding * q)
     w[W_PAIR] += weight * excess * (1.0 - k * y) / q
     w[W_PAIR + 1] += weight * excess * (k * (x * x + y * y) - y) / q
 
 
-def add_law_over_strips(
-    p: Floats,
-    u: Floats,
-    mu: float,
-    aged: float,
-    reference: float,
-    sliding: float,
-    k: float,
-    w: Floats,
-) -> None:
+def add_law_over_strips(p: Floats, u: Floats, w: Floats, sliding: float, k: float) -> None:
     """The centre of rotation lies outside: |u| = U (cos theta + k tau cos psi)."""
     force = 0.0
     moment = 0.0
@@ -194,24 +160,14 @@ def add_law_over_strips(
         for i in range(DEPTHS):
             tau = DEPTH_NODES[i]
             q = along + k * tau * c
-            excess = max(0.0, sliding_coefficient(p, u, w, mu, sliding * q) + aged) - reference
-            share = DEPTH_WEIGHTS[i] * c * c * excess / RAYS
+            share = DEPTH_WEIGHTS[i] * c * c * local_excess(p, u, w, sliding * q) / RAYS
             force += share * q
             moment += share * c * tau * q / along
     w[W_PAIR] += force
     w[W_PAIR + 1] += moment
 
 
-def add_law_over_rays(
-    p: Floats,
-    u: Floats,
-    mu: float,
-    aged: float,
-    reference: float,
-    spinning: float,
-    k: float,
-    w: Floats,
-) -> None:
+def add_law_over_rays(p: Floats, u: Floats, w: Floats, spinning: float, k: float) -> None:
     """The centre of rotation lies inside, k radii from the centre of the disc."""
     force = 0.0
     moment = 0.0
@@ -220,8 +176,7 @@ def add_law_over_rays(
         reach = k * c + sqrt(1.0 - k * k * RAY_SQUARED_SINES[j])
         for i in range(DEPTHS):
             s = 0.5 * reach * (1.0 + DEPTH_NODES[i])
-            excess = max(0.0, sliding_coefficient(p, u, w, mu, spinning * s) + aged) - reference
-            share = DEPTH_WEIGHTS[i] * reach * s * excess / RAYS
+            share = DEPTH_WEIGHTS[i] * reach * s * local_excess(p, u, w, spinning * s) / RAYS
             force += share * c
             moment += share * (s - k * c)
     w[W_PAIR] += force

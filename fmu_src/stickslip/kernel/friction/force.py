@@ -7,21 +7,12 @@ along x alone. The scaling is that of an elliptic dissipation potential, so fric
 motion for every kappa.
 """
 
-from __future__ import annotations
-
 from math import sqrt
 
-from .. import Floats
 from ..layout import *
-from ..terms import with_contact_drag
-from .coefficient import (
-    kinetic_coefficient,
-    set_excess,
-    sliding_coefficient,
-    slow_coefficient,
-    state_coefficient,
-)
-from .disc import add_local_law, disc_friction
+from ..terms import *
+from .coefficient import *
+from .disc import *
 
 
 def set_friction(p: Floats, w: Floats, sx: float, sy: float, sr: float, sliding: float) -> None:
@@ -83,7 +74,10 @@ def set_sliding_coefficients(
     w[W_PAIR] *= whole
     w[W_PAIR + 1] *= whole
     if p[P_LOCAL_LAW] == 1.0 and sr != 0.0:
-        add_local_law(p, u, mu, aged, whole, sliding, abs(sr), w)
+        w[W_KINETIC] = mu
+        w[W_AGED] = aged
+        w[W_WHOLE] = whole
+        add_local_law(p, u, w, sliding, abs(sr))
 
 
 def add_contact_drag(p: Floats, w: Floats, sx: float, sy: float, sr: float) -> None:

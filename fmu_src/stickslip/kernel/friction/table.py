@@ -7,9 +7,6 @@ each temperature of the interface: each row is looked up at the speed, and what 
 joined over the temperature in the same way. The rows' slopes are made once, in `packing`.
 """
 
-from __future__ import annotations
-
-from .. import Floats
 from ..layout import *
 
 

@@ -3,12 +3,9 @@
 What is said of each is in `stickslip.contradictions`.
 """
 
-from __future__ import annotations
-
-from .. import Floats
 from ..layout import *
-from ..terms import has_dry_law
-from .vector import count_grown, count_points
+from ..terms import *
+from .vector import *
 
 # what `contradiction` returns
 NO_CONTRADICTION = 0

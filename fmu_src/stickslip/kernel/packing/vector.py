@@ -6,12 +6,9 @@ ordinates. In ``p`` it is points of a width: abscissa, ordinate, slope there. Th
 departs by from its drawing, friction, springs, and the scales that the integrator needs.
 """
 
-from __future__ import annotations
-
 from math import cos, log, radians, sin, sqrt
 
-from .. import Floats
-from ..friction.table import end_slope, joined_slope
+from ..friction.table import *
 from ..layout import *
 from ..terms import *
 
@@ -275,11 +272,21 @@ def pack(v: Floats, d: Floats, p: Floats) -> None:
     set_rig(v, d, p)
     set_friction_law(v, p)
     set_effect_numbers(v, d, p)
+    set_directions(p)
     set_kind_of_law(p)
     set_start(v, d, p)
     place_springs(v, d, p)
     set_force_curve(v, p)
     set_scales(v, p)
+
+
+def set_directions(p: Floats) -> None:
+    """Numbers of x, y and phi in a row, from those of the rig and the effects."""
+    p[P_MASS + 1] = p[P_MASS]
+    p[P_FREE] = 1.0
+    p[P_SCALES] = 1.0
+    p[P_SCALES + 1] = p[P_LATERAL]
+    p[P_SCALES + 2] = p[P_LATERAL] * p[P_RADIUS]
 
 
 def set_rig(v: Floats, d: Floats, p: Floats) -> None:

@@ -14,11 +14,8 @@ way up to there, whatever the host says at the event: a surface whose accelerati
 where a block breaks away would make it stick again. Inputs that are held jump there as anywhere.
 """
 
-from __future__ import annotations
-
-from .. import Floats
 from ..layout import *
-from ..terms import with_surface_acceleration, with_surface_speed
+from ..terms import *
 
 # Of a step: by how much what is left of it behind an event may miss its end, as a host rounds.
 ROUNDING = 1e-9

@@ -16,11 +16,8 @@ What jumps in an event has no past: there the memory begins anew. A host that gi
 time for which it asks for rates and then leaves one as it is, holds it.
 """
 
-from __future__ import annotations
-
-from .. import Floats
 from ..layout import *
-from .drive import driven_acceleration, driven_speed, input_at, is_mean
+from .drive import *
 
 # Of the motion's own time: what lies nearer than that says of a rate nothing but its rounding,
 # which is of some 1e-16 of the input in this time.

@@ -1,12 +1,9 @@
 """Four springs with exact geometry between anchors in the rig and the block, and the damping."""
 
-from __future__ import annotations
-
 from math import cos, sin, sqrt
 
-from .. import Floats
 from ..layout import *
-from ..terms import with_spring_energy, with_spring_force
+from ..terms import *
 
 
 def curve_piece(p: Floats, extension: float) -> int:
