@@ -24,9 +24,7 @@ MECHANICAL = {port.name: (port.unit or "1", port.description) for port in OUTPUT
 
 THERMAL, COUPLING = TABLES["thermal"], TABLES["coupling"]
 
-KNOWN = MECHANICAL | THERMAL | COUPLING
-
-TIME = {"units": "s", "long_name": "time"}
+KNOWN = MECHANICAL | THERMAL | COUPLING | TABLES["axes"] | {"event_x": MECHANICAL["x"]}
 
 MODE = {"flag_values": [0, 1], "flag_meanings": "stick slip"}
 
@@ -35,7 +33,7 @@ def attributes(name: str, unit: str | None = None) -> dict[str, object]:
     """units and long_name of a variable; an unknown one is named by its own words."""
     known_unit, text = KNOWN.get(name, (unit or "1", name.replace("_", " ").replace(".", " ")))
     attrs: dict[str, object] = {"units": unit or known_unit, "long_name": text}
-    return attrs | (MODE if name == "mode" else {})
+    return attrs | (MODE if _COUNTS.get(name) is np.int8 else {})
 
 
 if TYPE_CHECKING:
@@ -46,7 +44,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 # whole numbers that models and masters carry as floats
-_COUNTS = {"mode": np.int8, "slip_count": np.int64}
+_COUNTS = {"mode": np.int8, "event_mode": np.int8, "slip_count": np.int64}
 
 
 class BeltSnapshots(Protocol):
@@ -118,8 +116,7 @@ def trajectory_columns(
 
     scenario: the model that ``toml`` was read into; wall_time: of the integration, s.
     """
-    units = {name: unit for name, (unit, _) in MECHANICAL.items()}
-    dataset = _dataset(trajectory.time, trajectory.columns, units)
+    dataset = _dataset(trajectory.time, trajectory.columns, {})
     status, reason = _outcome(trajectory)
     _describe(dataset, scenario, toml, status, reason, wall_time)
     alone = {*type(trajectory.parameters).model_fields, "run"}
@@ -134,21 +131,20 @@ def _columns(
 ) -> tuple[dict[str, Array], dict[str, str]]:
     """Columns by port name. An input repeats the output that feeds it: the output is kept."""
     owners = {name: mechanics for name in MECHANICAL} | {name: thermal for name in THERMAL}
-    columns: dict[str, Array] = {}
-    units: dict[str, str] = {}
-    for address, values in result.values.items():
+    addresses: dict[str, str] = {}
+    for address in result.values:
         participant, _, port = address.partition(".")
-        if owners.get(port, participant) == participant and port not in columns:
-            columns[port], units[port] = values, result.units[address]
-    return columns, units
+        if owners.get(port, participant) == participant:
+            addresses.setdefault(port, address)
+    columns = {port: result.values[address] for port, address in addresses.items()}
+    return columns, {port: result.units[address] for port, address in addresses.items()}
 
 
 def _dataset(time: Array, columns: Mapping[str, Array], units: Mapping[str, str]) -> Columns:
     variables = {
-        name: Column(("time",), _typed(name, values), attributes(name, units.get(name)))
-        for name, values in columns.items()
+        name: _column(("time",), name, values, units.get(name)) for name, values in columns.items()
     }
-    return Columns(variables, {"time": Column(("time",), np.asarray(time, float), TIME)})
+    return Columns(variables, {"time": _column(("time",), "time", np.asarray(time, float))})
 
 
 def _typed(name: str, values: Array) -> NDArray[Any]:
@@ -166,14 +162,9 @@ def _describe(
     reason: str,
     wall_time: float | None,
 ) -> None:
-    dataset.attrs.update(
-        title=str(getattr(scenario, "name", "") or "stick-slip"),
-        status=status,
-        reason=reason,
-        scenario=toml,
-        defaults=json.dumps(dict(getattr(scenario, "taken", {}))),
-        **provenance(),
-    )
+    name, taken = getattr(scenario, "name", ""), getattr(scenario, "taken", {})
+    dataset.attrs.update(title=str(name or "stick-slip"), status=status, reason=reason)
+    dataset.attrs.update(scenario=toml, defaults=json.dumps(dict(taken)), **provenance())
     if (belt := getattr(scenario, "belt", None)) is not None:
         dataset.attrs[WIDTH] = float(belt.width)
     if wall_time is not None:
@@ -191,37 +182,30 @@ def _outcome(trajectory: Trajectory) -> tuple[str, str]:
 
 def _events(events: Array) -> Columns:
     time, mode, x = np.asarray(events, float).reshape(-1, 3).T
-    told = attributes("mode") | {"long_name": "mode after the event: 0 stick, 1 slip"}
-    at = {"units": "s", "long_name": "time of break-away or re-stick"}
     axis = ("event_time",)
     return Columns(
-        {
-            "event_mode": Column(axis, mode.astype(np.int8), told),
-            "event_x": Column(axis, x, attributes("x")),
-        },
-        {"event_time": Column(axis, time, at)},
+        {"event_mode": _column(axis, "event_mode", mode), "event_x": _column(axis, "event_x", x)},
+        {"event_time": _column(axis, "event_time", time)},
     )
 
 
 def _snapshots(snapshots: BeltSnapshots) -> Columns:
-    time, position = np.asarray(snapshots.time, float), np.asarray(snapshots.position, float)
-    temperature = np.asarray(snapshots.temperature, float).reshape(time.size, position.size)
-    of_face = {"units": "degC", "long_name": "temperature of the belt's contact face"}
-    of_contact = {
-        "units": "m",
-        "long_name": "centre of the contact on the belt",
-        "contact_length": float(snapshots.contact_length),
-    }
-    at = {"units": "s", "long_name": "time of the belt profile"}
-    along = {"units": "m", "long_name": "position along the belt, fixed to its material"}
     times, places = ("snapshot_time",), ("belt_position",)
+    time = _column(times, "snapshot_time", np.asarray(snapshots.time, float))
+    position = _column(places, "belt_position", np.asarray(snapshots.position, float))
+    temperature = np.reshape(np.asarray(snapshots.temperature, float), (time.size, position.size))
+    contact = np.asarray(snapshots.contact, float)
+    reach = {"contact_length": float(snapshots.contact_length)}
     return Columns(
         {
-            "belt_temperature": Column((*times, *places), temperature, of_face),
-            "contact_position": Column(times, np.asarray(snapshots.contact, float), of_contact),
+            "belt_temperature": _column((*times, *places), "belt_temperature", temperature),
+            "contact_position": _column(times, "contact_position", contact, **reach),
         },
-        {
-            "snapshot_time": Column(times, time, at),
-            "belt_position": Column(places, position, along),
-        },
+        {"snapshot_time": time, "belt_position": position},
     )
+
+
+def _column(
+    dims: tuple[str, ...], name: str, values: Array, unit: str | None = None, **further: float
+) -> Column:
+    return Column(dims, _typed(name, values), attributes(name, unit) | further)

@@ -14,23 +14,18 @@ const KEEPABLE = 2e5; // rows that a page takes
 /* The first fault of any single key; "" where there is none. */
 function outOfBounds(scenario) {
   for (const control of CONTROLS.values()) {
-    const value = scenario.get(control.key);
-    const fault = typeof value === "number" ? boundFault(control, value) : listFault(control, value);
-    if (fault) return { key: control.key, text: fault };
+    const { key } = control, value = scenario.get(key);
+    const text = typeof value === "number" ? boundFault(control, value) : listFault(control, value);
+    if (text) return { key, text };
   }
   return null;
 }
 
 function boundFault(control, value) {
   const { max_length, ...ends } = control.bounds;
-  const bounds = control.kind === "inertia" ? { gt: 0 } : ends;
-  for (const [kind, bound] of Object.entries(bounds)) {
-    if (!BOUNDS[kind](value, bound)) {
-      const what = control.kind === "inertia" ? "not possible" : "out of range";
-      return `${control.key}: ${what} (${value}), allowed is ${control.allowed}`;
-    }
-  }
-  return "";
+  const [bounds, what] = control.kind === "inertia" ? [{ gt: 0 }, "not possible"] : [ends, "out of range"];
+  const fits = Object.entries(bounds).every(([kind, bound]) => BOUNDS[kind](value, bound));
+  return fits ? "" : `${control.key}: ${what} (${value}), allowed is ${control.allowed}`;
 }
 
 function listFault(control, value) {
@@ -87,21 +82,17 @@ function tooFine(scenario) {
 function refusedBeside(scenario) {
   const speed = Math.abs(scenario.get("surface.speed"));
   const creep = scenario.get("friction.stick_creep");
-  if (speed > 0 && speed <= creep) {
-    return fault("friction.stick_creep", `${g(creep)} m/s is not below surface.speed = ${g(speed)} ` +
-      "m/s: the contact would creep as fast as the surface, and stick while it slides; allowed is " +
-      "less than the surface's speed");
-  }
-  return null;
+  if (speed === 0 || speed > creep) return null;
+  return fault("friction.stick_creep", `${g(creep)} m/s is not below surface.speed = ${g(speed)} ` +
+    "m/s: the contact would creep as fast as the surface, and stick while it slides; allowed is " +
+    "less than the surface's speed");
 }
 
 /* What is allowed and should be known; "" if nothing. */
 function remarks(scenario) {
-  const get = (key) => scenario.get(key);
-  const said = [];
-  const table = get("friction.table_speed").length > 0;
-  const [name, atRest] = table
-    ? ["table_mu", get("friction.table_mu")[0]] : ["mu_k", get("friction.mu_k")];
+  const get = (key) => scenario.get(key), said = [];
+  const name = get("friction.table_speed").length > 0 ? "table_mu" : "mu_k";
+  const [atRest] = [get(`friction.${name}`)].flat();
   if (atRest > get("friction.mu_s")) {
     said.push(`friction.${name} = ${g(atRest)} exceeds friction.mu_s = ${g(get("friction.mu_s"))}: ` +
       `the contact then holds up to ${name}`);

@@ -74,10 +74,7 @@ function renew() {
     refuse(wrong.key, wrong.text);
     return;
   }
-  const frozen = Object.assign(new Scenario(scenario.preset), {
-    name: scenario.name, tables: structuredClone(scenario.tables),
-  });
-  explorer.run = explorer.runs.wish(frozen);
+  explorer.run = explorer.runs.wish(scenario.copy());
 }
 
 function showScenario(wrong) {
@@ -125,18 +122,14 @@ let stale = true; // the plots are older than what there is to plot
 
 function heard(run, message) {
   if (run !== explorer.run) return;
-  if (run.state === "refused") {
-    const wrong = kernelFault(run.reason);
+  const beside = message.begun && refusedBeside(run.scenario);
+  const wrong = run.state === "refused" ? kernelFault(run.reason) : beside;
+  if (beside) explorer.runs.current = null;
+  if (wrong) {
     refuse(wrong.key, wrong.text);
     return;
   }
   if (message.begun) {
-    const wrong = refusedBeside(run.scenario);
-    if (wrong) {
-      explorer.runs.current = null;
-      refuse(wrong.key, wrong.text);
-      return;
-    }
     document.body.classList.remove("refused");
     show(byId("fault"), "");
     show(byId("remark"), remarks(run.scenario));
@@ -165,9 +158,12 @@ function preparePlayer() {
 
 function play(on) {
   player.playing = on;
-  const button = byId("play");
-  button.textContent = on ? "Pause" : "Play";
+  press(byId("play"), on, on ? "Pause" : "Play");
+}
+
+function press(button, on, words) {
   button.setAttribute("aria-pressed", String(on));
+  button.textContent = words;
 }
 
 function endOf(run) {
@@ -318,14 +314,14 @@ explorer.read = (key, text) => valueOfText(CONTROLS.get(key), text);
 
 function prepareBar() {
   DATA.presets.forEach((each, i) => byId("preset").append(live.element("option", { value: i }, each.name)));
+  const link = () => location.href.replace(/#.*$/, "") + explorer.address();
+  for (const [id, call] of Object.entries({
+    reset: () => begin(explorer.scenario.preset), freeze: keep, save,
+    share: () => copy(link(), "a link that opens this page with these numbers"),
+    "copy-toml": () => copy(explorer.toml(), "a scenario file"),
+    "copy-python": () => copy(explorer.python(), "Python that gives this motion"),
+  })) byId(id).addEventListener("click", call);
   byId("preset").addEventListener("change", (event) => begin(DATA.presets[event.target.value]));
-  byId("reset").addEventListener("click", () => begin(explorer.scenario.preset));
-  byId("freeze").addEventListener("click", keep);
-  byId("save").addEventListener("click", save);
-  byId("share").addEventListener("click", () => copy(
-    location.href.replace(/#.*$/, "") + explorer.address(), "a link that opens this page with these numbers"));
-  byId("copy-toml").addEventListener("click", () => copy(explorer.toml(), "a scenario file"));
-  byId("copy-python").addEventListener("click", () => copy(explorer.python(), "Python that gives this motion"));
   byId("name").addEventListener("change", (event) => rename(event.target.value));
   byId("find").addEventListener("input", (event) => explorer.controls.find(event.target.value));
   window.addEventListener("hashchange", (event) => {
@@ -345,19 +341,15 @@ function begin(preset) {
 /* The run that is seen stays, in grey; once more: it goes. */
 function keep() {
   explorer.kept = explorer.kept ? null : explorer.seen;
-  byId("freeze").setAttribute("aria-pressed", String(Boolean(explorer.kept)));
-  byId("freeze").textContent = explorer.kept ? "Drop comparison" : "Keep for comparison";
+  press(byId("freeze"), Boolean(explorer.kept), explorer.kept ? "Drop comparison" : "Keep for comparison");
   stale = true;
 }
 
 /* A name is also that of a folder: what every file system takes. */
 function rename(name) {
-  if (/^[^\s./\\:*?"<>|\x00-\x1f][^/\\:*?"<>|\x00-\x1f]*$/.test(name)) {
-    explorer.scenario.name = name;
-    say("");
-  } else {
-    say('a name has 1 to 100 characters without /\\:*?"<>|, a dot or a space not first');
-  }
+  const isOne = /^[^\s./\\:*?"<>|\x00-\x1f][^/\\:*?"<>|\x00-\x1f]*$/.test(name);
+  if (isOne) explorer.scenario.name = name;
+  say(isOne ? "" : 'a name has 1 to 100 characters without /\\:*?"<>|, a dot or a space not first');
 }
 
 function save() {

@@ -11,12 +11,13 @@ const REGIMES = [["ends early", "#8c8c8c"], ["sticks and never slips", "#dcdcdc"
 
 class RegimeMap {
   /* moved: called with keys and values of a place that is chosen. */
-  constructor(canvas, legend, models, moved) {
-    Object.assign(this, { canvas, legend, models, regimes: [], cells: [], tops: [1, 1], here: [NaN, NaN] });
-    this.plot = new Plot(canvas, "regimes", "speed of the surface [m/s]", "damping [N·s/m]");
-    canvas.addEventListener("click", (event) => {
-      const place = this.plot.at(event.offsetX, event.offsetY);
-      AXES.forEach((key, i) => moved(key, Number((place[i] * (i ? 1 : this.sign)).toPrecision(2))));
+  constructor(box, legend, models, moved) {
+    Object.assign(this, { legend, models, regimes: [], cells: [], tops: [1, 1], here: [NaN, NaN] });
+    this.plot = new Plot(box, "regimes", "speed of the surface [m/s]", "damping [N·s/m]");
+    const { uplot } = this.plot;
+    uplot.over.addEventListener("click", (event) => {
+      const place = [uplot.posToVal(event.offsetX, "x") * this.sign, uplot.posToVal(event.offsetY, "y")];
+      AXES.forEach((key, i) => moved(key, Number(place[i].toPrecision(2))));
     });
   }
 

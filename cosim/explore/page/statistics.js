@@ -32,8 +32,7 @@ function statistics(run) {
 /* Begin and end of every slip, s. */
 function slips(run) {
   if (run.rows === 0) return [];
-  const found = [];
-  const end = run.time[run.rows - 1];
+  const found = [], end = run.time[run.rows - 1];
   let since = run.at("mode", 0) === 1 ? run.time[0] : null;
   for (const [time, mode] of run.events) {
     if (time <= run.time[0] || time > end) continue;
@@ -48,11 +47,8 @@ function slips(run) {
 }
 
 function slipTime(run, begin, end) {
-  let sum = 0;
-  for (const [from, to] of slips(run)) {
-    sum += Math.max(0, Math.min(to, end) - Math.max(from, begin));
-  }
-  return sum;
+  const inside = ([from, to]) => Math.max(0, Math.min(to, end) - Math.max(from, begin));
+  return slips(run).reduce((sum, slip) => sum + inside(slip), 0);
 }
 
 /* Mean over time by the trapezoidal rule. */

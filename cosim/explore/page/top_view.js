@@ -5,18 +5,13 @@ const ICE_STICK = "rgba(156,200,228,.85)", ICE_SLIP = "rgba(240,176,124,.85)";
 
 class TopView {
   constructor(canvas) {
-    this.plot = new Plot(canvas, "", "", "");
     this.canvas = canvas;
   }
 
   /* now: x, y, phi, surface_travel, mode of the moment. */
   show(run, now) {
     if (!run.anchors || this.canvas.clientWidth === 0) return;
-    this.plot.fit();
-    const context = this.canvas.getContext("2d");
-    const density = this.plot.density;
-    const [width, height] = [this.canvas.width / density, this.canvas.height / density];
-    context.setTransform(density, 0, 0, density, 0, 0);
+    const context = live.fitted(this.canvas), { clientWidth: width, clientHeight: height } = this.canvas;
     context.fillStyle = "#ffffff";
     context.fillRect(0, 0, width, height);
     const get = (key) => run.scenario.get(key);
@@ -42,7 +37,7 @@ class TopView {
   }
 
   words(context, rig, now, { scale, width, height }) {
-    context.font = FONT;
+    context.font = live.FONT;
     context.fillStyle = INK;
     context.textBaseline = "top";
     context.textAlign = "left";
@@ -56,9 +51,7 @@ class TopView {
     context.textBaseline = "bottom";
     context.textAlign = "right";
     context.fillText("50 mm", width - 10, height - 9);
-    context.strokeStyle = INK;
-    context.lineWidth = 2;
-    stroke(context, width - 10 - bar, height - 6, width - 10, height - 6);
+    context.fillRect(width - 10 - bar, height - 7, bar, 2);
   }
 }
 

@@ -51,11 +51,9 @@ class OneResult:
         if not self.scenario:
             return _of_system(self.numbers)
         found: dict[str, Any] = {}
-        for name, entries in tomllib.loads(self.scenario).items():
-            if isinstance(entries, dict):
-                found |= {f"{name}.{key}": value for key, value in entries.items()}
-            else:
-                found[name] = entries
+        for name, value in tomllib.loads(self.scenario).items():
+            is_table = isinstance(value, dict)
+            found |= {f"{name}.{key}": value[key] for key in value} if is_table else {name: value}
         return found
 
     @property

@@ -18,12 +18,21 @@ const live = (() => {
     return made;
   }
 
-  // The colour of a curve or of a phase, for a legend.
-  function swatch(colour) {
-    const made = element("span", { class: "swatch" });
-    made.style.background = colour;
+  function button(text, attributes, call) {
+    const made = element("button", { type: "button", ...attributes }, text);
+    made.addEventListener("click", call);
     return made;
   }
+
+  // An attribute with a value; without one (false), none.
+  function attribute(one, name, value) {
+    if (value) one.setAttribute(name, value);
+    else one.removeAttribute(name);
+  }
+
+  // The colour of a phase or of a curve, for a legend.
+  const swatch = (colour, look = "") => element("span", { class: "swatch", style: `background: ${colour}; ${look}` });
+  const swatchOf = ({ colour, dash }) => swatch(colour, dash ? "height: .15rem" : "");
 
   // A number with so many significant digits and a true minus, as the rest of the page has them.
   function told(value, digits = 4) {
@@ -100,6 +109,16 @@ const live = (() => {
     return context;
   }
 
+  // The context of a canvas, in CSS pixels, with as many pixels as the screen has where it lies.
+  function fitted(canvas) {
+    const dense = Math.min(window.devicePixelRatio || 1, 2);
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((size) => Math.round(size * dense));
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const context = canvas.getContext("2d");
+    context.setTransform(dense, 0, 0, dense, 0, 0);
+    return context;
+  }
+
   // "rrggbb" after "rrggbb" as [r, g, b] after [r, g, b].
   function colours(table) {
     const found = [];
@@ -144,5 +163,5 @@ const live = (() => {
     },
   };
 
-  return { DASH, FONT, axis, numbers, element, swatch, told, each, dataOf, onPaper, onWidth, sized, colours, scale, placeOf, clock };
+  return { DASH, FONT, axis, numbers, element, button, attribute, swatch, swatchOf, told, each, dataOf, onPaper, onWidth, sized, fitted, colours, scale, placeOf, clock };
 })();

@@ -40,14 +40,9 @@ live.each("top_view", (stage, data) => {
     if (!data.speed) return;
     context.strokeStyle = context.fillStyle = RED;
     context.lineWidth = 2.5;
+    live.rig.stroke(context, [from, y0], [to - 8 * forwards, y0]);
     context.beginPath();
-    context.moveTo(from, y0);
-    context.lineTo(to - 8 * forwards, y0);
-    context.stroke();
-    context.beginPath();
-    context.moveTo(to, y0);
-    context.lineTo(to - 10 * forwards, y0 - 5);
-    context.lineTo(to - 10 * forwards, y0 + 5);
+    for (const [back, up] of [[0, 0], [10, -5], [10, 5]]) context.lineTo(to - back * forwards, y0 + up);
     context.fill();
     context.font = '13px system-ui, "DejaVu Sans", sans-serif';
     context.fillText(`${data.curvature ? "slab" : "belt"}, ${live.told(Math.abs(data.speed))} m/s`, 62, y0 + 4);
