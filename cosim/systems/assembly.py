@@ -78,7 +78,12 @@ def assemble(specification: SystemSpecification, debug: bool = False) -> Assembl
                 if end.participant in descriptions:
                     _refuse_other_types(descriptions[end.participant], end.participant, end.port)
             affine, remark = _conversion(units, participants, link)
-            _check_not_driven(units, link)
+            sink = Address.parse(link.sink)
+            if sink.port in units[sink.participant].driven:
+                raise SystemFault(
+                    f"{link}: {link.sink} is a column of {units[sink.participant].input_file}, too;"
+                    " allowed is one of both"
+                )
         taken = link.taken or _receipt(participants, link)
         connections.append(
             Connection(link.source, link.sink, taken, transformation=affine, converts=False)
@@ -182,9 +187,9 @@ def _value(
     if start.unit is not None and start.converts:
         unit = unit_of(variable)
         given = Port(label, start.unit or NO_UNIT, Causality.OUTPUT, definition=start.definition)
-        own = Port(label, unit, Causality.INPUT, definition=definitions.get(unit))
+        needed = Port(label, unit, Causality.INPUT, definition=definitions.get(unit))
         with naming(label):
-            affine = conversion(given, own)[0].then(affine)
+            affine = conversion(given, needed)[0].then(affine)
     if affine.is_identity or isinstance(value, (bool, str)):
         return value
     own = affine(value)
@@ -206,12 +211,11 @@ def _conversion(
     here = _end(units, participants, link.source)
     affine, remarks = IDENTITY, []
     for number, hop in enumerate(link.hops, 1):
+        there = here
         if number == len(link.hops):
             there = _end(units, participants, link.sink)
         elif hop.unit is not None:
             there = Port(link.sink, hop.unit, Causality.INPUT, definition=hop.definition)
-        else:
-            there = here
         if hop.converts:
             with naming(str(link)):
                 step, remark = conversion(here, there)
@@ -220,15 +224,6 @@ def _conversion(
         affine = affine.then(hop.transformation)
         here = there
     return affine, "; ".join(dict.fromkeys(filter(None, remarks)))
-
-
-def _check_not_driven(units: Mapping[str, UnitEntry], link: Link) -> None:
-    sink = Address.parse(link.sink)
-    unit = units.get(sink.participant)
-    if unit is not None and sink.port in unit.driven:
-        raise SystemFault(
-            f"{link}: {link.sink} is a column of {unit.input_file}, too; allowed is one of both"
-        )
 
 
 def _receipt(participants: Mapping[str, Participant], link: Link) -> str | None:

@@ -130,7 +130,7 @@
   }
 
   // Linear near 0 and logarithmic beyond, or logarithmic, or linear.
-  const scaleOf = (panel) => ({ range: range(panel), distr: panel.linear_to ? 4 : panel.logarithmic ? 3 : 1, asinh: panel.linear_to || 1 });
+  const distrOf = ({ linear_to: linear, logarithmic }) => linear ? { distr: 4, asinh: linear } : { distr: logarithmic ? 3 : 1 };
 
   // Room for the names of levels, the same for all panels of a figure.
   function besidePlots(data) {
@@ -158,7 +158,7 @@
       height: (floor ? MAP_HEIGHT : HEIGHT) + (first && data.marks.length ? 14 : 0) + (last ? 18 : 0),
       padding: [first && data.marks.length ? 20 : 6, besidePlots(data), 0, 0],
       legend: { show: false },
-      scales: { x: { time: false }, y: scaleOf(panel) },
+      scales: { x: { time: false }, y: { range: range(panel), ...distrOf(panel) } },
       axes: [
         { ...look, size: 26, label: last ? "time [s]" : undefined, labelSize: 18 },
         isAbove(panel, data)
@@ -268,7 +268,8 @@
     add("−", "zoom out", () => zoomBy(group, plot(), 2));
     add("◀", "earlier", () => zoomBy(group, plot(), 1, -0.5));
     add("▶", "later", () => zoomBy(group, plot(), 1, 0.5));
-    if (data.phases.length && data.phase) bar.append(live.element("span", {}, live.swatch(SHADE, "outline: 1px solid #c9b48a"), data.phase));
+    const shaded = live.swatch(SHADE, "outline: 1px solid #c9b48a");
+    if (data.phases.length && data.phase) bar.append(live.element("span", {}, shaded, data.phase));
     const [rows, all] = data.rows;
     if (rows < all) bar.append(live.element("span", { class: "soft" },
       `${rows} of ${all} rows; lowest, highest and all known events are among them`));

@@ -92,7 +92,7 @@ def _energies(numbers: Mapping[str, Any]) -> tuple[float, list[float]]:
 
 
 def _seconds(value: float | None, digits: int = 4) -> str:
-    return f"{number(value, digits)} s" if value is not None else number(None)
+    return number(None) if value is None else f"{number(value, digits)} s"
 
 
 def _connection_row(each: Mapping[str, Any]) -> tuple[str, str, str, str]:
