@@ -106,11 +106,7 @@ def run_columns(
 
 
 def trajectory_columns(
-    trajectory: Trajectory,
-    scenario: BaseModel,
-    toml: str,
-    *,
-    wall_time: float | None = None,
+    trajectory: Trajectory, scenario: BaseModel, toml: str, *, wall_time: float | None = None
 ) -> Columns:
     """A run of the mechanics alone over ``time`` (n,) and ``event_time`` (k,).
 

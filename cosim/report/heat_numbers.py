@@ -28,12 +28,7 @@ from cosim.report.columns import Data
 from .contents import SLIP, mechanics_of, ramp_end, still_air_film, thermal_of, value_of
 from .quantities import ratio
 
-TEMPERATURES = (
-    "interface_temperature",
-    "belt_entry_temperature",
-    "belt_exit_temperature",
-    "ice_face_temperature",
-)
+TEMPERATURES = ("interface", "belt_entry", "belt_exit", "ice_face")
 SINKS = {
     "belt": "belt_heat",
     "ice": "ice_heat",
@@ -122,18 +117,13 @@ def temperatures(dataset: Data) -> dict[str, dict[str, float | None]]:
     """End, extremes and rise over the ambient air of each recorded temperature."""
     ambient = ambient_degC(dataset)
     found: dict[str, dict[str, float | None]] = {"ambient": {"value_degC": ambient}}
-    for name in TEMPERATURES:
-        if name not in dataset:
-            continue
-        values = dataset[name].values
-        low, high = extremes(values)
-        found[name.removesuffix("_temperature")] = {
-            "end_degC": float(values[-1]),
-            "min_degC": low,
-            "max_degC": high,
-            "end_rise": float(values[-1]) - ambient,
-            "max_rise": None if high is None else high - ambient,
-        }
+    for place in TEMPERATURES:
+        if f"{place}_temperature" in dataset:
+            values = dataset[f"{place}_temperature"].values
+            end, (low, high) = float(values[-1]), extremes(values)
+            warmest = None if high is None else high - ambient
+            degrees = {"end_degC": end, "min_degC": low, "max_degC": high}
+            found[place] = degrees | {"end_rise": end - ambient, "max_rise": warmest}
     return found
 
 
@@ -159,9 +149,8 @@ def end_of_sliding(dataset: Data) -> dict[str, float | str | None]:
     except NoSteadyState as error:
         return {"reason": f"no end: {error}"}
     if end.rise is None:
-        return {
-            "reason": "none: the face of the block comes to melt, and stays at its melting point"
-        }
+        why = "none: the face of the block comes to melt, and stays at its melting point"
+        return {"reason": why}
     return {
         "interface_rise": end.rise,
         "interface_degC": ambient_degC(dataset) + end.rise,

@@ -212,8 +212,7 @@ def on_one_axis(series: Sequence[Series]) -> tuple[Array, list[Curve]]:
 
 
 def panels_on_one_axis(
-    panels: Sequence[tuple[Panel, Sequence[Series]]],
-    span: tuple[float, float] = (-np.inf, np.inf),
+    panels: Sequence[tuple[Panel, Sequence[Series]]], span: tuple[float, float] = (-np.inf, np.inf)
 ) -> tuple[Array, list[Panel]]:
     """The times of all series of all panels within a span, s, and the panels with their curves."""
     times, curves = on_one_axis([one for _, series in panels for one in series])

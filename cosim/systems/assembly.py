@@ -170,10 +170,7 @@ def _refuse_other_types(description: ModelDescription, unit: str, name: str) -> 
 
 
 def _value(
-    label: str,
-    variable: ModelVariable,
-    start: Start,
-    definitions: Mapping[str, UnitDefinition],
+    label: str, variable: ModelVariable, start: Start, definitions: Mapping[str, UnitDefinition]
 ) -> Value:
     """What a variable is set to, in its own unit."""
     value = start.value

@@ -3,10 +3,8 @@
    says itself, in the same words; here is what is checked before it comes to the kernel. */
 
 const BOUNDS = {
-  gt: (value, bound) => value > bound,
-  ge: (value, bound) => value >= bound,
-  lt: (value, bound) => value < bound,
-  le: (value, bound) => value <= bound,
+  gt: (value, bound) => value > bound, ge: (value, bound) => value >= bound,
+  lt: (value, bound) => value < bound, le: (value, bound) => value <= bound,
 };
 const MOST_ROWS = 1e7; // of a run
 const KEEPABLE = 2e5; // rows that a page takes
@@ -33,9 +31,7 @@ function listFault(control, value) {
   const most = control.bounds.max_length ?? Infinity;
   const few = control.default.length > 0 && value.length < control.default.length;
   const many = value.length > (control.default.length || most);
-  if (!few && !many) {
-    return value.map((entry) => boundFault(control, entry)).find((text) => text) ?? "";
-  }
+  if (!few && !many) return value.map((entry) => boundFault(control, entry)).find(Boolean) ?? "";
   const what = `has too ${few ? "few" : "many"} entries ([${value.join(", ")}])`;
   return `${control.key}: ${what}, allowed is ${control.allowed}`;
 }
@@ -53,10 +49,9 @@ function contradiction(scenario) {
   }
   for (const [table, one, other] of [["springs", "force_curve_extension", "force_curve_force"],
     ["friction", "table_speed", "table_mu"]]) {
-    const counts = [get(`${table}.${one}`).length, get(`${table}.${other}`).length];
-    if (counts[0] !== counts[1]) {
-      return fault(`${table}.${one}`, `has ${counts[0]} values and ${other} has ${counts[1]}: allowed ` +
-        "is the same number");
+    const [ours, theirs] = [one, other].map((name) => get(`${table}.${name}`).length);
+    if (ours !== theirs) {
+      return fault(`${table}.${one}`, `has ${ours} values and ${other} has ${theirs}: allowed is the same number`);
     }
   }
   if (slab && get("turning_surface.curvature") !== 0) {
@@ -68,12 +63,11 @@ function contradiction(scenario) {
 
 /* Rows of a run: as many as it may have, and as a page can keep. */
 function tooFine(scenario) {
-  const [duration, interval] = [scenario.get("run.duration"), scenario.get("run.output_interval")];
-  const limits = [
+  const [duration, interval] = ["run.duration", "run.output_interval"].map((key) => scenario.get(key));
+  const beyond = [
     [MOST_ROWS, `steps, allowed is at least ${g(duration / MOST_ROWS)} s`],
     [KEEPABLE, "rows, which is too much for a page; stickslip simulate takes it"],
-  ];
-  const beyond = limits.find(([most]) => duration / interval > most);
+  ].find(([most]) => duration / interval > most);
   return beyond ? fault("run.output_interval", `${g(interval)} s cuts run.duration = ${g(duration)} s ` +
     `into more than ${beyond.join(" ")}`) : null;
 }
@@ -105,9 +99,7 @@ function remarks(scenario) {
   return said.join("; ");
 }
 
-function fault(key, rest) {
-  return { key, text: `${key}: ${rest}` };
-}
+const fault = (key, rest) => ({ key, text: `${key}: ${rest}` });
 
 /* The kernel's sentence, `key = value ...`, as it is told: `key: value ...`. */
 function kernelFault(sentence) {

@@ -71,7 +71,7 @@ class Controls {
     const { control } = row;
     const choices = control.kind === "freedom"
       ? [["x", "y", "phi"], ["x", "y"], ["x", "phi"], ["x"]] : control.choices;
-    const options = choices.map((each, i) => live.element("option", { value: i }, [each].flat().join(", ")));
+    const options = choices.map((each, i) => live.element("option", { value: i }, textOf(each)));
     const select = live.element("select", { id }, ...options);
     select.addEventListener("change", () => this.turned(control.key, choices[select.value]));
     row.choices = choices;
@@ -149,16 +149,11 @@ function positionOf(control, value) {
 }
 
 /* A key as a label: its unit stands behind the number; mu_s stays a symbol. */
-function labelOf(name) {
-  return name.replace(/_deg(C)?$/, "").replace(/_(?=[a-z]{2})/g, " ");
-}
+const labelOf = (name) => name.replace(/_deg(C)?$/, "").replace(/_(?=[a-z]{2})/g, " ");
 
 /* --- values as texts --------------------------------------------------------------------------- */
 
-function textOf(value) {
-  if (Array.isArray(value)) return value.join(", ");
-  return String(value);
-}
+const textOf = (value) => [value].flat().join(", ");
 
 /* undefined for what is no value of the control. */
 function valueOfText(control, text) {
@@ -168,10 +163,8 @@ function valueOfText(control, text) {
   }
   if (control.kind === "inertia" && /^\s*(disc|ring)\s*$/.test(text)) return text.trim();
   const value = typedValue(text, control.unit);
-  if (!Number.isFinite(value) || (control.kind === "whole" && !Number.isInteger(value))) return undefined;
-  return value;
+  const isOne = control.kind === "whole" ? Number.isInteger(value) : Number.isFinite(value);
+  return isOne ? value : undefined;
 }
 
-function sameSet(one, other) {
-  return [one].flat().slice().sort().join() === [other].flat().slice().sort().join();
-}
+const sameSet = (...sets) => same(...sets.map((each) => [each].flat().sort()));

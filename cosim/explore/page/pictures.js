@@ -28,7 +28,7 @@ class Pictures {
   /* Columns in the units of the plots. */
   of(run) {
     let kept = this.columns.get(run);
-    if (!kept || kept.rows !== run.rows || kept.warmed !== run.warmed) {
+    if (kept?.rows !== run.rows || kept.warmed !== run.warmed) {
       kept = { rows: run.rows, warmed: run.warmed, vx: run.column("vx", MM) };
       for (const [name, { factor }] of Object.entries(OVER_TIME)) kept[name] = run.column(name, factor);
       this.columns.set(run, kept);
@@ -66,8 +66,7 @@ class Pictures {
   drawPhase(run, runs) {
     const curves = [];
     for (const each of runs) {
-      const { x, vx } = this.of(each);
-      const ramp = inside(each, [each.rampEnd, Infinity]).from;
+      const { x, vx } = this.of(each), ramp = inside(each, [each.rampEnd, Infinity]).from;
       const from = Math.max(ramp, each.rows - MOST_OF_PHASE);
       if (each === run && ramp > 0) {
         curves.push({ x, y: vx, colour: PALE_BLUE, width: 1, from: Math.max(0, ramp - MOST_OF_PHASE), to: Math.min(ramp + 1, each.rows) });
@@ -76,13 +75,9 @@ class Pictures {
     }
     const parts = (name) => runs.map((each) => ({ values: this.of(each)[name] }));
     const belt = run.scenario.get("rig.surface") === "belt";
-    const speed = MM * run.scenario.get("surface.speed");
-    this.phase.draw({
-      x: rangeOf(parts("x"), 1e-3),
-      y: rangeOf([...parts("vx"), { values: [0] }, ...(belt ? [{ values: [speed] }] : [])], 1e-3),
-      lines: belt ? [speed] : [],
-      curves,
-    });
+    const lines = belt ? [MM * run.scenario.get("surface.speed")] : [];
+    const y = rangeOf([...parts("vx"), { values: [0, ...lines] }], 1e-3);
+    this.phase.draw({ x: rangeOf(parts("x"), 1e-3), y, lines, curves });
   }
 
   drawFriction(run, runs) {
@@ -110,9 +105,7 @@ class Pictures {
   }
 }
 
-function colourOf(each, run) {
-  return each === run ? BLUE : GREY;
-}
+const colourOf = (each, run) => (each === run ? BLUE : GREY);
 
 /* Rows of a run inside a span of time, one more on either side. */
 function inside(run, [begin, end]) {

@@ -67,11 +67,9 @@ function cellsOf(tops) {
   const [width, height] = tops.map((top, i) => top / CELLS[i]);
   const cells = [];
   for (let step = COARSE; step >= 1; step /= 2) {
-    for (let j = 0; j < CELLS[1]; j += step) {
-      for (let i = 0; i < CELLS[0]; i += step) {
-        if (step < COARSE && i % (2 * step) === 0 && j % (2 * step) === 0) continue; // is there
-        cells.push([i * width, j * height, step * width, step * height]);
-      }
+    for (let j = 0; j < CELLS[1]; j += step) for (let i = 0; i < CELLS[0]; i += step) {
+      const isThere = step < COARSE && i % (2 * step) === 0 && j % (2 * step) === 0;
+      if (!isThere) cells.push([i * width, j * height, step * width, step * height]);
     }
   }
   return cells;

@@ -57,9 +57,7 @@ function parted(key) {
   return [key.slice(0, at), key.slice(at + 1)];
 }
 
-function same(one, other) {
-  return JSON.stringify(one) === JSON.stringify(other);
-}
+const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
 /* --- the kernel's numbers ------------------------------------------------------------------ */
 
@@ -79,9 +77,9 @@ function kernelValue(scenario, name) {
 }
 
 function kernelInputs(scenario) {
-  const inputs = new Float64Array(DATA.sizes.inputs);
-  inputs[DATA.sizes.speed] = scenario.get("surface.speed");
-  inputs[DATA.sizes.temperature] = scenario.get("ambient.temperature_degC");
+  const { inputs: count, speed, temperature } = DATA.sizes, inputs = new Float64Array(count);
+  inputs[speed] = scenario.get("surface.speed");
+  inputs[temperature] = scenario.get("ambient.temperature_degC");
   return inputs;
 }
 
@@ -107,9 +105,7 @@ function inertia(scenario) {
 }
 
 /* Unused places of a curve repeat its last value, which ends it. */
-function ofList(list, place) {
-  return list.length === 0 ? 0 : list[Math.min(place, list.length - 1)];
-}
+const ofList = (list, place) => list[Math.min(place, list.length - 1)] ?? 0;
 
 /* --- the file ------------------------------------------------------------------------------ */
 
@@ -130,9 +126,7 @@ function toml(scenario) {
   return lines.join("\n") + "\n";
 }
 
-function tomlRow([name, value]) {
-  return `${name} = ${tomlValue(value)}`;
-}
+const tomlRow = ([name, value]) => `${name} = ${tomlValue(value)}`;
 
 /* What was set, and set back to the plain model's, need not be said. */
 function departs(table, name, value) {

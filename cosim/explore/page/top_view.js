@@ -14,11 +14,10 @@ class TopView {
     const context = live.fitted(this.canvas), { clientWidth: width, clientHeight: height } = this.canvas;
     context.fillStyle = "#ffffff";
     context.fillRect(0, 0, width, height);
-    const get = (key) => run.scenario.get(key);
+    const radius = run.scenario.get("rig.contact_radius");
     const rig = {
-      anchors: run.anchors, arms: run.attachments, radius: get("rig.contact_radius"), ring: 2 * get("rig.contact_radius"),
+      anchors: run.anchors, arms: run.attachments, radius, ring: 2 * radius, speed: run.scenario.get("surface.speed"),
       curvature: kernelValue(run.scenario, "turning_surface.curvature"), width: beltWidth(run.scenario),
-      speed: get("surface.speed"),
     };
     const view = this.view(rig, width, height), pose = { ...now, travel: now.surface_travel };
     live.rig.surface(context, rig, view, pose);
@@ -55,6 +54,4 @@ class TopView {
   }
 }
 
-function beltWidth(scenario) {
-  return scenario.tables.belt?.width ?? DATA.belt_width;
-}
+const beltWidth = (scenario) => scenario.tables.belt?.width ?? DATA.belt_width;

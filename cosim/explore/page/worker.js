@@ -30,9 +30,7 @@ onmessage = ({ data }) => {
   else begin(data);
 };
 
-function array(model, at, length) {
-  return new Float64Array(model.memory.buffer, at, length);
-}
+const array = (model, at, length) => new Float64Array(model.memory.buffer, at, length);
 
 function sentence(model, at) {
   const bytes = new Uint8Array(model.memory.buffer, at);

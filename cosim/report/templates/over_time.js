@@ -26,12 +26,9 @@
 
   // Sums from below of the filled curves of a stacked panel; others as they are.
   function stacked(curves, values) {
-    let below = null;
-    return curves.map((curve, n) => {
-      if (!curve.fill) return values[n];
-      const sum = Float64Array.from(values[n], (v, i) => (below ? below[i] : 0) + (v || 0));
-      return (below = sum);
-    });
+    let below = [];
+    const onTop = (own) => (below = own.map((v, i) => (below[i] || 0) + (v || 0)));
+    return curves.map(({ fill }, n) => (fill ? onTop(Float64Array.from(values[n])) : values[n]));
   }
 
   // Broken lines at levels, upright lines at marks and at the time that the animation shows.
@@ -229,10 +226,8 @@
     room.append(box);
     const columns = [data.time, ...order.map((n) => Array.from(drawn[n], (v) => (Number.isFinite(v) ? v : null)))];
     const plot = new uPlot(options(sorted, data, number === 0, last, onCursor, holder, floor), columns, holder);
-    const { time } = data;
-    const lone = time[0] === time[time.length - 1] ? 0.5 : 0;
+    const { time } = data, { height } = plot, lone = time[0] === time[time.length - 1] ? 0.5 : 0;
     plots.push({ plot, group: data.group, begin: time[0] - lone, end: time[time.length - 1] + lone });
-    const { height } = plot;
     live.onWidth(holder, (width) => plot.setSize({ width, height: live.onPaper() ? PAPER * height : height }));
     live.clock.follow(() => plot.redraw(false, false));
     holder.addEventListener("keydown", (event) => onKey(event, data.group, plot, Boolean(floor)));

@@ -2,7 +2,6 @@
 "use strict";
 live.player = function (stage, times, start, show) {
   const begin = times[0], end = times[times.length - 1];
-  const bar = live.element("div", { class: "bar" });
   const button = live.button("▶ play", {}, () => set(!playing));
   const slider = live.element("input", {
     type: "range", min: String(begin), max: String(end), step: "any", value: String(begin), "aria-label": "time",
@@ -11,8 +10,7 @@ live.player = function (stage, times, start, show) {
   const rates = [[0.1, "a tenth"], [0.25, "a quarter"], [1, "real time"], [4, "4 times"]];
   rate.append(...rates.map(([value, word]) => live.element("option", { value }, word)));
   rate.value = "1";
-  bar.append(button, slider, rate);
-  stage.append(bar);
+  stage.append(live.element("div", { class: "bar" }, button, slider, rate));
 
   let time = begin, playing = false, last = 0;
 

@@ -39,7 +39,6 @@ def page(
         tiles=tiles(numbers),
         doubts=[f"{each}." for each in doubts(numbers["coupling"])],
         connections=[_connection_row(each) for each in numbers["connections"]],
-        units=_units(numbers["participants"]),
         steps=step_rows(numbers["coupling"]),
         figures={**dict.fromkeys(PICTURES), **figures},
         files=files or {},
@@ -100,32 +99,3 @@ def _connection_row(each: Mapping[str, Any]) -> tuple[str, str, str, str]:
         "none" if each[key] == NO_UNIT else unit_text(each[key]) for key in ("unit", "to_unit")
     )
     return each["from"], each["to"], " to ".join(units), str(Affine(each["factor"], each["offset"]))
-
-
-#: Of a unit, in the table of units -> head of its column.
-OF_A_UNIT = {
-    "file": "file",
-    "inputs": "inputs",
-    "outputs": "outputs",
-    "set": "values set",
-    "substeps": "steps a macro step",
-    "steps": "macro steps made",
-    "seconds": "in the unit [s]",
-    "messages": "messages",
-}
-
-
-def _units(participants: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
-    """Head and rows of the table of units; steps of their own only where a unit has some."""
-    subcycled = any(each["substeps"] != 1 for each in participants.values())
-    there = [key for key in OF_A_UNIT if key != "substeps" or subcycled]
-    rows = [
-        (name, *(_cell(key, each[key]) for key in there)) for name, each in participants.items()
-    ]
-    return {"head": ["unit", *(OF_A_UNIT[key] for key in there)], "rows": rows}
-
-
-def _cell(key: str, value: Any) -> str:
-    if key == "set":
-        return str(len(value))
-    return number(value, 3) if isinstance(value, float) else str(value)
