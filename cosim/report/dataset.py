@@ -94,7 +94,8 @@ def run_columns(
     columns, units = _columns(result, mechanics, thermal)
     columns["coupling_residual"] = result.ledger.residual
     dataset = _dataset(result.time, columns, units)
-    _describe(dataset, scenario, toml, result.status, result.reason, result.wall_time)
+    outcome = {"status": result.status, "reason": result.reason}
+    dataset.attrs.update(_described(scenario, toml, outcome, result.wall_time))
     tables = tables_of(scenario)
     dataset.attrs.update(case="coupled", parameters=json.dumps(tables))
     attach_coupling(dataset, result, tables)
@@ -113,8 +114,7 @@ def trajectory_columns(
     scenario: the model that ``toml`` was read into; wall_time: of the integration, s.
     """
     dataset = _dataset(trajectory.time, trajectory.columns, {})
-    status, reason = _outcome(trajectory)
-    _describe(dataset, scenario, toml, status, reason, wall_time)
+    dataset.attrs.update(_described(scenario, toml, _outcome(trajectory), wall_time))
     alone = {*type(trajectory.parameters).model_fields, "run"}
     used = {name: table for name, table in tables_of(scenario).items() if name in alone}
     dataset.attrs.update(case="mechanics", parameters=json.dumps(used))
@@ -150,30 +150,25 @@ def _typed(name: str, values: Array) -> NDArray[Any]:
     return values
 
 
-def _describe(
-    dataset: Columns,
-    scenario: BaseModel,
-    toml: str,
-    status: str,
-    reason: str,
-    wall_time: float | None,
-) -> None:
-    name, taken = getattr(scenario, "name", ""), getattr(scenario, "taken", {})
-    dataset.attrs.update(title=str(name or "stick-slip"), status=status, reason=reason)
-    dataset.attrs.update(scenario=toml, defaults=json.dumps(dict(taken)), **provenance())
+def _described(
+    scenario: BaseModel, toml: str, outcome: Mapping[str, str], wall_time: float | None
+) -> dict[str, Any]:
+    """What a dataset says of its run."""
+    title = str(getattr(scenario, "name", "") or "stick-slip")
+    taken = json.dumps(dict(getattr(scenario, "taken", {})))
+    found = {"title": title, **outcome, "scenario": toml, "defaults": taken, **provenance()}
     if (belt := getattr(scenario, "belt", None)) is not None:
-        dataset.attrs[WIDTH] = float(belt.width)
-    if wall_time is not None:
-        dataset.attrs["wall_time"] = float(wall_time)
+        found[WIDTH] = float(belt.width)
+    return found if wall_time is None else found | {"wall_time": float(wall_time)}
 
 
-def _outcome(trajectory: Trajectory) -> tuple[str, str]:
+def _outcome(trajectory: Trajectory) -> dict[str, str]:
     if trajectory.complete:
-        return "complete", ""
+        return {"status": "complete", "reason": ""}
+    if not trajectory.reason.endswith("KeyboardInterrupt"):
+        return {"status": "failed", "reason": trajectory.reason}
     reached = f"{trajectory.time[-1]:.9g} s" if trajectory.time.size else "the start"
-    if trajectory.reason.endswith("KeyboardInterrupt"):
-        return "interrupted", f"interrupted at t = {reached}"
-    return "failed", trajectory.reason
+    return {"status": "interrupted", "reason": f"interrupted at t = {reached}"}
 
 
 def _events(events: Array) -> Columns:

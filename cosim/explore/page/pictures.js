@@ -17,9 +17,10 @@ const MOST_OF_PHASE = 20000; // points of a phase portrait, the latest
 class Pictures {
   constructor() {
     const plot = (id, ...labels) => new Plot(document.getElementById(id), ...labels);
-    this.over = Object.fromEntries(Object.entries(OVER_TIME).map(([name, { id = name, title, says, unit }]) => [
-      name, plot(id, title, "time [s]", `${says} [${unit}]`),
-    ]));
+    this.over = {};
+    for (const [name, { id = name, title, says, unit }] of Object.entries(OVER_TIME)) {
+      this.over[name] = plot(id, title, "time [s]", `${says} [${unit}]`);
+    }
     this.phase = plot("phase", "phase portrait", "x [mm]", "velocity along x [mm/s]");
     this.friction = plot("friction", "friction", "sliding speed [mm/s]", "coefficient");
     this.columns = new WeakMap(); // run -> what has been taken out of it, and of how many rows

@@ -26,11 +26,10 @@ class Plot {
 
   /* A pixel more than they are: no seams. */
   under() {
-    const { ctx, bbox } = this.uplot, px = (x) => this.uplot.valToPos(x, "x", true), py = (y) => this.uplot.valToPos(y, "y", true);
-    ctx.font = live.FONT.replace("12px", `${12 * live.plots.density()}px`);
-    ctx.fillStyle = INK;
-    ctx.textAlign = "left";
-    ctx.fillText(this.title, 6, bbox.top - 8 * live.plots.density());
+    const { ctx, bbox } = this.uplot, dense = live.plots.density();
+    const px = (x) => this.uplot.valToPos(x, "x", true), py = (y) => this.uplot.valToPos(y, "y", true);
+    Object.assign(ctx, { font: live.FONT.replace("12px", `${12 * dense}px`), fillStyle: INK, textAlign: "left" });
+    ctx.fillText(this.title, 6, bbox.top - 8 * dense);
     live.plots.shade(this.uplot, (this.spec.bands || []).flat());
     for (const [x, y, width, height, colour] of this.spec.patches || []) {
       ctx.fillStyle = colour;

@@ -12,12 +12,9 @@ class Run {
     this.rampEnd = scenario.get("surface.run_up_time");
     this.speeds = curveSpeeds(scenario);
     this.table = new Float64Array(this.time.length * DATA.sizes.all).fill(NaN);
-    this.rows = 0;
     this.heat = heatOf(scenario);
-    this.warmed = 0; // rows
-    this.events = [];
-    this.state = "wished"; // then begun, refused or done
-    this.reason = "";
+    // warmed: rows that have their heat; state: then begun, refused or done
+    Object.assign(this, { rows: 0, warmed: 0, events: [], state: "wished", reason: "" });
   }
 
   /* A column at all rows there are, times a factor. */

@@ -36,10 +36,7 @@ class TopView {
   }
 
   words(context, rig, now, { scale, width, height }) {
-    context.font = live.FONT;
-    context.fillStyle = INK;
-    context.textBaseline = "top";
-    context.textAlign = "left";
+    Object.assign(context, { font: live.FONT, fillStyle: INK, textBaseline: "top", textAlign: "left" });
     context.fillText(now.mode === 1 ? "slip" : "stick", 8, 6);
     context.textAlign = "center";
     const speed = now.surface_speed_actual;
@@ -47,8 +44,7 @@ class TopView {
     const what = rig.curvature ? "turning slab" : `belt, ${live.told(MM * rig.width, 3)} mm wide`;
     context.fillText(`${what}, ${live.told(MM * speed, 3)} mm/s${arrow}`, width / 2, 6);
     const bar = 0.05 * scale;
-    context.textBaseline = "bottom";
-    context.textAlign = "right";
+    Object.assign(context, { textBaseline: "bottom", textAlign: "right" });
     context.fillText("50 mm", width - 10, height - 9);
     context.fillRect(width - 10 - bar, height - 7, bar, 2);
   }

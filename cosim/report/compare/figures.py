@@ -116,16 +116,10 @@ def overlay(both: Comparison) -> Picture:
     """Where both have other times, each on the straight lines of its rows."""
     times, shown = _described(_with_events(both))
     part = (*_window(both), "the last cycles that both have")
-    return picture_over_time(
-        "overlay",
-        "Both runs over time, the whole of them and the last cycles that both have. The wide,"
-        " orange line is A, the thin, blue one B: where only blue is seen on orange they are the"
-        " same. What is flat in both is left out; where there is one line only, the other has no"
-        " such quantity.",
-        "Both runs over time, one over the other.",
-        # of many, two beside each other: the figures below them stay on the first screen
-        TimeFigure(times, shown, part=part, own_scale=True, columns=1 + (len(shown) > MOST_BELOW)),
-    )
+    # of many, two beside each other: the figures below them stay on the first screen
+    columns = 1 + (len(shown) > MOST_BELOW)
+    figure = TimeFigure(times, shown, part=part, own_scale=True, columns=columns)
+    return picture_over_time("overlay", **TABLES["compare"]["overlay"], shown=figure)
 
 
 def _described(both: Comparison) -> tuple[Array, list[Panel]]:
@@ -158,11 +152,7 @@ def _with_events(both: Comparison) -> Comparison:
     return replace(both, a=a, b=b)
 
 
-@picture(
-    "phases",
-    "Velocity over position in the last cycles: a closed loop is a stick-slip cycle. A wide and"
-    " orange, B thin and blue.",
-)
+@picture("phases", **TABLES["compare"]["phases"])
 def draw_phases(both: Comparison) -> Figure:
     """The phase portraits in one panel; both must have x and vx."""
     begin, end = _window(both)

@@ -73,8 +73,7 @@ def read_result(folder: Path) -> OneResult:
             )
     try:
         numbers = json.loads((folder / NUMBERS).read_text(encoding="utf-8"))
-        with xr.open_dataset(folder / DATA, engine="h5netcdf") as opened:
-            dataset = opened.load()
+        dataset = xr.load_dataset(folder / DATA, engine="h5netcdf")
         name = str(numbers["name"])
         status, reason = numbers["status"], numbers.get("reason", "")
     except (OSError, ValueError, KeyError, TypeError) as error:

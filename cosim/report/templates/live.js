@@ -152,5 +152,6 @@ const live = (() => {
     },
   };
 
-  return { DASH, FONT, axis, numbers, element, button, attribute, swatch, swatchOf, told, each, dataOf, onPaper, onWidth, sized, fitted, colours, scale, placeOf, clock };
+  return { DASH, FONT, axis, numbers, element, button, attribute, swatch, swatchOf, told, each, dataOf, onPaper, onWidth,
+    sized, fitted, colours, scale, placeOf, clock };
 })();

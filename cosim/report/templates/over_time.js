@@ -39,9 +39,7 @@
     ctx.beginPath();
     ctx.rect(bbox.left, 0, ctx.canvas.width - bbox.left, bottom);
     ctx.clip();
-    ctx.font = FONT.replace("12px", `${12 * dense}px`);
-    ctx.fillStyle = INK;
-    ctx.textAlign = "left";
+    Object.assign(ctx, { font: FONT.replace("12px", `${12 * dense}px`), fillStyle: INK, textAlign: "left" });
     for (const [height, text] of panel.levels) {
       const y = plot.valToPos(height, "y", true);
       if (y < bbox.top || y > bottom) continue;
@@ -198,7 +196,8 @@
 
   function makePanel(room, data, panel, number) {
     const box = live.element("div", { class: "panel" });
-    const shown = keys(panel, box, isAbove(panel, data), (n, show) => plot.setSeries(order.indexOf(n) + 1, { show }));
+    const turn = (n, show) => plot.setSeries(order.indexOf(n) + 1, { show });
+    const shown = keys(panel, box, isAbove(panel, data), turn);
     const [, unit] = panel.label.match(/\[(.*)\]/) || ["", ""];
     const values = panel.curves.map((curve) => live.numbers(curve.values));
     // the lowest has the title for all, unless they are side by side or more than a screen is high

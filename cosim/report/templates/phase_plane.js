@@ -32,8 +32,9 @@
     const holder = live.element("div", { class: "plot" });
     box.append(bar, holder);
     room.append(box);
-    const ranges = [ends(ways, "x"), ends(ways, "y")], axes = [{ size: 26, label: across }, { size: 58, label: upwards }];
-    const plot = live.plots.plane(holder, axes, [8, 14, 0, 0], () => ranges, (plot) => ways.forEach((way) => draw(plot, way)));
+    const ranges = [ends(ways, "x"), ends(ways, "y")], drawAll = (plot) => ways.forEach((way) => draw(plot, way));
+    const axes = [{ size: 26, label: across }, { size: 58, label: upwards }];
+    const plot = live.plots.plane(holder, axes, [8, 14, 0, 0], () => ranges, drawAll);
     live.onWidth(holder, (width) => plot.setSize({ width, height: live.onPaper() ? 0.6 * SIZE : SIZE }));
   }
 

@@ -82,16 +82,13 @@ live.rig = (() => {
       return [pose.x + c * bx - s * by, pose.y + s * bx + c * by];
     });
     context.setLineDash([2, 3]);
-    context.lineWidth = 1;
-    context.strokeStyle = "#5c5c5c";
+    Object.assign(context, { lineWidth: 1, strokeStyle: "#5c5c5c" });
     disc(context, view, 0, 0, radius);
     context.stroke();
     context.setLineDash([]);
-    context.lineWidth = 3;
-    context.strokeStyle = BLUE;
+    Object.assign(context, { lineWidth: 3, strokeStyle: BLUE });
     for (const [ex, ey] of ends) stroke(context, middle, [view.x(ex), view.y(ey)]);
-    context.lineWidth = 2;
-    context.fillStyle = colour;
+    Object.assign(context, { lineWidth: 2, fillStyle: colour });
     disc(context, view, pose.x, pose.y, radius);
     context.fill();
     context.stroke();
@@ -100,13 +97,10 @@ live.rig = (() => {
       const [ax, ay] = rig.anchors.slice(2 * n, 2 * n + 2);
       // a pale edge, to be seen on whatever colour the belt has
       for (const [edge, thick] of [["rgba(255,255,255,.8)", 3.5], [INK, 1.3]]) {
-        context.strokeStyle = edge;
-        context.lineWidth = thick;
+        Object.assign(context, { strokeStyle: edge, lineWidth: thick });
         spring(context, view, ax, ay, ex, ey);
       }
-      context.lineWidth = 1;
-      context.fillStyle = INK;
-      context.strokeStyle = "#fff";
+      Object.assign(context, { lineWidth: 1, fillStyle: INK, strokeStyle: "#fff" });
       disc(context, view, ex, ey, 3.5);
       context.fill();
       context.stroke();
