@@ -156,7 +156,13 @@ def _described(
     """What a dataset says of its run."""
     title = str(getattr(scenario, "name", "") or "stick-slip")
     taken = json.dumps(dict(getattr(scenario, "taken", {})))
-    found = {"title": title, **outcome, "scenario": toml, "defaults": taken, **provenance()}
+    found: dict[str, Any] = {
+        "title": title,
+        **outcome,
+        "scenario": toml,
+        "defaults": taken,
+        **provenance(),
+    }
     if (belt := getattr(scenario, "belt", None)) is not None:
         found[WIDTH] = float(belt.width)
     return found if wall_time is None else found | {"wall_time": float(wall_time)}

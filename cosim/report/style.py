@@ -214,8 +214,8 @@ def _say_around(figure: Figure, axes: NDArray[Any], shown: TimeFigure) -> None:
     if shown.part:
         axes[0, 1].set_title(shown.part[2])
     for time, words in shown.marks:
-        place, look = ("data", "axes fraction"), {"ha": "center", "va": "bottom"}
-        _beside(axes[0, 0], words, (time, 1.0), place, (0, 2), **look)
+        above = ("data", "axes fraction")
+        _beside(axes[0, 0], words, (time, 1.0), above, (0, 2), ha="center", va="bottom")
     handles = _curve_handles(shown.panels)
     if shown.phase:
         handles.append(Patch(facecolor=SLIP, edgecolor="none", label=shown.phase))
@@ -325,8 +325,8 @@ def _draw_levels(axes: Axes, levels: Sequence[tuple[float, str]]) -> None:
     """Broken lines, named behind the right edge."""
     for height, text in levels:
         axes.axhline(height, color=GREY, linewidth=0.9, linestyle="--", zorder=1)
-        place, look = ("axes fraction", "data"), {"va": "center", "color": INK}
-        _beside(axes, text, (1.0, height), place, (3, 0), **look)
+        behind = ("axes fraction", "data")
+        _beside(axes, text, (1.0, height), behind, (3, 0), va="center", color=INK)
 
 
 def _fit_to_part(axes: Axes, time: Array, panel: Panel) -> None:

@@ -99,7 +99,8 @@ def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> S
     if not (path.is_dir() or path.is_file()):  # a pipe or a device may never end
         raise SystemFault(f"{path}: is no regular file, allowed is an SSP or a TOML file")
     archive = path.is_dir() or path.suffix.lower() in (".ssp", ".ssd") or _is_zip(path)
-    of_tables, of_units = {}, {}
+    of_tables: dict[str, Any] = {}
+    of_units: dict[str, Any] = {}
     for key, value in (changes or {}).items():
         (of_tables if key.partition(".")[0] in TABLES else of_units)[key] = value
     specification = (read_ssp if archive else read_toml)(path, of_tables)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from stickslip.friction.law import feels_water
 
@@ -40,7 +42,7 @@ def heat(dataset: Data) -> TimeFigure:
         sums.append(Curve("with railing's, rollers'", total(produced + beside), ink.INK, dash=True))
     mean = [Curve("mean power", flow(power), ink.RED, steps=True)]
     # shading would mix with the colours of what is stacked
-    look = {"stacked": bool(sinks), "from_zero": True, "shaded": not sinks}
+    look: Any = {"stacked": bool(sinks), "from_zero": True, "shaded": not sinks}
     panels = [
         Panel(f"friction heat [{flow.unit}]", mean, from_zero=True),
         Panel(f"heat since start [{total.unit}]", sums, **look),

@@ -192,10 +192,8 @@ class _Sheet:
     def box(self, box: Box) -> None:
         """A unit with its ports."""
         corner, round_ = (box.x, box.y), "round,pad=0,rounding_size=0.08"
-        look = {"facecolor": PALE_GREY, "edgecolor": GREY, "linewidth": 1.0, "zorder": 3}
-        self._axes.add_patch(
-            FancyBboxPatch(corner, box.width, box.height, boxstyle=round_, **look)  # type: ignore[arg-type]
-        )
+        look: Any = {"facecolor": PALE_GREY, "edgecolor": GREY, "linewidth": 1.0, "zorder": 3}
+        self._axes.add_patch(FancyBboxPatch(corner, box.width, box.height, boxstyle=round_, **look))
         middle = box.x + 0.5 * box.width
         self._text(middle, box.y + 0.22, box.name, 10, weight="bold")
         ports = self._system.participants[box.name].ports
@@ -211,7 +209,7 @@ class _Sheet:
             self._text(middle, box.y + box.height - 0.13, box.note, 7.5, color=GREY)
 
     def _text(self, x: float, y: float, words: str, size: float, **look: Any) -> None:
-        usual = {"ha": "center", "va": "center", "color": INK, "zorder": 5}
+        usual: Any = {"ha": "center", "va": "center", "color": INK, "zorder": 5}
         self._axes.text(x, y, words, fontsize=size, **usual | look)
 
     def _ends(self, connection: Connection) -> tuple[float, float, float, float]:
@@ -233,9 +231,9 @@ class _Sheet:
         """
         colour, affine = _colour(self._system, connection), self._system.conversions[connection]
         path = Path(points, [Path.MOVETO, *[code] * (len(points) - 1)])
-        look = {"facecolor": "none", "edgecolor": colour, "zorder": 1}
+        look: Any = {"facecolor": "none", "edgecolor": colour, "zorder": 1}
         width = 2.4 if colour in (RED, ORANGE) else 1.2
-        self._axes.add_patch(PathPatch(path, linewidth=width, **look))  # type: ignore[arg-type]
+        self._axes.add_patch(PathPatch(path, linewidth=width, **look))
         x, y = points[-1]
         corners = [x, x - 0.09, x - 0.09], [y, y - 0.045, y + 0.045]
         self._axes.fill(*corners, color=colour, zorder=2)
