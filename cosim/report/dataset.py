@@ -192,7 +192,7 @@ def _snapshots(snapshots: BeltSnapshots) -> Columns:
     position = _column(places, "belt_position", np.asarray(snapshots.position, float))
     temperature = np.reshape(np.asarray(snapshots.temperature, float), (time.size, position.size))
     contact = np.asarray(snapshots.contact, float)
-    reach = {"contact_length": float(snapshots.contact_length)}
+    reach: Any = {"contact_length": float(snapshots.contact_length)}
     return Columns(
         {
             "belt_temperature": _column((*times, *places), "belt_temperature", temperature),

@@ -83,7 +83,7 @@ def local_surface_speed(dataset: Data) -> Array:
     A slab that turns about (0, 1 / curvature) is slower the nearer to that centre.
     """
     parameters = mechanics_of(dataset)
-    speed = parameters.surface.speed
+    speed: float | Array = parameters.surface.speed
     if "surface_speed_actual" in dataset:
         speed = dataset["surface_speed_actual"].values
     return np.asarray(speed * (1.0 - parameters.pack()[P_CURVATURE] * dataset["y"].values))
