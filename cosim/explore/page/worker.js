@@ -7,8 +7,7 @@
    friction curve, {rows, events} one after the other, {done}, and the heat, {warmth} and {warmed}; of a
    survey {found}, a regime for each cell. */
 
-let kernel = null, heat = null, blocks = [];
-let newest = 0;
+let kernel = null, heat = null, blocks = [], newest = 0;
 const CHUNK_MS = 12, MOST_ROWS = 1024; // between two answers
 const turn = new MessageChannel();
 let goOn = null;
