@@ -17,14 +17,14 @@ from stickslip.ports import OUTPUTS
 from cosim.explore.controls import groups
 from cosim.fmu import web
 from cosim.fmu.thermal.variables import outputs
-from cosim.report.page import asset, render
+from cosim.report.page import UPLOT, asset, render
 from cosim.scenario import Scenario, read_scenario
 
 #: Packaged scenarios that can be begun with, beside that which was asked for.
 PRESETS = ("reference", "study", "slab")
 #: Scripts that a run's page has, too; then those of this page, in the order in which they need each
 #: other. That of the models runs in a thread of its own, without the others.
-SHARED = ("live.js", "rig.js")
+SHARED = (UPLOT, "live.js", "plot.js", "rig.js")
 WORKER = "worker.js"
 SCRIPTS = (
     *("units.js", "scenario.js", "checks.js", "runs.js", "statistics.js", "plots.js"),

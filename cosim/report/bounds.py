@@ -19,7 +19,6 @@ from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
 from cosim.report.columns import Data
 
 from .contents import mechanics_of
-from .quantities import Quantity
 
 Array = NDArray[np.float64]
 
@@ -41,18 +40,23 @@ def bounds_numbers(dataset: Data) -> dict[str, Any]:
 
     Times are None for a run that stays within its bounds.
     """
-    time = dataset["time"].values
-    known = np.all([np.isfinite(dataset[name].values) for name in ("x", "y", "phi")], axis=0)
-    if not known.any():
+    rows = known_rows(dataset)
+    time, x, y, phi = (rows[name].values for name in ("time", "x", "y", "phi"))
+    if time.size == 0:
         return {}
-    x, y, phi = (dataset[name].values[known] for name in ("x", "y", "phi"))
     parameters = mechanics_of(dataset)
-    found: dict[str, Any] = {"overstretched": _overstretched(parameters, time[known], x, y, phi)}
-    if left := _left_belt(dataset, parameters, time[known], y):
-        found["left_belt"] = left
-    if centre := _at_centre(parameters, time[known], x, y):
-        found["slab_centre"] = centre
-    return found
+    found = {
+        "overstretched": _overstretched(parameters, time, x, y, phi),
+        "left_belt": _left_belt(dataset, parameters, time, y),
+        "slab_centre": _at_centre(parameters, time, x, y),
+    }
+    return {name: numbers for name, numbers in found.items() if numbers}
+
+
+def known_rows(dataset: Data) -> Data:
+    """The rows in which the block's place is known."""
+    known = [np.isfinite(dataset[name].values) for name in ("x", "y", "phi")]
+    return dataset.isel(time=np.all(known, axis=0))
 
 
 def allowed_aside(radius: float, width: float) -> float:
@@ -78,16 +82,23 @@ def contact_share(y: float, radius: float, width: float) -> float:
 
 def spring_lengths(parameters: Parameters, x: Array, y: Array, phi: Array) -> Array:
     """Lengths of the springs (4, n), m, of the block at x, y (n,) m, turned by phi (n,) rad."""
-    p = parameters.pack()
-    anchors = np.array(p[P_ANCHOR : P_ANCHOR + 8]).reshape(4, 2)
-    arms = np.array(p[P_ATTACH : P_ATTACH + 8]).reshape(4, 2)
+    fixed, arms = spring_ends(parameters)
     c, s = np.cos(phi), np.sin(phi)
-    along = x + np.outer(arms[:, 0], c) - np.outer(arms[:, 1], s) - anchors[:, :1]
-    across = y + np.outer(arms[:, 0], s) + np.outer(arms[:, 1], c) - anchors[:, 1:]
+    along = x + np.outer(arms[:, 0], c) - np.outer(arms[:, 1], s) - fixed[:, :1]
+    across = y + np.outer(arms[:, 0], s) + np.outer(arms[:, 1], c) - fixed[:, 1:]
     return np.asarray(np.hypot(along, across))
 
 
-def _left_belt(dataset: Data, parameters: Parameters, time: Array, y: Array) -> dict[str, Quantity]:
+def spring_ends(parameters: Parameters) -> tuple[Array, Array]:
+    """Of the springs the fixed ends, and those on the block from its middle, (4, 2) each, m."""
+    p = parameters.pack()
+    fixed, arms = (np.reshape(p[place : place + 8], (4, 2)) for place in (P_ANCHOR, P_ATTACH))
+    return fixed, arms
+
+
+def _left_belt(
+    dataset: Data, parameters: Parameters, time: Array, y: Array
+) -> dict[str, float | None]:
     """When and where the block left the belt, and how far; {} where no edge is known."""
     width = dataset.attrs.get(WIDTH)
     heated = "heat_received" in dataset
@@ -98,43 +109,36 @@ def _left_belt(dataset: Data, parameters: Parameters, time: Array, y: Array) -> 
     first, farthest = _first(aside > allowed), int(aside.argmax())
     off = None if _turns(parameters) else _first(aside > 0.5 * width)
     left = {
-        "time": _at(time, first, "s"),
-        "y": _at(y, first, "m"),
-        "allowed": Quantity(allowed, "m"),
-        "farthest_y": Quantity(float(y[farthest]), "m"),
-        "least_contact_share": Quantity(contact_share(aside[farthest], radius, width), "1"),
-        "centre_off_since": _at(time, off, "s"),
+        "time": _at(time, first),
+        "y": _at(y, first),
+        "allowed": allowed,
+        "farthest_y": float(y[farthest]),
+        "least_contact_share": contact_share(aside[farthest], radius, width),
+        "centre_off_since": _at(time, off),
     }
     return left | ({"heat_as_in_the_middle_since": left["time"]} if heated else {})
 
 
-def _at_centre(parameters: Parameters, time: Array, x: Array, y: Array) -> dict[str, Quantity]:
+def _at_centre(parameters: Parameters, time: Array, x: Array, y: Array) -> dict[str, float | None]:
     """When a slab's centre came under the block; {} for a belt."""
     if not _turns(parameters):
         return {}
     centre = 1.0 / parameters.pack()[P_CURVATURE]
     distance = np.hypot(x, y - centre)
-    first = _first(distance < parameters.rig.contact_radius)
-    return {
-        "time": _at(time, first, "s"),
-        "y": _at(y, first, "m"),
-        "least_distance": Quantity(float(distance.min()), "m"),
-        "allowed": Quantity(parameters.rig.contact_radius, "m"),
-    }
+    allowed = parameters.rig.contact_radius
+    at = {name: _at(each, _first(distance < allowed)) for name, each in (("time", time), ("y", y))}
+    return at | {"least_distance": float(distance.min()), "allowed": allowed}
 
 
 def _overstretched(
     parameters: Parameters, time: Array, x: Array, y: Array, phi: Array
-) -> dict[str, Quantity]:
+) -> dict[str, float | None]:
     longest = spring_lengths(parameters, x, y, phi).max(axis=0)
     allowed = LONGEST * parameters.rig.spring_length
     if curve := parameters.springs.force_curve_extension:
         allowed = parameters.rig.spring_natural_length + curve[-1]
-    return {
-        "time": _at(time, _first(longest > allowed), "s"),
-        "longest": Quantity(float(longest.max()), "m"),
-        "allowed": Quantity(allowed, "m"),
-    }
+    beyond = _at(time, _first(longest > allowed))
+    return {"time": beyond, "longest": float(longest.max()), "allowed": allowed}
 
 
 def _turns(parameters: Parameters) -> bool:
@@ -145,24 +149,26 @@ def _first(beyond: NDArray[np.bool_]) -> int | None:
     return int(beyond.argmax()) if beyond.any() else None
 
 
-def _at(values: Array, row: int | None, unit: str) -> Quantity:
-    return Quantity(None if row is None else float(values[row]), unit)
+def _at(values: Array, row: int | None) -> float | None:
+    return None if row is None else float(values[row])
 
 
 def bounds_sentences(numbers: Mapping[str, Any]) -> list[str]:
     """What a run does that its rig could not, or its ledger does not hold, a sentence each."""
     told = []
-    left, centre = numbers.get("left_belt", {}), numbers.get("slab_centre", {})
-    if left.get("time") is not None:
+    left, centre, springs = (
+        found if (found := numbers.get(name, {})).get("time") is not None else None
+        for name in ("left_belt", "slab_centre", "overstretched")
+    )
+    if left:
         told.append(_left_sentence(left, "slab_centre" in numbers))
-    if centre.get("time") is not None:
+    if centre:
         told.append(
             f"the slab's centre comes under the block at t = {centre['time']:.4g} s "
             f"(y = {_mm(centre['y'])}): it comes as near as {_mm(centre['least_distance'])}, "
             f"allowed is {_mm(centre['allowed'])}"
         )
-    springs = numbers.get("overstretched", {})
-    if springs.get("time") is not None:
+    if springs:
         told.append(
             f"a spring is longer than it can be from t = {springs['time']:.4g} s on: up to "
             f"{_mm(springs['longest'])}, allowed is {_mm(springs['allowed'])}"

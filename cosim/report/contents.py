@@ -16,7 +16,6 @@ from stickslip.steady_motion import Assessment
 from stickslip.trajectory import counted_break_aways
 
 from cosim.report.columns import Data
-from cosim.report.quantities import TABLES, Quantity
 
 if TYPE_CHECKING:
     from thermal import RigView, ThermalParameters
@@ -29,7 +28,6 @@ Array = NDArray[np.float64]
 
 SLIP = 1.0
 ATTRIBUTE = "assessment"
-STABILITY_UNITS, REGIME_UNITS = TABLES["stability_units"], TABLES["regime_units"]
 
 
 def tables_of(scenario: BaseModel) -> Tables:
@@ -172,12 +170,12 @@ def mode_changes(dataset: Data) -> tuple[Array, Array]:
     known = np.isfinite(mode)
     time, mode = time[known], mode[known]
     at = np.flatnonzero(np.diff(mode))
+    before, after = time[at], time[at + 1]
+    changes = 0.5 * (before + after)
     if "slip_time" in dataset:
         slipped = np.diff(dataset["slip_time"].values[known])[at]
-        changes = np.where(mode[at + 1] == SLIP, time[at + 1] - slipped, time[at] + slipped)
-        changes = np.clip(changes, time[at], time[at + 1])
-    else:
-        changes = 0.5 * (time[at] + time[at + 1])
+        changes = np.where(mode[at + 1] == SLIP, after - slipped, before + slipped)
+        changes = np.clip(changes, before, after)
     return np.concatenate([time[:1], changes]), np.concatenate([mode[:1], mode[at + 1]])
 
 
@@ -216,20 +214,8 @@ def attach_assessment(dataset: Data, assessment: Assessment | None) -> None:
 
 
 def assessment_numbers(dataset: Data) -> dict[str, Any]:
-    """Stability and regimes with units; nothing for a run that was not assessed."""
+    """Stability and regimes; nothing for a run that was not assessed."""
     if ATTRIBUTE not in dataset.attrs:
         return {}
     found: dict[str, Any] = json.loads(dataset.attrs[ATTRIBUTE])
-    return found | {
-        "stability": _with_units(found["stability"], STABILITY_UNITS),
-        "regimes": {
-            start: _with_units(regime, REGIME_UNITS) for start, regime in found["regimes"].items()
-        },
-    }
-
-
-def _with_units(numbers: dict[str, Any], units: dict[str, str]) -> dict[str, Any]:
-    return {
-        key: Quantity(value, units[key]) if key in units else value
-        for key, value in numbers.items()
-    }
+    return found

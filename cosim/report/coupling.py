@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from cosim.report.columns import Data
 
 from .page import number
-from .quantities import TABLES, Quantity
+from .quantities import KEY_UNITS, TABLES
 
 if TYPE_CHECKING:
     from cosim.coupling import CoupledResult
@@ -18,12 +18,7 @@ if TYPE_CHECKING:
 WORDS = TABLES["steps"]
 #: What is shown only where there is any: for one, the start of the first step that stands although
 #: it should not.
-FIRST = ("first_unconverged", "first_above_tolerance")
-SELDOM = (*FIRST, "remarks")
-TIMES = (
-    *("macro_step", "shortest_step", "longest_step"),
-    *FIRST,
-)
+SELDOM = ("first_unconverged", "first_above_tolerance", "remarks")
 ATTRIBUTE, TABLE = "coupling", "coupling"
 #: Keys of a scenario's table that are told with the numbers.
 SETTINGS = ("scheme", "step_control", "macro_step")
@@ -56,22 +51,10 @@ def doubts(coupling: Mapping[str, Any]) -> list[str]:
 
     coupling: numbers of a summary.
     """
-    said = (
-        (
-            "unconverged",
-            'whose iteration has not converged (on_divergence = "accept"): from there on the'
-            " results are not those of the coupled system",
-        ),
-        (
-            "above_tolerance",
-            "of the smallest size although their error is larger than allowed: from there on the"
-            " results are less exact than asked for",
-        ),
-    )
     return [
         f"{coupling[key]} of {coupling['steps']} steps were accepted, the first from t ="
         f" {coupling[f'first_{key}']:.6g} s, {words}"
-        for key, words in said
+        for key, words in TABLES["doubts"].items()
         if coupling.get(key)
     ]
 
@@ -90,36 +73,23 @@ def attach_coupling(
     """Let a dataset carry how it was coupled; tables: of the scenario, with values."""
     settings = tables.get(TABLE, {})
     told = {key: settings[key]["value"] for key in SETTINGS if key in settings}
-    found = told | step_numbers(result) | {"participants": efforts(result)}
-    found["remarks"] = list(result.remarks)
-    dataset.attrs[ATTRIBUTE] = json.dumps(found)
+    found = {"participants": efforts(result), "remarks": list(result.remarks)}
+    dataset.attrs[ATTRIBUTE] = json.dumps(told | step_numbers(result) | found)
 
 
 def coupling_numbers(dataset: Data) -> dict[str, Any]:
-    """What `attach_coupling` gave, with units; {} where a dataset has none of it."""
-    return _with_units(json.loads(dataset.attrs.get(ATTRIBUTE, "{}")))
-
-
-def _with_units(found: Mapping[str, Any]) -> dict[str, Any]:
-    told: dict[str, Any] = {}
-    for key, value in found.items():
-        if isinstance(value, dict):
-            told[key] = _with_units(value)
-        elif isinstance(value, str | bool | list):
-            told[key] = value
-        else:
-            told[key] = Quantity(value, "s" if key in (*TIMES, "seconds") else "1")
-    return told
+    """What `attach_coupling` gave; {} where a dataset has none of it."""
+    found: dict[str, Any] = json.loads(dataset.attrs.get(ATTRIBUTE, "{}"))
+    return found
 
 
 def step_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
     """Words and values for a page, of what there is."""
-    shown = [
-        key
-        for key in WORDS
+    return [
+        (words, _told(key, numbers[key]))
+        for key, words in WORDS.items()
         if key in numbers and (key not in SELDOM or numbers[key] not in (None, []))
     ]
-    return [(WORDS[key], _told(key, numbers[key])) for key in shown]
 
 
 def effort_rows(participants: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, ...]]:
@@ -133,6 +103,6 @@ def effort_rows(participants: Mapping[str, Mapping[str, Any]]) -> list[tuple[str
 def _told(key: str, value: Any) -> str:
     if isinstance(value, list):
         return ", ".join(map(str, value)) or "none"
-    if key in TIMES:
+    if KEY_UNITS.get(key) == "s":
         return "none" if value is None else f"{number(value)} s"
     return str(value)

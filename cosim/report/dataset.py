@@ -24,9 +24,7 @@ MECHANICAL = {port.name: (port.unit or "1", port.description) for port in OUTPUT
 
 THERMAL, COUPLING = TABLES["thermal"], TABLES["coupling"]
 
-KNOWN = MECHANICAL | THERMAL | COUPLING
-
-TIME = {"units": "s", "long_name": "time"}
+KNOWN = MECHANICAL | THERMAL | COUPLING | TABLES["axes"] | {"event_x": MECHANICAL["x"]}
 
 MODE = {"flag_values": [0, 1], "flag_meanings": "stick slip"}
 
@@ -35,7 +33,7 @@ def attributes(name: str, unit: str | None = None) -> dict[str, object]:
     """units and long_name of a variable; an unknown one is named by its own words."""
     known_unit, text = KNOWN.get(name, (unit or "1", name.replace("_", " ").replace(".", " ")))
     attrs: dict[str, object] = {"units": unit or known_unit, "long_name": text}
-    return attrs | (MODE if name == "mode" else {})
+    return attrs | (MODE if _COUNTS.get(name) is np.int8 else {})
 
 
 if TYPE_CHECKING:
@@ -46,7 +44,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 # whole numbers that models and masters carry as floats
-_COUNTS = {"mode": np.int8, "slip_count": np.int64}
+_COUNTS = {"mode": np.int8, "event_mode": np.int8, "slip_count": np.int64}
 
 
 class BeltSnapshots(Protocol):
@@ -96,7 +94,8 @@ def run_columns(
     columns, units = _columns(result, mechanics, thermal)
     columns["coupling_residual"] = result.ledger.residual
     dataset = _dataset(result.time, columns, units)
-    _describe(dataset, scenario, toml, result.status, result.reason, result.wall_time)
+    outcome = {"status": result.status, "reason": result.reason}
+    dataset.attrs.update(_described(scenario, toml, outcome, result.wall_time))
     tables = tables_of(scenario)
     dataset.attrs.update(case="coupled", parameters=json.dumps(tables))
     attach_coupling(dataset, result, tables)
@@ -108,20 +107,14 @@ def run_columns(
 
 
 def trajectory_columns(
-    trajectory: Trajectory,
-    scenario: BaseModel,
-    toml: str,
-    *,
-    wall_time: float | None = None,
+    trajectory: Trajectory, scenario: BaseModel, toml: str, *, wall_time: float | None = None
 ) -> Columns:
     """A run of the mechanics alone over ``time`` (n,) and ``event_time`` (k,).
 
     scenario: the model that ``toml`` was read into; wall_time: of the integration, s.
     """
-    units = {name: unit for name, (unit, _) in MECHANICAL.items()}
-    dataset = _dataset(trajectory.time, trajectory.columns, units)
-    status, reason = _outcome(trajectory)
-    _describe(dataset, scenario, toml, status, reason, wall_time)
+    dataset = _dataset(trajectory.time, trajectory.columns, {})
+    dataset.attrs.update(_described(scenario, toml, _outcome(trajectory), wall_time))
     alone = {*type(trajectory.parameters).model_fields, "run"}
     used = {name: table for name, table in tables_of(scenario).items() if name in alone}
     dataset.attrs.update(case="mechanics", parameters=json.dumps(used))
@@ -134,21 +127,20 @@ def _columns(
 ) -> tuple[dict[str, Array], dict[str, str]]:
     """Columns by port name. An input repeats the output that feeds it: the output is kept."""
     owners = {name: mechanics for name in MECHANICAL} | {name: thermal for name in THERMAL}
-    columns: dict[str, Array] = {}
-    units: dict[str, str] = {}
-    for address, values in result.values.items():
+    addresses: dict[str, str] = {}
+    for address in result.values:
         participant, _, port = address.partition(".")
-        if owners.get(port, participant) == participant and port not in columns:
-            columns[port], units[port] = values, result.units[address]
-    return columns, units
+        if owners.get(port, participant) == participant:
+            addresses.setdefault(port, address)
+    columns = {port: result.values[address] for port, address in addresses.items()}
+    return columns, {port: result.units[address] for port, address in addresses.items()}
 
 
 def _dataset(time: Array, columns: Mapping[str, Array], units: Mapping[str, str]) -> Columns:
     variables = {
-        name: Column(("time",), _typed(name, values), attributes(name, units.get(name)))
-        for name, values in columns.items()
+        name: _column(("time",), name, values, units.get(name)) for name, values in columns.items()
     }
-    return Columns(variables, {"time": Column(("time",), np.asarray(time, float), TIME)})
+    return Columns(variables, {"time": _column(("time",), "time", np.asarray(time, float))})
 
 
 def _typed(name: str, values: Array) -> NDArray[Any]:
@@ -158,70 +150,59 @@ def _typed(name: str, values: Array) -> NDArray[Any]:
     return values
 
 
-def _describe(
-    dataset: Columns,
-    scenario: BaseModel,
-    toml: str,
-    status: str,
-    reason: str,
-    wall_time: float | None,
-) -> None:
-    dataset.attrs.update(
-        title=str(getattr(scenario, "name", "") or "stick-slip"),
-        status=status,
-        reason=reason,
-        scenario=toml,
-        defaults=json.dumps(dict(getattr(scenario, "taken", {}))),
+def _described(
+    scenario: BaseModel, toml: str, outcome: Mapping[str, str], wall_time: float | None
+) -> dict[str, Any]:
+    """What a dataset says of its run."""
+    title = str(getattr(scenario, "name", "") or "stick-slip")
+    taken = json.dumps(dict(getattr(scenario, "taken", {})))
+    found: dict[str, Any] = {
+        "title": title,
+        **outcome,
+        "scenario": toml,
+        "defaults": taken,
         **provenance(),
-    )
+    }
     if (belt := getattr(scenario, "belt", None)) is not None:
-        dataset.attrs[WIDTH] = float(belt.width)
-    if wall_time is not None:
-        dataset.attrs["wall_time"] = float(wall_time)
+        found[WIDTH] = float(belt.width)
+    return found if wall_time is None else found | {"wall_time": float(wall_time)}
 
 
-def _outcome(trajectory: Trajectory) -> tuple[str, str]:
+def _outcome(trajectory: Trajectory) -> dict[str, str]:
     if trajectory.complete:
-        return "complete", ""
+        return {"status": "complete", "reason": ""}
+    if not trajectory.reason.endswith("KeyboardInterrupt"):
+        return {"status": "failed", "reason": trajectory.reason}
     reached = f"{trajectory.time[-1]:.9g} s" if trajectory.time.size else "the start"
-    if trajectory.reason.endswith("KeyboardInterrupt"):
-        return "interrupted", f"interrupted at t = {reached}"
-    return "failed", trajectory.reason
+    return {"status": "interrupted", "reason": f"interrupted at t = {reached}"}
 
 
 def _events(events: Array) -> Columns:
     time, mode, x = np.asarray(events, float).reshape(-1, 3).T
-    told = attributes("mode") | {"long_name": "mode after the event: 0 stick, 1 slip"}
-    at = {"units": "s", "long_name": "time of break-away or re-stick"}
     axis = ("event_time",)
     return Columns(
-        {
-            "event_mode": Column(axis, mode.astype(np.int8), told),
-            "event_x": Column(axis, x, attributes("x")),
-        },
-        {"event_time": Column(axis, time, at)},
+        {"event_mode": _column(axis, "event_mode", mode), "event_x": _column(axis, "event_x", x)},
+        {"event_time": _column(axis, "event_time", time)},
     )
 
 
 def _snapshots(snapshots: BeltSnapshots) -> Columns:
-    time, position = np.asarray(snapshots.time, float), np.asarray(snapshots.position, float)
-    temperature = np.asarray(snapshots.temperature, float).reshape(time.size, position.size)
-    of_face = {"units": "degC", "long_name": "temperature of the belt's contact face"}
-    of_contact = {
-        "units": "m",
-        "long_name": "centre of the contact on the belt",
-        "contact_length": float(snapshots.contact_length),
-    }
-    at = {"units": "s", "long_name": "time of the belt profile"}
-    along = {"units": "m", "long_name": "position along the belt, fixed to its material"}
     times, places = ("snapshot_time",), ("belt_position",)
+    time = _column(times, "snapshot_time", np.asarray(snapshots.time, float))
+    position = _column(places, "belt_position", np.asarray(snapshots.position, float))
+    temperature = np.reshape(np.asarray(snapshots.temperature, float), (time.size, position.size))
+    contact = np.asarray(snapshots.contact, float)
+    reach: Any = {"contact_length": float(snapshots.contact_length)}
     return Columns(
         {
-            "belt_temperature": Column((*times, *places), temperature, of_face),
-            "contact_position": Column(times, np.asarray(snapshots.contact, float), of_contact),
+            "belt_temperature": _column((*times, *places), "belt_temperature", temperature),
+            "contact_position": _column(times, "contact_position", contact, **reach),
         },
-        {
-            "snapshot_time": Column(times, time, at),
-            "belt_position": Column(places, position, along),
-        },
+        {"snapshot_time": time, "belt_position": position},
     )
+
+
+def _column(
+    dims: tuple[str, ...], name: str, values: Array, unit: str | None = None, **further: float
+) -> Column:
+    return Column(dims, _typed(name, values), attributes(name, unit) | further)

@@ -26,14 +26,9 @@ from stickslip.kernel.layout import (
 from cosim.report.columns import Data
 
 from .contents import SLIP, mechanics_of, ramp_end, still_air_film, thermal_of, value_of
-from .quantities import Quantity, ratio
+from .quantities import ratio
 
-TEMPERATURES = (
-    "interface_temperature",
-    "belt_entry_temperature",
-    "belt_exit_temperature",
-    "ice_face_temperature",
-)
+TEMPERATURES = ("interface", "belt_entry", "belt_exit", "ice_face")
 SINKS = {
     "belt": "belt_heat",
     "ice": "ice_heat",
@@ -43,26 +38,23 @@ SINKS = {
 }
 
 
-def heat_ledger(dataset: Data) -> dict[str, Quantity]:
+def heat_ledger(dataset: Data) -> dict[str, float | None]:
     """Heat received and found, J at the end of the run."""
-    received = last(dataset, "heat_received")
-    residual = largest_of(dataset, "heat_residual")
-    found = {
-        sink: Quantity(last(dataset, name), "J") for sink, name in SINKS.items() if name in dataset
-    }
+    received, residual = last(dataset, "heat_received"), largest_of(dataset, "heat_residual")
+    found = {sink: last(dataset, name) for sink, name in SINKS.items() if name in dataset}
     railing = other_heat(dataset)["railing"]
-    rubbed = {"from_railing": Quantity(float(railing[-1]), "J")} if railing.any() else {}
+    rubbed = {"from_railing": float(railing[-1])} if railing.any() else {}
     return {
-        "received": Quantity(received, "J"),
+        "received": received,
         **rubbed,
         **found,
-        "residual": Quantity(last(dataset, "heat_residual"), "J"),
-        "largest_residual": Quantity(residual, "J"),
-        "relative_residual": Quantity(ratio(residual, received), "1"),
+        "residual": last(dataset, "heat_residual"),
+        "largest_residual": residual,
+        "relative_residual": ratio(residual, received),
     }
 
 
-def heat_shares(dataset: Data) -> dict[str, Quantity]:
+def heat_shares(dataset: Data) -> dict[str, float | None]:
     """Share of the heat received, at the contact and from elsewhere, that each sink holds at the
     end; supports that give heat hold none.
 
@@ -71,12 +63,12 @@ def heat_shares(dataset: Data) -> dict[str, Quantity]:
     """
     received = last(dataset, "heat_received") + float(all_other_heat(dataset)[-1])
     shares = {
-        sink: Quantity(ratio(float(held(dataset, name)[-1]), received), "1")
+        sink: ratio(float(held(dataset, name)[-1]), received)
         for sink, name in SINKS.items()
         if name in dataset
     }
     if "belt_share" in dataset:
-        shares["from_contact_to_belt"] = Quantity(last(dataset, "belt_share"), "1")
+        shares["from_contact_to_belt"] = last(dataset, "belt_share")
     return shares
 
 
@@ -85,9 +77,10 @@ def other_heat(dataset: Data) -> dict[str, np.ndarray]:
 
     From its rubbing on the railing, and from supports that gave more than they took.
     """
-    none = np.zeros(dataset.sizes["time"])
-    railing = dataset["railing_heat"].values if "railing_heat" in dataset else none
-    supports = dataset["support_heat"].values if "support_heat" in dataset else none
+    railing, supports = (
+        dataset[name].values if name in dataset else np.zeros(dataset.sizes["time"])
+        for name in ("railing_heat", "support_heat")
+    )
     return {"railing": railing, "supports": np.maximum(-supports, 0.0)}
 
 
@@ -103,44 +96,38 @@ def held(dataset: Data, name: str) -> np.ndarray:
     return np.maximum(values, 0.0) if name == SINKS["supports"] else values
 
 
-def coupling_ledger(dataset: Data) -> dict[str, Quantity]:
+def coupling_ledger(dataset: Data) -> dict[str, float | None]:
     """Joules that the mechanics handed over and that the thermal model took."""
     heat, received = dataset["heat"].values, dataset["heat_received"].values
     handed, taken = growth(dataset, "heat"), growth(dataset, "heat_received")
     difference = (heat - heat[0]) - (received - received[0])
     largest = float(np.nanmax(np.abs(difference), initial=0.0))
     ledger = {
-        "handed_over": Quantity(handed, "J"),
-        "taken_up": Quantity(taken, "J"),
-        "largest_difference": Quantity(largest, "J"),
-        "relative_difference": Quantity(ratio(largest, handed), "1"),
+        "handed_over": handed,
+        "taken_up": taken,
+        "largest_difference": largest,
+        "relative_difference": ratio(largest, handed),
     }
     if "coupling_residual" in dataset:
-        ledger["largest_total_residual"] = Quantity(largest_of(dataset, "coupling_residual"), "J")
+        ledger["largest_total_residual"] = largest_of(dataset, "coupling_residual")
     return ledger
 
 
-def temperatures(dataset: Data) -> dict[str, dict[str, Quantity]]:
+def temperatures(dataset: Data) -> dict[str, dict[str, float | None]]:
     """End, extremes and rise over the ambient air of each recorded temperature."""
     ambient = ambient_degC(dataset)
-    found: dict[str, dict[str, Quantity]] = {"ambient": {"value_degC": Quantity(ambient, "degC")}}
-    for name in TEMPERATURES:
-        if name not in dataset:
-            continue
-        values = dataset[name].values
-        known = values[np.isfinite(values)]
-        low, high = (known.min(), known.max()) if known.size else (None, None)
-        found[name.removesuffix("_temperature")] = {
-            "end_degC": Quantity(float(values[-1]), "degC"),
-            "min_degC": Quantity(low, "degC"),
-            "max_degC": Quantity(high, "degC"),
-            "end_rise": Quantity(float(values[-1]) - ambient, "K"),
-            "max_rise": Quantity(None if high is None else high - ambient, "K"),
-        }
+    found: dict[str, dict[str, float | None]] = {"ambient": {"value_degC": ambient}}
+    for place in TEMPERATURES:
+        if f"{place}_temperature" in dataset:
+            values = dataset[f"{place}_temperature"].values
+            end, (low, high) = float(values[-1]), extremes(values)
+            warmest = None if high is None else high - ambient
+            degrees = {"end_degC": end, "min_degC": low, "max_degC": high}
+            found[place] = degrees | {"end_rise": end - ambient, "max_rise": warmest}
     return found
 
 
-def end_of_sliding(dataset: Data) -> dict[str, Quantity | str]:
+def end_of_sliding(dataset: Data) -> dict[str, float | str | None]:
     """What the interface comes to if the sliding goes on for ever, and when it is near that.
 
     Steady sliding with the mean friction heat after the ramp, on a belt that gives as much to the
@@ -162,17 +149,16 @@ def end_of_sliding(dataset: Data) -> dict[str, Quantity | str]:
     except NoSteadyState as error:
         return {"reason": f"no end: {error}"}
     if end.rise is None:
-        return {
-            "reason": "none: the face of the block comes to melt, and stays at its melting point"
-        }
+        why = "none: the face of the block comes to melt, and stays at its melting point"
+        return {"reason": why}
     return {
-        "interface_rise": Quantity(end.rise, "K"),
-        "interface_degC": Quantity(ambient_degC(dataset) + end.rise, "degC"),
-        "reached": Quantity(end.reached, "s"),
-        "within": Quantity(end.within, "1"),
-        "air_heat_transfer": Quantity(thermal.belt.film, "W/(m2.K)"),
-        "still_air_heat_transfer": Quantity(still_air_film(dataset), "W/(m2.K)"),
-        "speed": Quantity(speed, "m/s"),
+        "interface_rise": end.rise,
+        "interface_degC": ambient_degC(dataset) + end.rise,
+        "reached": end.reached,
+        "within": end.within,
+        "air_heat_transfer": thermal.belt.film,
+        "still_air_heat_transfer": still_air_film(dataset),
+        "speed": speed,
     }
 
 
@@ -240,27 +226,15 @@ def film_of(dataset: Data) -> Film:
     """Film and friction at every row; not a number in stick, and where there is no water."""
     p = mechanics_of(dataset).pack()
     pressure = p[P_NORMAL_FORCE] / (np.pi * p[P_RADIUS] ** 2)
-    thickness = np.where(
-        (dataset["film_thickness"].values > THINNEST) & (dataset["mode"].values == SLIP),
-        dataset["film_thickness"].values,
-        np.nan,
-    )
+    film, slips = dataset["film_thickness"].values, dataset["mode"].values == SLIP
+    thickness = np.where((film > THINNEST) & slips, film, np.nan)
     friction = pressure * friction_coefficient(dataset)
-    couette = (
-        pressure * p[P_MIXED_LUBRICATION_COUETTE] * dataset["sliding_speed"].values / thickness
-    )
-    flooded = (
-        p[P_MIXED_LUBRICATION_SHARE] * thickness / (thickness + p[P_MIXED_LUBRICATION_ROUGHNESS])
-    )
-    return Film(
-        thickness,
-        friction,
-        couette,
-        flooded**2 * couette,
-        flooded,
-        np.minimum(1.0, np.sqrt(friction / couette)),
-        _fed(dataset),
-    )
+    sheared, roughness = p[P_MIXED_LUBRICATION_COUETTE], p[P_MIXED_LUBRICATION_ROUGHNESS]
+    couette = pressure * sheared * dataset["sliding_speed"].values / thickness
+    flooded = p[P_MIXED_LUBRICATION_SHARE] * thickness / (thickness + roughness)
+    at_most = np.minimum(1.0, np.sqrt(friction / couette))
+    water = flooded**2 * couette
+    return Film(thickness, friction, couette, water, flooded, at_most, _fed(dataset))
 
 
 def _fed(dataset: Data) -> Array:
@@ -275,37 +249,43 @@ def _fed(dataset: Data) -> Array:
     return dataset["melt_rate"].values / np.where(slips, WATER_DENSITY * lane * speed, np.nan)
 
 
-def melting(dataset: Data) -> dict[str, Quantity]:
+def melting(dataset: Data) -> dict[str, float | None]:
     """What melted since when, and the balance of the film over the last second."""
-    begin, end = melting_begins(dataset), float(dataset["time"][-1])
-    melted = float(dataset["melted_mass"][-1])
+    begin, end = melting_begins(dataset), last(dataset, "time")
+    melted = last(dataset, "melted_mass")
     before = dataset.sel(time=slice(begin - WINDOW, begin))
     return {
-        "onset": Quantity(begin, "s"),
-        "melted_mass": Quantity(melted, "kg"),
-        "refrozen_mass": Quantity(float(dataset["refrozen_mass"][-1]), "kg"),
-        "wiped_ice_mass": Quantity(float(dataset["wiped_ice_mass"][-1]), "kg"),
-        "mean_melt_rate": Quantity(ratio(melted, end - begin), "kg/s"),
-        "max_melt_rate": Quantity(float(dataset["melt_rate"].max()), "kg/s"),
-        "melting_share": Quantity(_share(dataset.sel(time=slice(begin, None))), "1"),
-        "friction_before": Quantity(mean_of(friction_coefficient(before)), "1"),
+        "onset": begin,
+        "melted_mass": melted,
+        "refrozen_mass": last(dataset, "refrozen_mass"),
+        "wiped_ice_mass": last(dataset, "wiped_ice_mass"),
+        "mean_melt_rate": ratio(melted, end - begin),
+        "max_melt_rate": float(dataset["melt_rate"].max()),
+        "melting_share": _share(dataset.sel(time=slice(begin, None))),
+        "friction_before": mean_of(friction_coefficient(before)),
         **_balance(dataset.sel(time=slice(end - WINDOW, None))),
     }
 
 
-def _balance(late: Data) -> dict[str, Quantity]:
+def _balance(late: Data) -> dict[str, float | None]:
     film = film_of(late)
-    return {
-        "melting_share_end": Quantity(_share(late), "1"),
-        "friction_end": Quantity(mean_of(friction_coefficient(late)), "1"),
-        "film_thickness": Quantity(mean_of(film.thickness), "m"),
-        "film_fed_by_melting": Quantity(mean_of(film.fed), "m"),
-        "friction_stress": Quantity(mean_of(film.friction), "Pa"),
-        "whole_film_shear": Quantity(mean_of(film.whole), "Pa"),
-        "largest_flooded_share": Quantity(mean_of(film.at_most), "1"),
-        "flooded_share": Quantity(mean_of(film.flooded), "1"),
-        "water_shear": Quantity(mean_of(film.water), "Pa"),
+    means = {
+        "friction_end": friction_coefficient(late),
+        "film_thickness": film.thickness,
+        "film_fed_by_melting": film.fed,
+        "friction_stress": film.friction,
+        "whole_film_shear": film.whole,
+        "largest_flooded_share": film.at_most,
+        "flooded_share": film.flooded,
+        "water_shear": film.water,
     }
+    return {"melting_share_end": _share(late)} | {key: mean_of(each) for key, each in means.items()}
+
+
+def extremes(values: Array) -> tuple[float, float] | tuple[None, None]:
+    """Lowest and highest of what is a number; None where nothing is."""
+    known = values[np.isfinite(values)]
+    return (float(known.min()), float(known.max())) if known.size else (None, None)
 
 
 def growth(rows: Data, name: str) -> float:

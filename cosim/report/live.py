@@ -63,14 +63,9 @@ class Map(NamedTuple):
         """With as many colours as a map has levels."""
         low, high = self.ends
         levels = np.rint(LEVELS * (self.values - low) / (high - low))
-        return {
-            "levels": packed(levels, "u1"),
-            "shape": list(self.values.shape),
-            "low": low,
-            "high": high,
-            **{key: getattr(self, key) for key in ("length", "label", "unit")},
-            "colours": colour_table(self.colours),
-        }
+        told = {key: getattr(self, key) for key in ("length", "label", "unit")}
+        told |= {"shape": self.values.shape, "low": low, "high": high}
+        return told | {"levels": packed(levels, "u1"), "colours": colour_table(self.colours)}
 
     @property
     def ends(self) -> tuple[float, float]:
@@ -139,17 +134,13 @@ class TimeFigure:
         """With hover and zoom, all panels on one axis."""
         curves = [curve.values for panel in self.panels for curve in panel.curves]
         rows = thinned(self.time, curves, self.keep)
+        plain = ("phase", "marks", "part", "opens_at_part", "note", "columns")
         return {
             "kind": "over_time",
             "time": packed(self.time[rows], "f8"),
             "panels": [_panel(panel, rows) for panel in self.panels],
             "phases": packed(self.phases, "f8"),
-            "phase": self.phase,
-            "marks": [list(mark) for mark in self.marks],
-            "part": self.part and list(self.part),
-            "opens_at_part": self.opens_at_part,
-            "note": self.note,
-            "columns": self.columns,
+            **{name: getattr(self, name) for name in plain},
             "rows": [int(rows.size), int(self.time.size)],
         }
 
@@ -166,7 +157,7 @@ def _panel(panel: Panel, rows: NDArray[np.int64]) -> dict[str, Any]:
         vars(curve) | {"values": packed(np.asarray(curve.values, float)[rows])}
         for curve in panel.curves
     ]
-    return told | {"levels": [list(level) for level in panel.levels], "curves": curves}
+    return told | {"curves": curves}
 
 
 def thinned(
@@ -221,8 +212,7 @@ def on_one_axis(series: Sequence[Series]) -> tuple[Array, list[Curve]]:
 
 
 def panels_on_one_axis(
-    panels: Sequence[tuple[Panel, Sequence[Series]]],
-    span: tuple[float, float] = (-np.inf, np.inf),
+    panels: Sequence[tuple[Panel, Sequence[Series]]], span: tuple[float, float] = (-np.inf, np.inf)
 ) -> tuple[Array, list[Panel]]:
     """The times of all series of all panels within a span, s, and the panels with their curves."""
     times, curves = on_one_axis([one for _, series in panels for one in series])

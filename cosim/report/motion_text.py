@@ -5,49 +5,22 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from stickslip.steady_motion.regimes import (
-    ASIDE_ANGLE_DEG,
-    ASIDE_LENGTH,
-    CREEPING,
-    SLIDING,
-    STICK_SLIP,
-)
+from stickslip.steady_motion.regimes import ASIDE_ANGLE_DEG, ASIDE_LENGTH
 from stickslip.steady_motion.stability import GRAZING, GUIDED, NEUTRAL, UNSTABLE
-from stickslip.steady_motion.starts import (
-    BALANCED,
-    DISTURBED,
-    LONG_RAMP,
-    OWN,
-    RAMP,
-    REST,
-    RIDING,
-    SHORT_RAMP,
-    TURNED,
-)
+from stickslip.steady_motion.starts import DISTURBED, OWN
+
+from .quantities import TABLES
 
 #: Starts, the most usual first.
-SHORT = {
-    DISTURBED: "0.1 mm aside and turned by 1 mrad",
-    REST: "from rest",
-    RAMP: "from a speed ramp",
-    SHORT_RAMP: "from a speed ramp a third as long",
-    RIDING: "riding on the surface",
-    LONG_RAMP: "from a speed ramp three times as long",
-    BALANCED: "from where the springs balance the friction of sliding",
-    TURNED: "from 10 mm aside and turned by 20°",
-}
+SHORT: dict[str, str] = TABLES["starts"]
 #: Multipliers that differ by less than this part are told as one.
 ALIKE = 0.02
 #: Of a number: a rig whose border is further off than this is well inside.
 WELL_INSIDE = 1.0 / 3.0
 #: A tenth of a millimetre, which every rig is off by, times this is a centimetre.
 MUCH = 100.0
-EXPLAINED = {
-    STICK_SLIP: "sticks and slips",
-    SLIDING: "slides without ever sticking",
-    "sticking": "sticks and never slips",
-    CREEPING: "creeps as fast as the surface, and never breaks away",
-}
+#: Regime -> what the block does in it.
+EXPLAINED: dict[str, str] = TABLES["regimes"]
 
 
 def stability_sentence(numbers: Mapping[str, Any]) -> str:
@@ -58,18 +31,17 @@ def stability_sentence(numbers: Mapping[str, Any]) -> str:
     if found["verdict"] == GRAZING:
         return grazing_sentence(found)
     what = "The motion along the line" if found["motion"] == "along the line" else "This motion"
-    if found["verdict"] != UNSTABLE:
-        fares = "neither grow nor die out" if found["verdict"] == NEUTRAL else "die out"
+    if found["verdict"] == UNSTABLE:
         return (
-            f"{what} is {found['verdict']}: small disturbances to the side and in rotation "
-            f"{fares}, by the factor {_factor(found)} in {found['cycle']:.3g} s. "
-            f"{ramp_sentence(numbers)}".rstrip()
-            + _further(found)
+            f"{what} is unstable: a small disturbance to the side or in rotation grows tenfold in "
+            f"{found['time_to_grow']:.3g} s{_kept(found)}.{_remedy(found)}"
         )
-    return (
-        f"{what} is unstable: a small disturbance to the side or in rotation grows tenfold in "
-        f"{found['time_to_grow']:.3g} s{_kept(found)}.{_remedy(found)}"
+    fares = "neither grow nor die out" if found["verdict"] == NEUTRAL else "die out"
+    told = (
+        f"{what} is {found['verdict']}: small disturbances to the side and in rotation "
+        f"{fares}, by the factor {_factor(found)} in {found['cycle']:.3g} s. "
     )
+    return (told + ramp_sentence(numbers)).rstrip() + _further(found)
 
 
 def _factor(found: Mapping[str, Any]) -> str:
@@ -114,13 +86,11 @@ def unstable_line(numbers: Mapping[str, Any]) -> str:
 def _remedy(found: Mapping[str, Any]) -> str:
     if found["unstable_pretensions"] is None:
         return ""
-    stable = _stable_side(found)
-    if stable is None:
+    if not (stable := _stable_side(found)):
         return " No pretension that was tried makes it stable."
-    return (
-        f" It is stable {stable} of pretension, by which the springs are stretched as installed; "
-        f"here it is {1e3 * found['pretension']:.3g} mm."
-    )
+    here = f"here it is {1e3 * found['pretension']:.3g} mm"
+    what = "of pretension, by which the springs are stretched as installed"
+    return f" It is stable {stable} {what}; {here}."
 
 
 def _stable_side(found: Mapping[str, Any]) -> str | None:
@@ -153,19 +123,14 @@ def ramp_sentence(numbers: Mapping[str, Any]) -> str:
 
 def _further(found: Mapping[str, Any]) -> str:
     """Where else it would not be stable."""
-    windows = found["unstable_pretensions"] or []
-    told = [
-        f"{_millimetres(low, found)} to {_millimetres(high, found)} mm"
-        if high is not None
-        else f"{_millimetres(low, found)} mm on"
-        for low, high in windows
-    ]
+    told = []
+    for low, high in found["unstable_pretensions"] or []:
+        upwards = " mm on" if high is None else f" to {_millimetres(high, found)} mm"
+        told.append(_millimetres(low, found) + upwards)
     if not told:
         return ""
-    return (
-        f" It is not with a pretension of {', nor of '.join(told)}; here it is "
-        f"{1e3 * found['pretension']:.3g} mm."
-    )
+    here = f"here it is {1e3 * found['pretension']:.3g} mm"
+    return f" It is not with a pretension of {', nor of '.join(told)}; {here}."
 
 
 def regime_sentence(numbers: Mapping[str, Any]) -> str:
@@ -177,24 +142,22 @@ def regime_sentence(numbers: Mapping[str, Any]) -> str:
     if not starts:
         return f"{line}. Other starts take too many steps, and were not tried."
     if alike:
-        line += f", as does the rig from {_counted(len(alike), len(starts))} other starts."
+        part = "all" if len(alike) == len(starts) else f"{len(alike)} of"
+        line += f", as does the rig from {part} {len(starts)} other starts."
     else:
         line += f", to which none of {len(starts)} other starts leads."
-    if numbers["other_regimes"]:
-        several = len(numbers["other_regimes"]) > 1
-        line += f" {'Other regimes exist' if several else 'Another regime exists'} beside it:"
-        line += ";".join(_beside(found[first], first, groups) for first in numbers["other_regimes"])
-        line += "."
+    if others := numbers["other_regimes"]:
+        line += (
+            f" {'Other regimes exist' if len(others) > 1 else 'Another regime exists'} beside it:"
+        )
+        line += ";".join(_beside(found[first], first, groups) for first in others) + "."
     open_ended = [SHORT[start] for start in starts if groups[start] is None]
     if open_ended:
-        line += f" {_capital(_listed(open_ended))} it has come to none in the time looked at."
+        first, rest = _listed(open_ended)[:1], _listed(open_ended)[1:]
+        line += f" {first.upper()}{rest} it has come to none in the time looked at."
     if not numbers["all_starts_followed"]:
         line += " Further starts take too many steps, and were not tried."
     return line
-
-
-def _counted(part: int, whole: int) -> str:
-    return f"all {whole}" if part == whole else f"{part} of {whole}"
 
 
 def _beside(regime: Mapping[str, Any], first: str, groups: Mapping[str, str | None]) -> str:
@@ -202,10 +165,6 @@ def _beside(regime: Mapping[str, Any], first: str, groups: Mapping[str, str | No
     starts = [start for start in SHORT if groups.get(start) == first]
     more = f" (as from {len(starts) - 1} more)" if len(starts) > 1 else ""
     return f" {SHORT[starts[0]]}{more} it {described(regime)}"
-
-
-def _capital(words: str) -> str:
-    return words[:1].upper() + words[1:]
 
 
 def border_sentence(numbers: Mapping[str, Any]) -> str:
@@ -245,11 +204,8 @@ def described(regime: Mapping[str, Any]) -> str:
     if regime["frequency"]:
         line += f" at {regime['frequency']:.4g} Hz"
     aside, turned = regime["max_y"], regime["max_rotation_deg"]
-    bent = []
-    if aside >= ASIDE_LENGTH:
-        bent.append(f"up to {1e3 * aside:.2g} mm aside of its line")
-    if turned >= ASIDE_ANGLE_DEG:
-        bent.append(f"turned by up to {turned:.2g}°")
+    bent = [f"up to {1e3 * aside:.2g} mm aside of its line"] * (aside >= ASIDE_LENGTH)
+    bent += [f"turned by up to {turned:.2g}°"] * (turned >= ASIDE_ANGLE_DEG)
     return ", ".join([line, " and ".join(bent)]) if bent else line
 
 

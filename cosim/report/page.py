@@ -58,8 +58,8 @@ UPLOT, ITS_LICENCE = "uplot/uPlot.iife.min.js", "uplot/LICENSE"
 ITS_HOME = "https://github.com/leeoniya/"
 #: What draws each kind of live picture, in this order; of `templates/`.
 SCRIPTS = {
-    "over_time": (UPLOT, "live.js", "over_time.js"),
-    "phase_plane": (UPLOT, "live.js", "phase_plane.js"),
+    "over_time": (UPLOT, "live.js", "plot.js", "over_time.js"),
+    "phase_plane": (UPLOT, "live.js", "plot.js", "phase_plane.js"),
     "top_view": ("live.js", "rig.js", "player.js", "top_view.js"),
 }
 #: On every page, and behind the scripts of live pictures.

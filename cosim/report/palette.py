@@ -12,14 +12,8 @@ from .page import unit_text
 Array = NDArray[np.float64]
 
 # Okabe and Ito's palette: told apart with any kind of colour vision, and unequal in grey
-BLUE, RED, GREEN, PURPLE, ORANGE, SKY = SERIES = (
-    "#0072B2",
-    "#D55E00",
-    "#009E73",
-    "#CC79A7",
-    "#E69F00",
-    "#56B4E9",
-)
+SERIES = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+BLUE, RED, GREEN, PURPLE, ORANGE, SKY = SERIES
 LIGHT_BLUE, PALE_BLUE, FAINT_BLUE = "#8FBFDD", "#CFE3F1", "#D3E5F0"
 INK, GREY = "#222222", "#7A7A7A"
 # of words: enough contrast with white
@@ -53,8 +47,5 @@ def readable(values: Array, unit: str, floor: float = 0.0) -> Scaled:
     largest = max(float(finite.max(initial=0.0)), floor)
     if spelled in ("1", "°C", "°") or largest == 0.0:
         return Scaled(1.0, spelled)
-    size, prefix = PREFIXES[0]
-    for candidate in PREFIXES[1:]:
-        if largest >= candidate[0]:
-            size, prefix = candidate
+    size, prefix = max(filter(lambda one: largest >= one[0], PREFIXES), default=PREFIXES[0])
     return Scaled(1.0 / size, prefix + spelled)

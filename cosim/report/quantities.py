@@ -3,34 +3,34 @@
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
-from importlib.resources import files
-from typing import Any, NamedTuple
+from typing import Any
+
+from cosim.packaged import packaged_tables
 
 from .page import unit_text
 
 
-class Quantity(NamedTuple):
-    """A number, or None where there is none, and its unit."""
-
-    value: float | int | None
-    unit: str
-
-
-def split_units(tree: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, str]]:
-    """Values with None for what is not finite, and ``path.to.key`` -> unit."""
+def with_units(tree: Mapping[str, Any], path: str = "") -> tuple[dict[str, Any], dict[str, str]]:
+    """Values of a summary with None for what is not finite, and ``path.to.key`` -> unit."""
     values: dict[str, Any] = {}
     units: dict[str, str] = {}
     for key, node in tree.items():
-        if isinstance(node, Quantity):
-            values[key], units[key] = finite(node.value), node.unit
-        elif isinstance(node, Mapping):
-            values[key], inner = split_units(node)
-            units |= {f"{key}.{path}": unit for path, unit in inner.items()}
+        place = f"{path}{key}"
+        if isinstance(node, Mapping):
+            values[key], inner = with_units(node, f"{place}.")
+            units |= inner
+        elif unit := unit_of(place):
+            values[key], units[place] = finite(node), unit
         else:
             values[key] = node
     return values, units
+
+
+def unit_of(path: str) -> str:
+    """Unit of a number of a summary, "" of what has none."""
+    *_, group, key = ("", *path.split("."))
+    return GROUP_UNITS.get(group, KEY_UNITS.get(key, ""))
 
 
 def finite(value: float | int | None) -> float | int | None:
@@ -46,10 +46,11 @@ def ratio(part: float, whole: float) -> float | None:
 
 
 #: What is called and shown how: `tables.toml`.
-TABLES: dict[str, dict[str, Any]] = tomllib.loads(
-    (files(__package__) / "tables.toml").read_text(encoding="utf-8")
-)
+TABLES: dict[str, dict[str, Any]] = packaged_tables(__package__, "tables.toml")
 WORDS: dict[str, str] = TABLES["words"]
+#: Key of a summary -> its unit; group -> unit of all keys in it.
+KEY_UNITS: dict[str, str] = {key: unit for unit, keys in TABLES["units"].items() for key in keys}
+GROUP_UNITS: dict[str, str] = TABLES["group_units"]
 ROUNDING: dict[str, float] = TABLES["rounding"]
 
 NONE = "–"
@@ -97,6 +98,16 @@ def told(
         factor, prefix = (1e3, "m") if abs(value) >= 1e-3 else (1e6, "µ")
         return f"{digits(factor * value, count)} {prefix}{spelled(unit)}"
     return with_unit(digits(value, count), spelled(unit))
+
+
+def told_at(value: float | int | None, path: str) -> str:
+    """A number of a summary, by its ``path.to.key``, as `told`."""
+    return told(value, unit_of(path), is_share(path))
+
+
+def is_share(path: str) -> bool:
+    """Whether a number of a summary is read in percent."""
+    return path.endswith("share") or path.startswith("heat_shares.")
 
 
 def with_unit(number: str, unit: str) -> str:

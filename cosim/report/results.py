@@ -11,7 +11,6 @@ from stickslip.steady_motion.starts import STARTS
 
 from cosim.files import write_bytes, write_text
 from cosim.report.columns import Columns, Data, write_columns, write_columns_as_csv
-from cosim.report.contents import REGIME_UNITS
 from cosim.scenario.keys import taken_line
 
 from .bounds import bounds_sentences
@@ -22,23 +21,15 @@ from .heat_numbers import ambient_degC
 from .material import page_of_material
 from .motion_text import border_sentence, regime_sentence, stability_sentence
 from .page import render
-from .quantities import digits, spelled, told, with_unit, worded
+from .quantities import TABLES, digits, spelled, told, told_at, with_unit, worded
 from .run_answer import headline, tiles
 from .run_summary import summary
 
 Progress = Callable[[str], None]
 
 ANIMATION = "temperature.gif"
-OWN_FILES = {
-    "result.nc": "everything, with units and descriptions: netCDF 4, for xarray, ParaView, Matlab",
-    "result.csv": "all time series as a table with a header, digits in full",
-    "summary.json": "the numbers of this page, with their units",
-}
-TITLES = {
-    "mechanics": "Energy of the block",
-    "heat": "Heat in belt and ice",
-    "coupling": "Heat from mechanics to belt and ice",
-}
+OWN_FILES: dict[str, str] = TABLES["files"]
+TITLES, STILL_AIR = TABLES["ledgers"], "still_air_heat_transfer"
 CASES = {"coupled": "mechanics coupled to belt and ice", "mechanics": "mechanics alone"}
 
 
@@ -138,18 +129,21 @@ def run_page(
         headline=headline(numbers),
         tiles=tiles(numbers),
         simulated=_simulated(numbers),
-        ledgers=list(ledgers(numbers)),
+        ledgers=[
+            Table(TITLES[name], _rows(f"ledger.{name}", entries))
+            for name, entries in numbers.get("ledger", {}).items()
+        ],
         tables=list(number_tables(numbers)),
-        temperatures=temperature_rows(numbers),
         beyond=beyond(numbers),
         assessed=assessed(numbers),
-        regimes=regime_rows(numbers),
         figures=[plate.picture(dataset) for plate in plates_of(dataset)],
-        parameters=parameter_tables(dataset),
+        parameters=stored_tables(dataset),
         defaults=taken_line(numbers["defaults"]),
         files=files or {},
         command=command,
         coupled=numbers["case"] == "coupled",
+        starts=STARTS,
+        **{each.__name__: each for each in (worded, told, told_at, degrees, valued)},
     )
     return page_of_material(html, material_of(dataset))
 
@@ -161,31 +155,19 @@ def _simulated(numbers: Mapping[str, Any]) -> str:
     return f"{told(numbers['time_reached'], 's')} of motion{computing}"
 
 
-def ledgers(numbers: Mapping[str, Any]) -> Iterator[Table]:
-    """One table for each ledger of the run."""
-    for name, entries in numbers.get("ledger", {}).items():
-        yield Table(TITLES[name], _rows(numbers, f"ledger.{name}", entries))
-
-
 def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
     """Motion after the speed ramp and in all, shares of the heat, melting, how it was coupled."""
-    titles = {
-        "after_run_up": "After the speed ramp",
-        "whole_run": "Whole run",
-        "heat_shares": "Where the heat is at the end",
-        "in_the_end": "How warm in the end, if this went on for ever",
-        "melting": "Melting, and the balance of the film in the last second",
-    }
-    for name, title in titles.items():
-        if name not in numbers:
+    for name, title in TABLES["number_tables"].items():
+        entries = numbers.get(name)
+        if entries is None:
             continue
         if name == "in_the_end":
-            yield Table(title, ending_rows(numbers[name]))
-        elif name == "after_run_up" and not numbers[name]["duration"]:
-            begin = _told(numbers, f"{name}.begin")
-            yield Table(title, [("none: the run ends before the ramp does", begin)])
+            yield Table(title, ending_rows(entries))
+        elif name == "after_run_up" and not entries["duration"]:
+            never = "none: the run ends before the ramp does"
+            yield Table(title, [(never, told(entries["begin"], "s"))])
         else:
-            yield Table(title, _rows(numbers, name, numbers[name]))
+            yield Table(title, _rows(name, entries))
     if "coupling" in numbers:
         coupling = numbers["coupling"]
         yield Table("How it was coupled", step_rows(coupling))
@@ -196,38 +178,27 @@ def ending_rows(ends: Mapping[str, Any]) -> list[tuple[str, ...]]:
     """Where the interface would end, or why there is no such place."""
     if "reason" in ends:
         return [("the contact's temperature for ever", ends["reason"])]
-    near = f"from then on within {100.0 * ends['within']:.0f} % of that rise"
-    reached = (
-        "after 30 years not yet" if ends["reached"] is None else told(ends["reached"], "s", count=2)
+    reached = ends["reached"]
+    taken, still = (
+        told(ends[key], "W/(m2.K)", count=2) for key in ("air_heat_transfer", STILL_AIR)
     )
-    return [
-        (
-            "the contact's temperature for ever, mean of both faces",
-            _degrees(ends["interface_degC"]),
-        ),
-        ("its rise over the air", told(ends["interface_rise"], "K")),
-        (near, reached),
-        *_air_rows(ends),
-    ]
-
-
-def _air_rows(ends: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """The heat transfer to the air, and why `stickslip belt-length` takes another."""
-    taken, still = ends["air_heat_transfer"], ends["still_air_heat_transfer"]
     rows: list[tuple[str, ...]] = [
-        ("heat transfer to the air, each face of the belt", _of_air(taken))
+        ("the contact's temperature for ever, mean of both faces", degrees(ends["interface_degC"])),
+        ("its rise over the air", told(ends["interface_rise"], "K")),
+        (
+            f"from then on within {100.0 * ends['within']:.0f} % of that rise",
+            "after 30 years not yet" if reached is None else told(reached, "s", count=2),
+        ),
+        ("heat transfer to the air, each face of the belt", taken),
     ]
-    if still is None or _of_air(still) == _of_air(taken):
-        return rows
-    why = (
-        "that of still air, which `belt-length` takes unless belt.air_heat_transfer is given;"
-        f" belt.still_air_speed = {ends['speed']:g} makes this run take it, too"
-    )
-    return [*rows, (why, _of_air(still))]
-
-
-def _of_air(film: float) -> str:
-    return told(film, "W/(m2.K)", count=2)
+    if ends[STILL_AIR] is not None and still != taken:
+        # why `stickslip belt-length` takes another
+        why = (
+            "that of still air, which `belt-length` takes unless belt.air_heat_transfer is given;"
+            f" belt.still_air_speed = {ends['speed']:g} makes this run take it, too"
+        )
+        rows.append((why, still))
+    return rows
 
 
 def beyond(numbers: Mapping[str, Any]) -> list[str]:
@@ -243,69 +214,18 @@ def assessed(numbers: Mapping[str, Any]) -> list[str]:
     return [stability_sentence(numbers), regime_sentence(numbers), border_sentence(numbers)]
 
 
-def regime_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Start, regime, and what the motion is like, of the run's own start and of the others."""
-    return [
-        (
-            STARTS[start],
-            regime["name"],
-            *(_told(numbers, f"regimes.{start}.{key}") for key in REGIME_UNITS),
-        )
-        for start, regime in numbers.get("regimes", {}).items()
-    ]
-
-
-def temperature_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Place, end, lowest and highest temperature, rise at the end and at most."""
-    found = []
-    for place, entries in numbers.get("temperatures", {}).items():
-        if place == "ambient":
-            continue
-        degrees = [_degrees(entries[key]) for key in ("end_degC", "min_degC", "max_degC")]
-        rises = [told(entries[key], "K") for key in ("end_rise", "max_rise")]
-        found.append((worded(place), *degrees, *rises))
-    return found
-
-
-def parameter_tables(dataset: Data) -> list[Table]:
-    """Every parameter with value, unit and description, table by table."""
-    return [
-        Table(
-            "block" if name == "ice" else name,
-            [
-                (key, _valued(entry["value"], entry["unit"]), entry["description"])
-                for key, entry in entries.items()
-            ],
-        )
-        for name, entries in stored_tables(dataset).items()
-    ]
-
-
-def _valued(value: Any, unit: str) -> str:
+def valued(entry: Mapping[str, Any]) -> str:
     """A parameter's value; a unit only behind numbers."""
-    return digits(value) if isinstance(value, str) else with_unit(digits(value), spelled(unit))
+    value = entry["value"]
+    if isinstance(value, str):
+        return digits(value)
+    return with_unit(digits(value), spelled(entry["unit"]))
 
 
-def _rows(
-    numbers: Mapping[str, Any], path: str, entries: Mapping[str, Any]
-) -> list[tuple[str, ...]]:
-    shares = path == "heat_shares"
-    return [(worded(key), _told(numbers, f"{path}.{key}", shares)) for key in entries]
+def _rows(path: str, entries: Mapping[str, Any]) -> list[tuple[str, ...]]:
+    return [(worded(key), told_at(value, f"{path}.{key}")) for key, value in entries.items()]
 
 
-def _told(numbers: Mapping[str, Any], path: str, share: bool = False) -> str:
-    return told(_at(numbers, path), numbers["units"].get(path, ""), share or path.endswith("share"))
-
-
-def _at(numbers: Mapping[str, Any], path: str) -> Any:
-    node: Any = numbers
-    for key in path.split("."):
-        if not isinstance(node, Mapping) or key not in node:
-            return None
-        node = node[key]
-    return node
-
-
-def _degrees(value: float | None) -> str:
+def degrees(value: float | None) -> str:
     """A temperature to 0.01 K: the rise beside it has the digits that it is worth."""
     return "–" if value is None else f"{value:z.2f} °C".replace("-", "−")

@@ -12,27 +12,16 @@ from stickslip.trajectory import break_away_frequency
 from cosim.report.columns import Data
 from cosim.report.contents import assessment_numbers
 
+from . import heat_numbers as heat
 from .bounds import bounds_numbers
 from .contents import break_aways, parameter_values, ramp_end, slip_share
 from .coupling import coupling_numbers
-from .heat_numbers import (
-    coupling_ledger,
-    end_of_sliding,
-    growth,
-    heat_ledger,
-    heat_shares,
-    largest_of,
-    last,
-    melting,
-    melts,
-    temperatures,
-)
-from .quantities import Quantity, ratio, split_units
+from .quantities import ratio, with_units
 
 Array = NDArray[np.float64]
 
 
-def after_ramp(dataset: Data) -> dict[str, Quantity]:
+def after_ramp(dataset: Data) -> dict[str, float | None]:
     """What the stick-slip motion is like once the surface has its speed.
 
     mean_period: from the first to the last break-away in it. frequency: one over that; 0 without
@@ -45,39 +34,36 @@ def after_ramp(dataset: Data) -> dict[str, Quantity]:
     starts = starts[(starts >= begin) & (starts <= end)]
     reached = window > 0.0
     frequency = break_away_frequency(starts)
-    period = 1.0 / frequency if frequency > 0.0 else None
+    heats = reached and late.sizes["time"] > 0
     return {
-        "begin": Quantity(begin, "s"),
-        "duration": Quantity(window if reached else 0.0, "s"),
-        "break_aways": Quantity(int(starts.size), "1"),
-        "frequency": Quantity(frequency if reached else None, "Hz"),
-        "mean_period": Quantity(period, "s"),
-        "slip_share": Quantity(slip_share(dataset, begin, end), "1"),
-        "mean_x": Quantity(time_mean(late, "x"), "m"),
-        **_extremes(late, "x", "m"),
-        "mean_y": Quantity(time_mean(late, "y"), "m"),
-        **_extremes(late, "y", "m"),
-        "max_rotation_deg": Quantity(_largest(np.degrees(late["phi"].values)), "deg"),
-        "mean_friction_force_x": Quantity(time_mean(late, "friction_force_x"), "N"),
-        "mean_heat_flow": Quantity(
-            growth(late, "heat") / window if reached and late.sizes["time"] else None, "W"
-        ),
+        "begin": begin,
+        "duration": window if reached else 0.0,
+        "break_aways": int(starts.size),
+        "frequency": frequency if reached else None,
+        "mean_period": 1.0 / frequency if frequency > 0.0 else None,
+        "slip_share": slip_share(dataset, begin, end),
+        "mean_x": time_mean(late, "x"),
+        **_extremes(late, "x"),
+        "mean_y": time_mean(late, "y"),
+        **_extremes(late, "y"),
+        "max_rotation_deg": _largest(np.degrees(late["phi"].values)),
+        "mean_friction_force_x": time_mean(late, "friction_force_x"),
+        "mean_heat_flow": heat.growth(late, "heat") / window if heats else None,
     }
 
 
-def whole_run(dataset: Data) -> dict[str, Quantity]:
+def whole_run(dataset: Data) -> dict[str, float | None]:
     """Totals and extremes of everything recorded."""
+    time = dataset["time"].values
     return {
-        "break_aways": Quantity(int(break_aways(dataset).size), "1"),
-        "slip_share": Quantity(
-            slip_share(dataset, float(dataset["time"][0]), float(dataset["time"][-1])), "1"
-        ),
-        **_extremes(dataset, "x", "m"),
-        **_extremes(dataset, "y", "m"),
-        "max_rotation_deg": Quantity(_largest(np.degrees(dataset["phi"].values)), "deg"),
-        "max_friction_force_x": Quantity(_largest(dataset["friction_force_x"].values), "N"),
-        "surface_travel": Quantity(growth(dataset, "surface_travel"), "m"),
-        "sliding_distance": Quantity(growth(dataset, "sliding_distance"), "m"),
+        "break_aways": int(break_aways(dataset).size),
+        "slip_share": slip_share(dataset, float(time[0]), float(time[-1])),
+        **_extremes(dataset, "x"),
+        **_extremes(dataset, "y"),
+        "max_rotation_deg": _largest(np.degrees(dataset["phi"].values)),
+        "max_friction_force_x": _largest(dataset["friction_force_x"].values),
+        "surface_travel": heat.growth(dataset, "surface_travel"),
+        "sliding_distance": heat.growth(dataset, "sliding_distance"),
     }
 
 
@@ -93,16 +79,13 @@ def time_mean(dataset: Data, name: str) -> float | None:
     return float(np.trapezoid(values, time) / (time[-1] - time[0]))
 
 
-def _extremes(dataset: Data, name: str, unit: str) -> dict[str, Quantity]:
-    values = dataset[name].values
-    values = values[np.isfinite(values)]
-    low, high = (float(values.min()), float(values.max())) if values.size else (None, None)
-    return {f"min_{name}": Quantity(low, unit), f"max_{name}": Quantity(high, unit)}
+def _extremes(dataset: Data, name: str) -> dict[str, float | None]:
+    low, high = heat.extremes(dataset[name].values)
+    return {f"min_{name}": low, f"max_{name}": high}
 
 
 def _largest(values: Array) -> float | None:
-    values = values[np.isfinite(values)]
-    return float(np.abs(values).max()) if values.size else None
+    return heat.extremes(np.abs(values))[1]
 
 
 def summary(dataset: Data) -> dict[str, Any]:
@@ -112,12 +95,10 @@ def summary(dataset: Data) -> dict[str, Any]:
     Numbers stand in a tree whose units are in ``units`` (``path.to.key`` -> unit); a number
     that a run does not have (too short, failed, no heat) is None.
     """
-    values, units = split_units(_numbers(dataset))
+    values, units = with_units(_numbers(dataset))
     return {
         "name": dataset.attrs["title"],
-        "case": dataset.attrs["case"],
-        "status": dataset.attrs["status"],
-        "reason": dataset.attrs["reason"],
+        **{key: dataset.attrs[key] for key in ("case", "status", "reason")},
         **values,
         "units": units,
         "events": dataset.attrs["events"],
@@ -132,9 +113,9 @@ def summary(dataset: Data) -> dict[str, Any]:
 def _numbers(dataset: Data) -> dict[str, Any]:
     time = dataset["time"].values
     numbers: dict[str, Any] = {
-        "time_reached": Quantity(float(time[-1]) if time.size else None, "s"),
-        "rows": Quantity(int(time.size), "1"),
-        "wall_time": Quantity(dataset.attrs.get("wall_time"), "s"),
+        "time_reached": float(time[-1]) if time.size else None,
+        "rows": int(time.size),
+        "wall_time": dataset.attrs.get("wall_time"),
     }
     if coupling := coupling_numbers(dataset):
         numbers["coupling"] = coupling
@@ -142,30 +123,27 @@ def _numbers(dataset: Data) -> dict[str, Any]:
         return numbers
     numbers["ledger"] = {"mechanics": mechanics_ledger(dataset)}
     if "heat_received" in dataset:
-        numbers["ledger"]["heat"] = heat_ledger(dataset)
-        numbers["ledger"]["coupling"] = coupling_ledger(dataset)
-        numbers["heat_shares"] = heat_shares(dataset)
-        numbers["temperatures"] = temperatures(dataset)
-        if ends := end_of_sliding(dataset):
+        numbers["ledger"]["heat"] = heat.heat_ledger(dataset)
+        numbers["ledger"]["coupling"] = heat.coupling_ledger(dataset)
+        numbers["heat_shares"] = heat.heat_shares(dataset)
+        numbers["temperatures"] = heat.temperatures(dataset)
+        if ends := heat.end_of_sliding(dataset):
             numbers["in_the_end"] = ends
-        if melts(dataset):
-            numbers["melting"] = melting(dataset)
-    numbers["after_run_up"] = after_ramp(dataset)
-    numbers["whole_run"] = whole_run(dataset)
-    numbers |= bounds_numbers(dataset)
-    numbers |= assessment_numbers(dataset)
-    return numbers
+        if heat.melts(dataset):
+            numbers["melting"] = heat.melting(dataset)
+    numbers |= {"after_run_up": after_ramp(dataset), "whole_run": whole_run(dataset)}
+    return numbers | bounds_numbers(dataset) | assessment_numbers(dataset)
 
 
-def mechanics_ledger(dataset: Data) -> dict[str, Quantity]:
+def mechanics_ledger(dataset: Data) -> dict[str, float | None]:
     """Works and heats since the start, and what does not add up."""
-    largest, work = largest_of(dataset, "energy_residual"), last(dataset, "surface_work")
+    largest, work = heat.largest_of(dataset, "energy_residual"), heat.last(dataset, "surface_work")
     return {
-        "surface_work": Quantity(work, "J"),
-        "external_work": Quantity(last(dataset, "external_work"), "J"),
-        "friction_heat": Quantity(last(dataset, "heat"), "J"),
-        "damping_heat": Quantity(last(dataset, "damping_heat"), "J"),
-        "residual": Quantity(last(dataset, "energy_residual"), "J"),
-        "largest_residual": Quantity(largest, "J"),
-        "relative_residual": Quantity(ratio(largest, abs(work)), "1"),
+        "surface_work": work,
+        "external_work": heat.last(dataset, "external_work"),
+        "friction_heat": heat.last(dataset, "heat"),
+        "damping_heat": heat.last(dataset, "damping_heat"),
+        "residual": heat.last(dataset, "energy_residual"),
+        "largest_residual": largest,
+        "relative_residual": ratio(largest, abs(work)),
     }

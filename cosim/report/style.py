@@ -23,7 +23,7 @@ from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter, StrMet
 from numpy.typing import NDArray
 from PIL import Image
 
-from .live import Live, Map, Panel, TimeFigure
+from .live import Curve, Live, Map, Panel, TimeFigure
 from .page import DPI, Picture
 from .palette import GREY, INK, SLIP
 
@@ -118,11 +118,10 @@ def panels(
 def plain_ticks(axes: Axes) -> None:
     """Digits in full: no offset and no power of ten beside the axis."""
     for axis in (axes.xaxis, axes.yaxis):
-        in_full(axis)
+        _in_full(axis)
 
 
-def in_full(axis: Axis) -> None:
-    """The same of one axis."""
+def _in_full(axis: Axis) -> None:
     formatter = ScalarFormatter(useOffset=False)
     formatter.set_scientific(False)
     axis.set_major_formatter(formatter)
@@ -183,14 +182,10 @@ def draw_over_time(shown: TimeFigure) -> Figure:
     count, columns = len(shown.panels), 2 if shown.part else shown.columns
     rows = count if shown.part else -(-count // columns)
     figure = Figure(figsize=(11.0, 0.9 + shown.height * rows), layout="constrained")
-    axes = figure.subplots(
-        max(rows, 1),
-        columns,
-        squeeze=False,
-        sharex="col",
-        sharey="row" if shown.part and not shown.own_scale else False,
-        width_ratios=[1.6, 1.0] if shown.part else None,
-    )
+    sharey = "row" if shown.part and not shown.own_scale else False
+    look: Any = {"squeeze": False, "sharex": "col", "sharey": sharey}
+    ratios = [1.6, 1.0] if shown.part else None
+    axes = figure.subplots(max(rows, 1), columns, width_ratios=ratios, **look)
     for panel, row in zip(shown.panels, axes if shown.part else axes.reshape(-1, 1), strict=False):
         for ax in row:
             plain_ticks(ax)
@@ -219,16 +214,8 @@ def _say_around(figure: Figure, axes: NDArray[Any], shown: TimeFigure) -> None:
     if shown.part:
         axes[0, 1].set_title(shown.part[2])
     for time, words in shown.marks:
-        axes[0, 0].annotate(
-            words,
-            (time, 1.0),
-            xycoords=("data", "axes fraction"),
-            xytext=(0, 2),
-            textcoords="offset points",
-            ha="center",
-            va="bottom",
-            fontsize=9,
-        )
+        above = ("data", "axes fraction")
+        _beside(axes[0, 0], words, (time, 1.0), above, (0, 2), ha="center", va="bottom")
     handles = _curve_handles(shown.panels)
     if shown.phase:
         handles.append(Patch(facecolor=SLIP, edgecolor="none", label=shown.phase))
@@ -239,6 +226,12 @@ def _say_around(figure: Figure, axes: NDArray[Any], shown: TimeFigure) -> None:
         figure.legend(handles=handles, loc=place, ncols=beside)
     if shown.note:
         figure.supxlabel(textwrap.fill(shown.note, LONGEST_LINE), x=0.008, ha="left", fontsize=9)
+
+
+def _beside(axes: Axes, words: str, at: Any, place: Any, points: Any, **look: Any) -> None:
+    """Words so many points from a place."""
+    aside = {"xytext": points, "textcoords": "offset points", "fontsize": 9}
+    axes.annotate(words, at, xycoords=place, **aside, **look)
 
 
 def _set_limits(row: Sequence[Axes], shown: TimeFigure, panel: Panel) -> None:
@@ -267,15 +260,10 @@ def _shade(axes: Axes, phases: Array) -> None:
     begin, end = phases.T
     corners = np.stack([begin, end, end, begin], axis=1)
     heights = np.broadcast_to([0.0, 0.0, 1.0, 1.0], corners.shape)
-    bars = PolyCollection(
-        list(np.stack([corners, heights], axis=2)),
-        facecolor=SLIP,
-        edgecolor="none",
-        transform=axes.get_xaxis_transform(),
-        zorder=0.1,
-        # phases narrower than a pixel then tint it by their share instead of all or nothing
-        snap=False,
-    )
+    look: Any = {"facecolor": SLIP, "edgecolor": "none", "zorder": 0.1}
+    # phases narrower than a pixel tint it by their share instead of all or nothing
+    look |= {"snap": False, "transform": axes.get_xaxis_transform()}
+    bars = PolyCollection(list(np.stack([corners, heights], axis=2)), **look)
     axes.add_collection(bars, autolim=False)
 
 
@@ -288,7 +276,7 @@ def _thermometer(axes: Axes, ambient: float, factor: float) -> None:
             lambda degC: (np.asarray(degC) - ambient) * factor,
         ),
     )
-    in_full(right.yaxis)
+    _in_full(right.yaxis)
     right.set_ylabel("temperature [°C]")
     right.spines["right"].set_visible(True)
 
@@ -309,15 +297,11 @@ def draw_panel(axes: Axes, time: Array, panel: Panel) -> None:
             axes.fill_between(time, below, top, color=curve.colour, linewidth=0.0)
             below = top if panel.stacked else below
             continue
-        line(
-            axes,
-            time,
-            panel.map.without_jumps(curve.values) if panel.map else curve.values,
-            color=curve.colour,
-            linewidth=curve.width,
-            linestyle="--" if curve.dash else "-",
-            drawstyle="steps-pre" if curve.steps else "default",
-        )
+        values = panel.map.without_jumps(curve.values) if panel.map else curve.values
+        look = {"color": curve.colour, "linewidth": curve.width}
+        look |= {"linestyle": "--" if curve.dash else "-"}
+        look |= {"drawstyle": "steps-pre" if curve.steps else "default"}
+        line(axes, time, values, **look)
     at_least(axes, panel.span)
     _draw_levels(axes, panel.levels)
     if panel.logarithmic:
@@ -330,17 +314,9 @@ def draw_panel(axes: Axes, time: Array, panel: Panel) -> None:
 
 def _draw_map(axes: Axes, time: Array, shown: Map) -> None:
     places = np.linspace(0.0, shown.length, shown.values.shape[1] + 1)
-    low, high = shown.ends
-    mesh = axes.pcolormesh(
-        time,
-        0.5 * (places[1:] + places[:-1]),
-        shown.values.T,
-        shading="nearest",
-        cmap=shown.colours,
-        vmin=low,
-        vmax=high,
-        rasterized=True,
-    )
+    middles, (low, high) = 0.5 * (places[1:] + places[:-1]), shown.ends
+    look: Any = {"shading": "nearest", "cmap": shown.colours, "vmin": low, "vmax": high}
+    mesh = axes.pcolormesh(time, middles, shown.values.T, rasterized=True, **look)
     axes.figure.colorbar(mesh, ax=axes, label=f"{shown.label} [{shown.unit}]")
     axes.grid(visible=False)
 
@@ -349,16 +325,8 @@ def _draw_levels(axes: Axes, levels: Sequence[tuple[float, str]]) -> None:
     """Broken lines, named behind the right edge."""
     for height, text in levels:
         axes.axhline(height, color=GREY, linewidth=0.9, linestyle="--", zorder=1)
-        axes.annotate(
-            text,
-            (1.0, height),
-            xycoords=("axes fraction", "data"),
-            xytext=(3, 0),
-            textcoords="offset points",
-            va="center",
-            fontsize=9,
-            color=INK,
-        )
+        behind = ("axes fraction", "data")
+        _beside(axes, text, (1.0, height), behind, (3, 0), va="center", color=INK)
 
 
 def _fit_to_part(axes: Axes, time: Array, panel: Panel) -> None:
@@ -375,21 +343,13 @@ def _fit_to_part(axes: Axes, time: Array, panel: Panel) -> None:
 
 def _curve_handles(shown: Sequence[Panel]) -> list[Artist]:
     """For a legend: curves by name, each once, of the panels that have several."""
-    curves = {
-        curve.label: curve
-        for panel in reversed(shown)
-        for curve in reversed(panel.curves if len(panel.curves) > 1 else ())
-    }
-    return [
-        Patch(facecolor=curve.colour, label=curve.label)
-        if curve.fill
-        else Line2D(
-            [],
-            [],
-            color=curve.colour,
-            label=curve.label,
-            linewidth=curve.width,
-            dashes=(3, 2) if curve.dash else (1, 0),
-        )
-        for curve in reversed(curves.values())
-    ]
+    several = [curve for panel in shown if len(panel.curves) > 1 for curve in panel.curves]
+    named = {curve.label: curve for curve in reversed(several)}
+    return [_handle(curve) for curve in reversed(named.values())]
+
+
+def _handle(curve: Curve) -> Artist:
+    if curve.fill:
+        return Patch(facecolor=curve.colour, label=curve.label)
+    look: Any = {"color": curve.colour, "label": curve.label, "linewidth": curve.width}
+    return Line2D([], [], dashes=(3, 2) if curve.dash else (1, 0), **look)

@@ -13,7 +13,6 @@ from cosim.coupling import (
     Affine,
     Connection,
     CoupledSystem,
-    CouplingError,
     Driven,
     FmuParticipant,
     IsolatedParticipant,
@@ -62,37 +61,41 @@ def assemble(specification: SystemSpecification, debug: bool = False) -> Assembl
     """
     source = specification.source
     descriptions = {unit.name: describe(unit.file) for unit in specification.units}
+    units = {unit.name: unit for unit in specification.units}
     with naming(source):
-        participants: list[Participant] = [
-            _participant(unit, descriptions[unit.name], debug) for unit in specification.units
-        ]
+        participants = {
+            name: _participant(unit, descriptions[name], debug) for name, unit in units.items()
+        }
     remarks = [
         *specification.remarks,
         *unused(specification.coupling, specification.run),
         *_faults(specification),
     ]
-    by_name = {each.name: each for each in participants}
-    connections, units = [], {unit.name: unit for unit in specification.units}
+    connections = []
     for link in specification.links:
         with naming(source, link.place):
             for end in map(Address.parse, (link.source, link.sink)):
                 if end.participant in descriptions:
-                    refuse_other_types(
-                        descriptions[end.participant], str(end.participant), end.port
-                    )
-            affine, remark = _conversion(units, by_name, link)
-            _check_not_driven(units, link)
-        taken = link.taken or _receipt(by_name, link)
+                    _refuse_other_types(descriptions[end.participant], end.participant, end.port)
+            affine, remark = _conversion(units, participants, link)
+            sink = Address.parse(link.sink)
+            if sink.port in units[sink.participant].driven:
+                raise SystemFault(
+                    f"{link}: {link.sink} is a column of {units[sink.participant].input_file}, too;"
+                    " allowed is one of both"
+                )
+        taken = link.taken or _receipt(participants, link)
         connections.append(
             Connection(link.source, link.sink, taken, transformation=affine, converts=False)
         )
         if remark:
             remarks.append(f"{link}: {remark}")
     with naming(source):
-        system = CoupledSystem(participants, connections, specification.residuals, receipts=False)
+        together = [*participants.values()]
+        system = CoupledSystem(together, connections, specification.residuals, receipts=False)
     step, remark = _step(specification, descriptions)
-    order = specification.coupling.order or tuple(by_name)
-    check_coupling(specification, system, order, step)
+    order = specification.coupling.order or tuple(participants)
+    _check_coupling(specification, system, order, step)
     return Assembly(system, order, step, (*remarks, *filter(None, [remark])))
 
 
@@ -111,13 +114,13 @@ def _participant(unit: UnitEntry, description: ModelDescription, debug: bool) ->
     steps a macro step as the file says."""
     options: dict[str, Any] = _settings(unit, description)
     options |= {"tolerance": unit.tolerance, "debug": debug}
-    if unit.isolate and unit.time_limit != NOT_GIVEN:
-        options["time_limit"] = unit.time_limit
-    participant: Participant = (
-        IsolatedParticipant(FmuParticipant, str(unit.file), unit.name, **options)
-        if unit.isolate
-        else FmuParticipant(unit.file, unit.name, **options)
-    )
+    participant: Participant
+    if unit.isolate:
+        if unit.time_limit != NOT_GIVEN:
+            options["time_limit"] = unit.time_limit
+        participant = IsolatedParticipant(FmuParticipant, str(unit.file), unit.name, **options)
+    else:
+        participant = FmuParticipant(unit.file, unit.name, **options)
     inputs = [port.name for port in participant.ports.values() if port.causality == "input"]
     for name in unit.driven:
         if name not in inputs:
@@ -138,10 +141,10 @@ def _settings(unit: UnitEntry, description: ModelDescription) -> dict[str, dict[
     """What its variables, and elements of arrays, start from: by what a participant takes."""
     variables = {name: each.variable for name, each in scalars(description).items()}
     definitions = definitions_of(description)
-    tables: dict[str, dict[str, Value]] = {"parameters": {}, "inputs": {}, "starts": {}}
+    tables: dict[str, dict[str, Value]] = {}
     for name, start in unit.given.items():
         variable = variables.get(name)
-        refuse_other_types(description, unit.name, name)
+        _refuse_other_types(description, unit.name, name)
         if variable is None:
             raise SystemFault(unknown_name(f"variable of {unit.name}", name, variables))
         if variable.causality == "structuralParameter":
@@ -150,11 +153,12 @@ def _settings(unit: UnitEntry, description: ModelDescription) -> dict[str, dict[
                 "is not set here; allowed are parameters and inputs"
             )
         kind = {"parameter": "parameters", "input": "inputs"}.get(variable.causality, "starts")
-        tables[kind][name] = _value(f"{unit.name}.{name}", variable, start, definitions)
-    return {key: table for key, table in tables.items() if table}
+        value = _value(f"{unit.name}.{name}", variable, start, definitions)
+        tables.setdefault(kind, {})[name] = value
+    return tables
 
 
-def refuse_other_types(description: ModelDescription, unit: str, name: str) -> None:
+def _refuse_other_types(description: ModelDescription, unit: str, name: str) -> None:
     """Refuse a variable that there is, of a type that nothing here has a value of."""
     for variable in description.modelVariables:
         if variable.name == name and (variable.type in ("Binary", "Clock") or variable.clocks):
@@ -166,10 +170,7 @@ def refuse_other_types(description: ModelDescription, unit: str, name: str) -> N
 
 
 def _value(
-    label: str,
-    variable: ModelVariable,
-    start: Start,
-    definitions: Mapping[str, UnitDefinition],
+    label: str, variable: ModelVariable, start: Start, definitions: Mapping[str, UnitDefinition]
 ) -> Value:
     """What a variable is set to, in its own unit."""
     value = start.value
@@ -181,7 +182,11 @@ def _value(
         return numbers[value]
     affine = start.transformation
     if start.unit is not None and start.converts:
-        affine = _to_own_unit(label, variable, start, definitions).then(affine)
+        unit = unit_of(variable)
+        given = Port(label, start.unit or NO_UNIT, Causality.OUTPUT, definition=start.definition)
+        needed = Port(label, unit, Causality.INPUT, definition=definitions.get(unit))
+        with naming(label):
+            affine = conversion(given, needed)[0].then(affine)
     if affine.is_identity or isinstance(value, (bool, str)):
         return value
     own = affine(value)
@@ -190,18 +195,6 @@ def _value(
             f"{label}: {value:g} {start.unit or ''} is not a finite number in {unit_of(variable)}"
         )
     return own
-
-
-def _to_own_unit(
-    label: str, variable: ModelVariable, start: Start, definitions: Mapping[str, UnitDefinition]
-) -> Affine:
-    unit = unit_of(variable)
-    given = Port(label, start.unit or NO_UNIT, Causality.OUTPUT, definition=start.definition)
-    own = Port(label, unit, Causality.INPUT, definition=definitions.get(unit))
-    try:
-        return conversion(given, own)[0]
-    except CouplingError as error:
-        raise SystemFault(f"{label}: {error}") from None
 
 
 def _conversion(
@@ -215,17 +208,14 @@ def _conversion(
     here = _end(units, participants, link.source)
     affine, remarks = IDENTITY, []
     for number, hop in enumerate(link.hops, 1):
+        there = here
         if number == len(link.hops):
             there = _end(units, participants, link.sink)
         elif hop.unit is not None:
             there = Port(link.sink, hop.unit, Causality.INPUT, definition=hop.definition)
-        else:
-            there = here
         if hop.converts:
-            try:
+            with naming(str(link)):
                 step, remark = conversion(here, there)
-            except CouplingError as error:
-                raise CouplingError(f"{link}: {error}") from None
             affine = affine.then(step)
             remarks.append(remark)
         affine = affine.then(hop.transformation)
@@ -233,23 +223,14 @@ def _conversion(
     return affine, "; ".join(dict.fromkeys(filter(None, remarks)))
 
 
-def _check_not_driven(units: Mapping[str, UnitEntry], link: Link) -> None:
-    sink = Address.parse(link.sink)
-    unit = units.get(sink.participant)
-    if unit is not None and sink.port in unit.driven:
-        raise SystemFault(
-            f"{link}: {link.sink} is a column of {unit.input_file}, too; allowed is one of both"
-        )
-
-
 def _receipt(participants: Mapping[str, Participant], link: Link) -> str | None:
     """Of joules into ``heat``, the output ``heat_received`` beside it, where there is one."""
     sink = Address.parse(link.sink)
     ports, name = participants[sink.participant].ports, f"{sink.port}_received"
     receipt = ports.get(name)
-    is_one = receipt is not None and receipt.causality is Causality.OUTPUT
-    both = {port.unit for port in (ports[sink.port], receipt) if port is not None}
-    return name if is_one and both == {ENERGY_UNIT} else None
+    if receipt is None or receipt.causality is not Causality.OUTPUT:
+        return None
+    return name if ports[sink.port].unit == receipt.unit == ENERGY_UNIT else None
 
 
 def _end(
@@ -274,21 +255,20 @@ def _step(
             f"{specification.source}: run.stop: missing, needed is the time (s) at which the run"
             " ends, for instance by --set run.stop=10"
         )
+    length = run.stop - run.start
     if chosen != NOT_GIVEN:
-        if (run.stop - run.start) / chosen > MOST_STEPS:
+        if length / chosen > MOST_STEPS:
             raise SystemFault(
                 f"{specification.source}: coupling.macro_step: {chosen:g} s cuts the run into more"
-                f" than {MOST_STEPS} steps, allowed is at least"
-                f" {(run.stop - run.start) / MOST_STEPS:g} s"
+                f" than {MOST_STEPS} steps, allowed is at least {length / MOST_STEPS:g} s"
             )
         return chosen, ""
     stated = [each.defaultExperiment for each in descriptions.values() if each.defaultExperiment]
     sizes = [float(each.stepSize) for each in stated if each.stepSize is not None]
-    steps = [size for size in sizes if math.isfinite(size) and size > 0.0]
-    if steps:
-        return min(steps), f"coupling.macro_step is not given: {min(steps):g} s, as a unit advises"
-    step = (run.stop - run.start) / STEPS_OF_A_RUN
-    return step, f"coupling.macro_step is not given: {step:g} s, a thousandth of the run"
+    advised = min((size for size in sizes if math.isfinite(size) and size > 0.0), default=None)
+    step = advised or length / STEPS_OF_A_RUN
+    why = "as a unit advises" if advised else "a thousandth of the run"
+    return step, f"coupling.macro_step is not given: {step:g} s, {why}"
 
 
 def record_every(specification: SystemSpecification, macro_step: float) -> int:
@@ -305,7 +285,7 @@ def record_every(specification: SystemSpecification, macro_step: float) -> int:
     return round(ratio)
 
 
-def check_coupling(
+def _check_coupling(
     specification: SystemSpecification,
     system: CoupledSystem,
     order: tuple[str, ...],

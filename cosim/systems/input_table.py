@@ -41,14 +41,13 @@ def read_input_table(path: Path, place: str) -> dict[str, Curve]:
     if len(rows) < 2:
         raise SystemFault(f"{where}: has no rows, needed is a header and a row of numbers")
     lines = [*rows][1:]
-    table = np.array([_numbers(rows[line], header, line) for line in lines])
-    times = table[:, 0]
+    times, *columns = np.array([_numbers(rows[line], header, line) for line in lines]).T
     for fall in np.flatnonzero(np.diff(times) < 0.0) + 1:
         raise SystemFault(
             f"{lines[fall]}: the time goes back to {times[fall]:g} s, allowed are times that do "
             "not fall"
         )
-    return {name: Curve(times, table[:, i]) for i, name in enumerate(header) if i > 0}
+    return dict(zip(header[1:], (Curve(times, values) for values in columns), strict=True))
 
 
 def _numbers(row: list[str], header: list[str], line: str) -> list[float]:

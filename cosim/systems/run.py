@@ -19,7 +19,7 @@ from cosim.systems.assembly import Assembly, assemble, record_every
 from cosim.systems.specification import Start, SystemSpecification
 from cosim.systems.ssp.reader import read_ssp
 from cosim.systems.steps import StepLog
-from cosim.systems.system_errors import SystemFault, naming
+from cosim.systems.system_errors import TABLES, SystemFault, naming
 from cosim.systems.toml_file import read_toml
 
 if TYPE_CHECKING:
@@ -99,18 +99,16 @@ def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> S
     if not (path.is_dir() or path.is_file()):  # a pipe or a device may never end
         raise SystemFault(f"{path}: is no regular file, allowed is an SSP or a TOML file")
     archive = path.is_dir() or path.suffix.lower() in (".ssp", ".ssd") or _is_zip(path)
-    of_tables = {key: value for key, value in (changes or {}).items() if _is_of_table(key)}
-    of_units = {key: value for key, value in (changes or {}).items() if not _is_of_table(key)}
+    of_tables: dict[str, Any] = {}
+    of_units: dict[str, Any] = {}
+    for key, value in (changes or {}).items():
+        (of_tables if key.partition(".")[0] in TABLES else of_units)[key] = value
     specification = (read_ssp if archive else read_toml)(path, of_tables)
     try:
         return _set(specification, of_units)
     except BaseException:
         specification.close()
         raise
-
-
-def _is_of_table(key: str) -> bool:
-    return key.partition(".")[0] in ("coupling", "run")
 
 
 def _set(specification: SystemSpecification, changes: Mapping[str, Any]) -> SystemSpecification:
@@ -185,14 +183,14 @@ def _kept(
     """What is on disk meanwhile; a checkpoint is of the same system with the same units."""
     if folder is None:
         return None
-    setup = {"system": specification.text} | {
-        f"unit {unit.name}": hashlib.sha256(unit.file.read_bytes()).hexdigest()
-        for unit in specification.units
-    }
-    setup |= {
-        f"inputs of {unit.name}": hashlib.sha256(unit.input_file.read_bytes()).hexdigest()
+    files = {f"unit {unit.name}": unit.file for unit in specification.units}
+    files |= {
+        f"inputs of {unit.name}": unit.input_file
         for unit in specification.units
         if unit.input_file is not None
+    }
+    setup = {"system": specification.text} | {
+        what: hashlib.sha256(file.read_bytes()).hexdigest() for what, file in files.items()
     }
     run = specification.run
     how_often = {"seconds": run.checkpoint_seconds, "steps": run.checkpoint_steps}

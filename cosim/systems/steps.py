@@ -30,19 +30,13 @@ class StepLog:
             return
         size, self._reached = reached - self._reached, reached
         self.count += 1
-        if self._inside == 0:
-            if len(self._groups) >= MOST_GROUPS:
-                # two neighbours become one
-                pairs = zip(self._groups[::2], self._groups[1::2], strict=False)
-                self._groups = [
-                    [end, min(before[1], short), max(before[2], long)]
-                    for before, (end, short, long) in pairs
-                ]
-                self._each *= 2
-            self._groups.append([reached, size, size])
-        else:
-            _, shortest, longest = self._groups[-1]
-            self._groups[-1] = [reached, min(shortest, size), max(longest, size)]
+        group = [reached, size, size]
+        if self._inside:
+            group = _as_one(self._groups.pop(), group)
+        elif len(self._groups) >= MOST_GROUPS:
+            self._groups = [*map(_as_one, self._groups[::2], self._groups[1::2])]
+            self._each *= 2
+        self._groups.append(group)
         self._inside = (self._inside + 1) % self._each
 
     def save_state(self) -> bytes:
@@ -54,16 +48,11 @@ class StepLog:
         vars(self).update(json.loads(saved))
 
     @property
-    def ends(self) -> NDArray[np.float64]:
-        """Time at which each group of steps ends, s, (k,)."""
-        return np.array([end for end, _, _ in self._groups])
+    def groups(self) -> NDArray[np.float64]:
+        """Time at which each group of steps ends, its smallest and its largest step, s: (3, k)."""
+        return np.reshape(self._groups, (-1, 3)).T
 
-    @property
-    def shortest(self) -> NDArray[np.float64]:
-        """Smallest step of each group, s, (k,)."""
-        return np.array([shortest for _, shortest, _ in self._groups])
 
-    @property
-    def longest(self) -> NDArray[np.float64]:
-        """Largest step of each group, s, (k,)."""
-        return np.array([longest for _, _, longest in self._groups])
+def _as_one(before: list[float], after: list[float]) -> list[float]:
+    """Two neighbours."""
+    return [after[0], min(before[1], after[1]), max(before[2], after[2])]

@@ -12,6 +12,8 @@ from cosim.coupling import CouplingError, FmuError
 from cosim.scenario.validation import ScenarioError, checked
 
 Model = TypeVar("Model", bound=BaseModel)
+#: Tables of a system's file of which keys can be set from outside.
+TABLES = ("coupling", "run")
 
 
 class SystemFault(ValueError):
@@ -27,6 +29,17 @@ def table_of(model: type[Model], entries: Any, place: str) -> Model:
     except ScenarioError as fault:
         line = str(fault)
         raise SystemFault(line if line.startswith(place) else f"{place}.{line}") from None
+
+
+def changed(tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """The tables of a file with other values; changes: `table.key` -> value."""
+    for key, value in changes.items():
+        table, _, entry = key.partition(".")
+        place = tables.setdefault(table, {})
+        if table not in TABLES or not isinstance(place, dict):
+            raise SystemFault(f"{key}: cannot be set here, allowed are keys of coupling and run")
+        place[entry] = value
+    return tables
 
 
 @contextmanager

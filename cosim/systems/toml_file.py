@@ -17,8 +17,8 @@ from cosim.scenario.toml_file import parsed, text_of
 from cosim.scenario.validation import ScenarioError, checked
 from cosim.systems.input_table import read_input_table
 from cosim.systems.settings import NOT_GIVEN, Coupling, Run
-from cosim.systems.specification import Hop, Link, Start, SystemSpecification, UnitEntry, Value
-from cosim.systems.system_errors import SystemFault
+from cosim.systems.specification import Hop, Link, Start, SystemSpecification, UnitEntry
+from cosim.systems.system_errors import SystemFault, changed
 
 #: A name of a participant: part of `unit.port`, of the columns of a table and of file names.
 NAME = re.compile(r"[^\s.\"'/\\\x00-\x1f][^.\"'/\\\x00-\x1f]*")
@@ -97,19 +97,9 @@ def read_toml(path: Path, changes: Mapping[str, Any]) -> SystemSpecification:
     except ScenarioError as fault:
         raise SystemFault(str(fault)) from None
     try:
-        return _specified(path, text, _changed(tables, changes))
+        return _specified(path, text, changed(tables, changes))
     except (ScenarioError, SystemFault) as fault:
         raise SystemFault(f"{path}: {fault}") from None
-
-
-def _changed(tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    for key, value in changes.items():
-        table, _, entry = key.partition(".")
-        place = tables.setdefault(table, {})
-        if table not in ("coupling", "run") or not isinstance(place, dict):
-            raise SystemFault(f"{key}: cannot be set here, allowed are keys of coupling and run")
-        place[entry] = value
-    return tables
 
 
 def _specified(path: Path, text: str, tables: Mapping[str, Any]) -> SystemSpecification:
@@ -161,7 +151,7 @@ def _values(entries: Mapping[str, Any], place: str) -> dict[str, Start]:
         if isinstance(value, Mapping):
             inner = _values(value, f"{place}.{key}")
             found |= {f"{key}.{name}": start for name, start in inner.items()}
-        elif isinstance(value, (bool, int, float, str)) and _is_finite(value):
+        elif _is_possible(value):
             found[key] = Start(value)
         else:
             raise SystemFault(
@@ -171,10 +161,10 @@ def _values(entries: Mapping[str, Any], place: str) -> dict[str, Start]:
     return found
 
 
-def _is_finite(value: Value) -> bool:
+def _is_possible(value: Any) -> bool:
     if isinstance(value, int):
         return abs(value) <= LARGEST
-    return not isinstance(value, float) or math.isfinite(value)
+    return isinstance(value, str) or isinstance(value, float) and math.isfinite(value)
 
 
 def _link(place: str, table: Mapping[str, Any], units: Collection[str]) -> Link:

@@ -3,10 +3,8 @@
    says itself, in the same words; here is what is checked before it comes to the kernel. */
 
 const BOUNDS = {
-  gt: (value, bound) => value > bound,
-  ge: (value, bound) => value >= bound,
-  lt: (value, bound) => value < bound,
-  le: (value, bound) => value <= bound,
+  gt: (value, bound) => value > bound, ge: (value, bound) => value >= bound,
+  lt: (value, bound) => value < bound, le: (value, bound) => value <= bound,
 };
 const MOST_ROWS = 1e7; // of a run
 const KEEPABLE = 2e5; // rows that a page takes
@@ -14,23 +12,18 @@ const KEEPABLE = 2e5; // rows that a page takes
 /* The first fault of any single key; "" where there is none. */
 function outOfBounds(scenario) {
   for (const control of CONTROLS.values()) {
-    const value = scenario.get(control.key);
-    const fault = typeof value === "number" ? boundFault(control, value) : listFault(control, value);
-    if (fault) return { key: control.key, text: fault };
+    const { key } = control, value = scenario.get(key);
+    const text = typeof value === "number" ? boundFault(control, value) : listFault(control, value);
+    if (text) return { key, text };
   }
   return null;
 }
 
 function boundFault(control, value) {
   const { max_length, ...ends } = control.bounds;
-  const bounds = control.kind === "inertia" ? { gt: 0 } : ends;
-  for (const [kind, bound] of Object.entries(bounds)) {
-    if (!BOUNDS[kind](value, bound)) {
-      const what = control.kind === "inertia" ? "not possible" : "out of range";
-      return `${control.key}: ${what} (${value}), allowed is ${control.allowed}`;
-    }
-  }
-  return "";
+  const [bounds, what] = control.kind === "inertia" ? [{ gt: 0 }, "not possible"] : [ends, "out of range"];
+  const fits = Object.entries(bounds).every(([kind, bound]) => BOUNDS[kind](value, bound));
+  return fits ? "" : `${control.key}: ${what} (${value}), allowed is ${control.allowed}`;
 }
 
 function listFault(control, value) {
@@ -38,9 +31,7 @@ function listFault(control, value) {
   const most = control.bounds.max_length ?? Infinity;
   const few = control.default.length > 0 && value.length < control.default.length;
   const many = value.length > (control.default.length || most);
-  if (!few && !many) {
-    return value.map((entry) => boundFault(control, entry)).find((text) => text) ?? "";
-  }
+  if (!few && !many) return value.map((entry) => boundFault(control, entry)).find(Boolean) ?? "";
   const what = `has too ${few ? "few" : "many"} entries ([${value.join(", ")}])`;
   return `${control.key}: ${what}, allowed is ${control.allowed}`;
 }
@@ -58,10 +49,9 @@ function contradiction(scenario) {
   }
   for (const [table, one, other] of [["springs", "force_curve_extension", "force_curve_force"],
     ["friction", "table_speed", "table_mu"]]) {
-    const counts = [get(`${table}.${one}`).length, get(`${table}.${other}`).length];
-    if (counts[0] !== counts[1]) {
-      return fault(`${table}.${one}`, `has ${counts[0]} values and ${other} has ${counts[1]}: allowed ` +
-        "is the same number");
+    const [ours, theirs] = [one, other].map((name) => get(`${table}.${name}`).length);
+    if (ours !== theirs) {
+      return fault(`${table}.${one}`, `has ${ours} values and ${other} has ${theirs}: allowed is the same number`);
     }
   }
   if (slab && get("turning_surface.curvature") !== 0) {
@@ -73,12 +63,11 @@ function contradiction(scenario) {
 
 /* Rows of a run: as many as it may have, and as a page can keep. */
 function tooFine(scenario) {
-  const [duration, interval] = [scenario.get("run.duration"), scenario.get("run.output_interval")];
-  const limits = [
+  const [duration, interval] = ["run.duration", "run.output_interval"].map((key) => scenario.get(key));
+  const beyond = [
     [MOST_ROWS, `steps, allowed is at least ${g(duration / MOST_ROWS)} s`],
     [KEEPABLE, "rows, which is too much for a page; stickslip simulate takes it"],
-  ];
-  const beyond = limits.find(([most]) => duration / interval > most);
+  ].find(([most]) => duration / interval > most);
   return beyond ? fault("run.output_interval", `${g(interval)} s cuts run.duration = ${g(duration)} s ` +
     `into more than ${beyond.join(" ")}`) : null;
 }
@@ -87,21 +76,17 @@ function tooFine(scenario) {
 function refusedBeside(scenario) {
   const speed = Math.abs(scenario.get("surface.speed"));
   const creep = scenario.get("friction.stick_creep");
-  if (speed > 0 && speed <= creep) {
-    return fault("friction.stick_creep", `${g(creep)} m/s is not below surface.speed = ${g(speed)} ` +
-      "m/s: the contact would creep as fast as the surface, and stick while it slides; allowed is " +
-      "less than the surface's speed");
-  }
-  return null;
+  if (speed === 0 || speed > creep) return null;
+  return fault("friction.stick_creep", `${g(creep)} m/s is not below surface.speed = ${g(speed)} ` +
+    "m/s: the contact would creep as fast as the surface, and stick while it slides; allowed is " +
+    "less than the surface's speed");
 }
 
 /* What is allowed and should be known; "" if nothing. */
 function remarks(scenario) {
-  const get = (key) => scenario.get(key);
-  const said = [];
-  const table = get("friction.table_speed").length > 0;
-  const [name, atRest] = table
-    ? ["table_mu", get("friction.table_mu")[0]] : ["mu_k", get("friction.mu_k")];
+  const get = (key) => scenario.get(key), said = [];
+  const name = get("friction.table_speed").length > 0 ? "table_mu" : "mu_k";
+  const [atRest] = [get(`friction.${name}`)].flat();
   if (atRest > get("friction.mu_s")) {
     said.push(`friction.${name} = ${g(atRest)} exceeds friction.mu_s = ${g(get("friction.mu_s"))}: ` +
       `the contact then holds up to ${name}`);
@@ -114,9 +99,7 @@ function remarks(scenario) {
   return said.join("; ");
 }
 
-function fault(key, rest) {
-  return { key, text: `${key}: ${rest}` };
-}
+const fault = (key, rest) => ({ key, text: `${key}: ${rest}` });
 
 /* The kernel's sentence, `key = value ...`, as it is told: `key: value ...`. */
 function kernelFault(sentence) {

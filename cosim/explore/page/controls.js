@@ -7,19 +7,10 @@ const ENTERS = { friction: "Effects of friction", contact: "Effects of the conta
 class Controls {
   /* turned: called with a key and its new value; refused: with a key and what is wrong. */
   constructor(place, turned, refused) {
-    Object.assign(this, { place, turned, refused });
-    this.rows = new Map();
-    this.folds = [];
-    this.build();
-  }
-
-  build() {
-    const plain = DATA.groups.filter((group) => !group.enters);
-    for (const group of plain) this.place.append(this.fold(group));
-    const kinds = [...new Set(DATA.groups.map((group) => group.enters).filter(Boolean))];
-    for (const kind of kinds) {
-      const heading = live.element("h3", {}, ENTERS[kind] || `Effects: ${kind}`);
-      this.place.append(heading);
+    Object.assign(this, { place, turned, refused, rows: new Map(), folds: [] });
+    // what is no effect enters nowhere, and comes first
+    for (const kind of new Set(["", ...DATA.groups.map((group) => group.enters)])) {
+      if (kind) this.place.append(live.element("h3", {}, ENTERS[kind] || `Effects: ${kind}`));
       for (const group of DATA.groups) if (group.enters === kind) this.place.append(this.fold(group));
     }
   }
@@ -39,9 +30,9 @@ class Controls {
     const id = `key-${control.key.replace(/\W/g, "-")}`;
     const label = live.element("label", { for: id, class: control.switch ? "switch" : "" }, labelOf(control.name));
     const said = live.element("p", { class: "said", id: `${id}-said` }, control.description);
-    const reset = live.element("button", {
-      type: "button", class: "reset", title: `back to what ${control.key} began with`, "aria-label": `reset ${control.key}`,
-    }, "↺");
+    const reset = live.button("↺", {
+      class: "reset", title: `back to what ${control.key} began with`, "aria-label": `reset ${control.key}`,
+    }, () => this.turned(control.key, undefined));
     const row = { control, reset, box: null, slider: null };
     const input = control.choices.length || control.kind === "freedom" ? this.choice(row, id) : this.text(row, id);
     input.setAttribute("aria-describedby", said.id);
@@ -49,7 +40,6 @@ class Controls {
     const unit = live.element("span", { class: "unit" }, control.spelled);
     const parts = [label, input, unit, reset];
     if (control.slider) parts.splice(1, 0, this.slider(row, id));
-    reset.addEventListener("click", () => this.turned(control.key, undefined));
     row.box = live.element("div", { class: control.slider ? "row" : "row without", title: control.key }, ...parts, said);
     this.rows.set(control.key, row);
     return row.box;
@@ -70,13 +60,9 @@ class Controls {
     const { control } = row;
     const input = live.element("input", { type: "text", id, spellcheck: false, autocomplete: "off", autocapitalize: "off" });
     input.addEventListener("change", () => {
-      const value = valueOfText(control, input.value);
-      if (value === undefined) {
-        input.setAttribute("aria-invalid", "true");
-        this.refused(control.key, `${control.key}: not a number ("${input.value.trim()}"), allowed is ${control.allowed}`);
-      } else {
-        this.turned(control.key, value);
-      }
+      const { key, allowed } = control, value = valueOfText(control, input.value);
+      if (value !== undefined) this.turned(key, value);
+      else this.refused(key, `${key}: not a number ("${input.value.trim()}"), allowed is ${allowed}`);
     });
     return input;
   }
@@ -85,7 +71,7 @@ class Controls {
     const { control } = row;
     const choices = control.kind === "freedom"
       ? [["x", "y", "phi"], ["x", "y"], ["x", "phi"], ["x"]] : control.choices;
-    const options = choices.map((each, i) => live.element("option", { value: i }, [each].flat().join(", ")));
+    const options = choices.map((each, i) => live.element("option", { value: i }, textOf(each)));
     const select = live.element("select", { id }, ...options);
     select.addEventListener("change", () => this.turned(control.key, choices[select.value]));
     row.choices = choices;
@@ -109,10 +95,8 @@ class Controls {
     const state = JSON.stringify([value, changed, isWrong]);
     if (state === row.state && control.kind !== "inertia") return; // as it stands there
     row.state = state;
-    if (choices) input.value = choices.findIndex((each) => sameSet(each, value));
-    else input.value = textOf(value);
-    if (isWrong) input.setAttribute("aria-invalid", "true");
-    else input.removeAttribute("aria-invalid");
+    input.value = choices ? choices.findIndex((each) => sameSet(each, value)) : textOf(value);
+    live.attribute(input, "aria-invalid", isWrong && "true");
     reset.disabled = !changed;
     box.classList.toggle("changed", changed);
     if (slider) this.placeSlider(slider, control, value, scenario);
@@ -128,16 +112,14 @@ class Controls {
   find(text) {
     const words = text.toLowerCase().split(/\s+/).filter(Boolean);
     for (const { group, fold } of this.folds) {
-      let there = 0;
-      for (const control of group.controls) {
-        const said = `${control.key.replace(/[_.]/g, " ")} ${control.key} ${control.description} ${group.sentence}`.toLowerCase();
+      fold.hidden = true;
+      for (const { key, description } of group.controls) {
+        const said = `${key.replace(/[_.]/g, " ")} ${key} ${description} ${group.sentence}`.toLowerCase();
         const found = words.every((word) => said.includes(word));
-        this.rows.get(control.key).box.hidden = !found;
-        there += found;
+        this.rows.get(key).box.hidden = !found;
+        if (found) fold.hidden = false;
       }
-      fold.hidden = there === 0;
-      if (words.length) fold.open = there > 0;
-      else fold.open = group.open;
+      fold.open = words.length ? !fold.hidden : group.open;
     }
   }
 }
@@ -167,16 +149,11 @@ function positionOf(control, value) {
 }
 
 /* A key as a label: its unit stands behind the number; mu_s stays a symbol. */
-function labelOf(name) {
-  return name.replace(/_deg(C)?$/, "").replace(/_(?=[a-z]{2})/g, " ");
-}
+const labelOf = (name) => name.replace(/_deg(C)?$/, "").replace(/_(?=[a-z]{2})/g, " ");
 
 /* --- values as texts --------------------------------------------------------------------------- */
 
-function textOf(value) {
-  if (Array.isArray(value)) return value.join(", ");
-  return String(value);
-}
+const textOf = (value) => [value].flat().join(", ");
 
 /* undefined for what is no value of the control. */
 function valueOfText(control, text) {
@@ -186,10 +163,8 @@ function valueOfText(control, text) {
   }
   if (control.kind === "inertia" && /^\s*(disc|ring)\s*$/.test(text)) return text.trim();
   const value = typedValue(text, control.unit);
-  if (!Number.isFinite(value) || (control.kind === "whole" && !Number.isInteger(value))) return undefined;
-  return value;
+  const isOne = control.kind === "whole" ? Number.isInteger(value) : Number.isFinite(value);
+  return isOne ? value : undefined;
 }
 
-function sameSet(one, other) {
-  return [one].flat().slice().sort().join() === [other].flat().slice().sort().join();
-}
+const sameSet = (...sets) => same(...sets.map((each) => [each].flat().sort()));

@@ -47,9 +47,8 @@ async function unpacked(text) {
 /* --- from the controls to a run ----------------------------------------------------------------- */
 
 /* A key's new value; undefined: what it began with. */
-explorer.set = function (key, value) {
-  const { scenario } = explorer;
-  scenario.set(key, value === undefined ? scenario.begun(key) : value);
+explorer.set = function (key, value = explorer.scenario.begun(key)) {
+  explorer.scenario.set(key, value);
   changed();
 };
 
@@ -70,14 +69,8 @@ function renew() {
   const { scenario } = explorer;
   const wrong = outOfBounds(scenario) || contradiction(scenario);
   showScenario(wrong ? wrong.key : "");
-  if (wrong) {
-    refuse(wrong.key, wrong.text);
-    return;
-  }
-  const frozen = Object.assign(new Scenario(scenario.preset), {
-    name: scenario.name, tables: structuredClone(scenario.tables),
-  });
-  explorer.run = explorer.runs.wish(frozen);
+  if (wrong) refuse(wrong.key, wrong.text);
+  else explorer.run = explorer.runs.wish(scenario.copy());
 }
 
 function showScenario(wrong) {
@@ -111,13 +104,10 @@ function refuse(key, text) {
 }
 
 function show(place, text) {
-  place.textContent = text;
-  place.hidden = !text;
+  Object.assign(place, { textContent: text, hidden: !text });
 }
 
-function say(text) {
-  byId("done").textContent = text;
-}
+const say = (text) => (byId("done").textContent = text);
 
 /* --- from a run to the page ----------------------------------------------------------------------- */
 
@@ -125,18 +115,14 @@ let stale = true; // the plots are older than what there is to plot
 
 function heard(run, message) {
   if (run !== explorer.run) return;
-  if (run.state === "refused") {
-    const wrong = kernelFault(run.reason);
+  const beside = message.begun && refusedBeside(run.scenario);
+  const wrong = run.state === "refused" ? kernelFault(run.reason) : beside;
+  if (beside) explorer.runs.current = null;
+  if (wrong) {
     refuse(wrong.key, wrong.text);
     return;
   }
   if (message.begun) {
-    const wrong = refusedBeside(run.scenario);
-    if (wrong) {
-      explorer.runs.current = null;
-      refuse(wrong.key, wrong.text);
-      return;
-    }
     document.body.classList.remove("refused");
     show(byId("fault"), "");
     show(byId("remark"), remarks(run.scenario));
@@ -165,32 +151,29 @@ function preparePlayer() {
 
 function play(on) {
   player.playing = on;
-  const button = byId("play");
-  button.textContent = on ? "Pause" : "Play";
-  button.setAttribute("aria-pressed", String(on));
+  press(byId("play"), on, on ? "Pause" : "Play");
 }
 
-function endOf(run) {
-  return run ? run.time[run.time.length - 1] : 0;
+function press(button, on, words) {
+  button.setAttribute("aria-pressed", String(on));
+  button.textContent = words;
 }
+
+const endOf = (run) => run?.time.at(-1) ?? 0;
 
 function frame(now) {
   requestAnimationFrame(frame);
   explorer.frames++;
   showProgress(now);
-  const run = explorer.seen;
-  const passed = Math.min((now - player.last) / 1000, 0.1);
+  const run = explorer.seen, passed = Math.min((now - player.last) / 1000, 0.1);
   player.last = now;
   if (!run) return;
-  const reached = run.time[run.rows - 1];
   if (player.playing) {
     player.moment += passed * Number(byId("pace").value);
     if (player.moment > endOf(run)) player.moment = 0;
   }
-  const moment = Math.min(player.moment, reached);
-  const range = shownRange(run, moment);
-  const moved = moment !== explorer.moment;
-  if (!moved && !stale) return; // a page at rest costs nothing
+  const moment = Math.min(player.moment, run.time[run.rows - 1]), range = shownRange(run, moment);
+  if (moment === explorer.moment && !stale) return; // a page at rest costs nothing
   explorer.moment = moment;
   if (stale || !same(range, explorer.range)) redraw(run, range);
   showMoment(run, moment);
@@ -202,18 +185,15 @@ const QUICK_MS = 400; // what takes no longer need not be told of
 function showProgress(now) {
   const run = explorer.run;
   if (run !== player.computed) Object.assign(player, { computed: run, since: now });
-  const computing = run && (run.state === "wished" || run.state === "begun");
-  const slow = computing && now - player.since > QUICK_MS;
+  const slow = ["wished", "begun"].includes(run?.state) && now - player.since > QUICK_MS;
   const text = slow ? `computing, ${Math.floor((100 * run.rows) / run.time.length)} %` : "";
   if (byId("progress").textContent !== text) byId("progress").textContent = text;
 }
 
 function showMoment(run, moment) {
-  const state = stateAt(run, moment);
+  const state = stateAt(run, moment), said = `${moment.toFixed(2)} s`, slider = byId("moment");
   explorer.pictures.show(run, moment, state);
   explorer.top.show(run, state);
-  const said = `${moment.toFixed(2)} s`;
-  const slider = byId("moment");
   if (document.activeElement !== slider) slider.value = (1000 * moment) / (endOf(run) || 1);
   slider.setAttribute("aria-valuetext", said);
   byId("clock").textContent = said;
@@ -222,12 +202,10 @@ function showMoment(run, moment) {
 
 /* Times that are shown, s: a page of so many seconds is turned when the moment leaves it. */
 function shownRange(run, moment) {
-  const end = endOf(run);
-  const choice = byId("span").value;
+  const end = endOf(run), choice = byId("span").value;
   if (choice === "all") return [0, end];
   if (choice === "late") return [Math.min(run.rampEnd, end * 0.999), end];
-  const length = Math.min(Number(choice), end);
-  const begin = Math.floor(moment / length) * length;
+  const length = Math.min(Number(choice), end), begin = Math.floor(moment / length) * length;
   return [begin, begin + length];
 }
 
@@ -245,19 +223,16 @@ function stateAt(run, moment) {
   const low = live.placeOf(run.time.subarray(0, run.rows), moment), high = Math.min(low + 1, run.rows - 1);
   const span = run.time[high] - run.time[low];
   const part = span > 0 ? Math.min(Math.max((moment - run.time[low]) / span, 0), 1) : 0;
-  const state = {};
-  for (const name of Object.keys(DATA.outputs)) {
-    state[name] = (1 - part) * run.at(name, low) + part * run.at(name, high);
-  }
-  state.mode = run.at("mode", part < 0.5 ? low : high);
-  return state;
+  const between = (name) => (1 - part) * run.at(name, low) + part * run.at(name, high);
+  const state = Object.fromEntries(Object.keys(DATA.outputs).map((name) => [name, between(name)]));
+  return { ...state, mode: run.at("mode", part < 0.5 ? low : high) };
 }
 
 /* The energy ledger in one line: what came in, and where it is. */
 function ledger(now) {
   const came = now.surface_work + now.external_work;
   const small = 1e-9 * Math.max(Math.abs(came), now.heat); // below that it is rounding
-  const joules = (value) => `${live.told(Math.abs(value) < small ? 0 : value, 4)} J`;
+  const joules = (value) => `${live.told(Math.abs(value) < small ? 0 : value)} J`;
   const gained = came - now.heat - now.damping_heat + now.energy_residual;
   return `Work of the surface ${joules(came)} = friction heat ${joules(now.heat)} + damping ` +
     `${joules(now.damping_heat)} + gained by block and springs ${joules(gained)}; residual ` +
@@ -269,8 +244,7 @@ function ledger(now) {
 explorer.statistics = (run = explorer.seen) => statistics(run);
 
 function showStatistics(run) {
-  const numbers = statistics(run);
-  const before = explorer.kept ? statistics(explorer.kept) : null;
+  const numbers = statistics(run), before = explorer.kept && statistics(explorer.kept);
   const mm = (value) => `${live.told(MM * value, 3)} mm`;
   const rows = [
     ["the block", (n) => regime(n)],
@@ -301,9 +275,7 @@ function warmest(run) {
 }
 
 /* Rounding is nothing. */
-function still(value) {
-  return Math.abs(value) < 1e-9 ? 0 : value;
-}
+const still = (value) => (Math.abs(value) < 1e-9 ? 0 : value);
 
 /* --- presets, files, links ------------------------------------------------------------------------ */
 
@@ -318,14 +290,14 @@ explorer.read = (key, text) => valueOfText(CONTROLS.get(key), text);
 
 function prepareBar() {
   DATA.presets.forEach((each, i) => byId("preset").append(live.element("option", { value: i }, each.name)));
+  const link = () => location.href.replace(/#.*$/, "") + explorer.address();
+  for (const [id, call] of Object.entries({
+    reset: () => begin(explorer.scenario.preset), freeze: keep, save,
+    share: () => copy(link(), "a link that opens this page with these numbers"),
+    "copy-toml": () => copy(explorer.toml(), "a scenario file"),
+    "copy-python": () => copy(explorer.python(), "Python that gives this motion"),
+  })) byId(id).addEventListener("click", call);
   byId("preset").addEventListener("change", (event) => begin(DATA.presets[event.target.value]));
-  byId("reset").addEventListener("click", () => begin(explorer.scenario.preset));
-  byId("freeze").addEventListener("click", keep);
-  byId("save").addEventListener("click", save);
-  byId("share").addEventListener("click", () => copy(
-    location.href.replace(/#.*$/, "") + explorer.address(), "a link that opens this page with these numbers"));
-  byId("copy-toml").addEventListener("click", () => copy(explorer.toml(), "a scenario file"));
-  byId("copy-python").addEventListener("click", () => copy(explorer.python(), "Python that gives this motion"));
   byId("name").addEventListener("change", (event) => rename(event.target.value));
   byId("find").addEventListener("input", (event) => explorer.controls.find(event.target.value));
   window.addEventListener("hashchange", (event) => {
@@ -345,19 +317,15 @@ function begin(preset) {
 /* The run that is seen stays, in grey; once more: it goes. */
 function keep() {
   explorer.kept = explorer.kept ? null : explorer.seen;
-  byId("freeze").setAttribute("aria-pressed", String(Boolean(explorer.kept)));
-  byId("freeze").textContent = explorer.kept ? "Drop comparison" : "Keep for comparison";
+  press(byId("freeze"), Boolean(explorer.kept), explorer.kept ? "Drop comparison" : "Keep for comparison");
   stale = true;
 }
 
 /* A name is also that of a folder: what every file system takes. */
 function rename(name) {
-  if (/^[^\s./\\:*?"<>|\x00-\x1f][^/\\:*?"<>|\x00-\x1f]*$/.test(name)) {
-    explorer.scenario.name = name;
-    say("");
-  } else {
-    say('a name has 1 to 100 characters without /\\:*?"<>|, a dot or a space not first');
-  }
+  const isOne = /^[^\s./\\:*?"<>|\x00-\x1f][^/\\:*?"<>|\x00-\x1f]*$/.test(name);
+  if (isOne) explorer.scenario.name = name;
+  say(isOne ? "" : 'a name has 1 to 100 characters without /\\:*?"<>|, a dot or a space not first');
 }
 
 function save() {

@@ -11,12 +11,13 @@ const REGIMES = [["ends early", "#8c8c8c"], ["sticks and never slips", "#dcdcdc"
 
 class RegimeMap {
   /* moved: called with keys and values of a place that is chosen. */
-  constructor(canvas, legend, models, moved) {
-    Object.assign(this, { canvas, legend, models, regimes: [], cells: [], tops: [1, 1], here: [NaN, NaN] });
-    this.plot = new Plot(canvas, "regimes", "speed of the surface [m/s]", "damping [N·s/m]");
-    canvas.addEventListener("click", (event) => {
-      const place = this.plot.at(event.offsetX, event.offsetY);
-      AXES.forEach((key, i) => moved(key, Number((place[i] * (i ? 1 : this.sign)).toPrecision(2))));
+  constructor(box, legend, models, moved) {
+    Object.assign(this, { legend, models, regimes: [], cells: [], tops: [1, 1], here: [NaN, NaN] });
+    this.plot = new Plot(box, "regimes", "speed of the surface [m/s]", "damping [N·s/m]");
+    const { uplot } = this.plot;
+    uplot.over.addEventListener("click", (event) => {
+      const place = [uplot.posToVal(event.offsetX, "x") * this.sign, uplot.posToVal(event.offsetY, "y")];
+      AXES.forEach((key, i) => moved(key, Number(place[i].toPrecision(2))));
     });
   }
 
@@ -66,11 +67,9 @@ function cellsOf(tops) {
   const [width, height] = tops.map((top, i) => top / CELLS[i]);
   const cells = [];
   for (let step = COARSE; step >= 1; step /= 2) {
-    for (let j = 0; j < CELLS[1]; j += step) {
-      for (let i = 0; i < CELLS[0]; i += step) {
-        if (step < COARSE && i % (2 * step) === 0 && j % (2 * step) === 0) continue; // is there
-        cells.push([i * width, j * height, step * width, step * height]);
-      }
+    for (let j = 0; j < CELLS[1]; j += step) for (let i = 0; i < CELLS[0]; i += step) {
+      const isThere = step < COARSE && i % (2 * step) === 0 && j % (2 * step) === 0;
+      if (!isThere) cells.push([i * width, j * height, step * width, step * height]);
     }
   }
   return cells;

@@ -7,18 +7,14 @@ const CURVE_POINTS = 160;
 /* A run as it comes: columns by name, filled up to `rows`; events as time, mode, x. */
 class Run {
   constructor(scenario, number) {
-    this.number = number;
-    this.scenario = scenario;
+    Object.assign(this, { scenario, number });
     this.time = sampleTimes(scenario.get("run.duration"), scenario.get("run.output_interval"));
     this.rampEnd = scenario.get("surface.run_up_time");
     this.speeds = curveSpeeds(scenario);
     this.table = new Float64Array(this.time.length * DATA.sizes.all).fill(NaN);
-    this.rows = 0;
     this.heat = heatOf(scenario);
-    this.warmed = 0; // rows
-    this.events = [];
-    this.state = "wished"; // then begun, refused or done
-    this.reason = "";
+    // warmed: rows that have their heat; state: then begun, refused or done
+    Object.assign(this, { rows: 0, warmed: 0, events: [], state: "wished", reason: "" });
   }
 
   /* A column at all rows there are, times a factor. */
@@ -44,25 +40,20 @@ class Run {
 
   take(message) {
     if (message.refused !== undefined) {
-      this.state = "refused";
-      this.reason = message.refused;
+      Object.assign(this, { state: "refused", reason: message.refused });
     } else if (message.begun) {
       this.state = "begun";
       ({ attachments: this.attachments, anchors: this.anchors, curve: this.curve } = message);
     } else if (message.rows) {
       this.rows = this.put(message.rows, message.from, DATA.sizes.row, 0);
-      const width = DATA.sizes.event;
-      for (let i = 0; i < message.events.length; i += width) {
-        this.events.push(message.events.slice(i, i + width));
-      }
+      const { events } = message, width = DATA.sizes.event;
+      for (let i = 0; i < events.length; i += width) this.events.push(events.slice(i, i + width));
     } else if (message.warmth) {
       this.warmed = this.put(message.warmth, message.from, DATA.sizes.warmth, DATA.sizes.row);
     } else if (message.warmed) {
-      this.heat.ended = true;
-      this.heat.why = message.reason;
+      Object.assign(this.heat, { ended: true, why: message.reason });
     } else if (message.done) {
-      this.state = "done";
-      this.reason = message.reason;
+      Object.assign(this, { state: "done", reason: message.reason });
       // the internal step that the run ends in may have met an event beyond that end
       const end = this.time[this.rows - 1] ?? 0;
       if (!this.reason) this.events = this.events.filter((event) => event[0] <= end);
@@ -100,11 +91,7 @@ function thread(models, heard) {
    has changed. */
 class Runs {
   constructor(models, told) {
-    this.models = models;
-    this.told = told;
-    this.number = 0;
-    this.current = null;
-    this.waiting = null;
+    Object.assign(this, { models, told, number: 0, current: null, waiting: null });
     this.begin();
   }
 
@@ -123,15 +110,11 @@ class Runs {
   }
 
   ask(run) {
+    const { number, scenario, time, speeds, heat } = run;
     this.worker.postMessage({
-      run: run.number,
-      values: kernelValues(run.scenario),
-      inputs: kernelInputs(run.scenario),
-      times: run.time,
-      speeds: run.speeds,
-      sizes: DATA.sizes,
-      places: ["surface_travel", "heat", "x"].map((name) => DATA.outputs[name]),
-      warmed: run.heat.parameters && run.heat,
+      run: number, values: kernelValues(scenario), inputs: kernelInputs(scenario), times: time, speeds,
+      sizes: DATA.sizes, places: ["surface_travel", "heat", "x"].map((name) => DATA.outputs[name]),
+      warmed: heat.parameters && heat,
     });
   }
 

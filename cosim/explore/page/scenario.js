@@ -21,11 +21,14 @@ class Scenario {
     this.tables = structuredClone(preset.tables);
   }
 
+  /* As it is now, whatever is turned then. */
+  copy() {
+    const { name, tables, preset } = this;
+    return Object.assign(new Scenario(preset), { name, tables: structuredClone(tables) });
+  }
+
   get(key) {
-    const [table, name] = parted(key);
-    const entries = this.tables[table];
-    if (entries && name in entries) return entries[name];
-    return CONTROLS.get(key).default;
+    return valueIn(this.tables, key);
   }
 
   set(key, value) {
@@ -35,9 +38,7 @@ class Scenario {
 
   /* What the scenario was begun with. */
   begun(key) {
-    const [table, name] = parted(key);
-    const entries = this.preset.tables[table];
-    return entries && name in entries ? entries[name] : CONTROLS.get(key).default;
+    return valueIn(this.preset.tables, key);
   }
 
   /* Keys that have another value than at the beginning. */
@@ -46,14 +47,17 @@ class Scenario {
   }
 }
 
+function valueIn(tables, key) {
+  const [table, name] = parted(key);
+  return tables[table]?.[name] ?? CONTROLS.get(key).default;
+}
+
 function parted(key) {
   const at = key.indexOf(".");
   return [key.slice(0, at), key.slice(at + 1)];
 }
 
-function same(one, other) {
-  return JSON.stringify(one) === JSON.stringify(other);
-}
+const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
 
 /* --- the kernel's numbers ------------------------------------------------------------------ */
 
@@ -65,24 +69,17 @@ function kernelValues(scenario) {
 function kernelValue(scenario, name) {
   const element = /^(.*)\[(\d+)\]$/.exec(name);
   if (element) return ofList(scenario.get(element[1]), Number(element[2]) - 1);
-  const freedom = scenario.get("rig.degrees_of_freedom");
-  switch (name) {
-    case "rig.inertia":
-      return inertia(scenario);
-    case "rig.free_y":
-      return Number(freedom.includes("y"));
-    case "rig.free_phi":
-      return Number(freedom.includes("phi"));
-    case "turning_surface.curvature":
-      if (scenario.get("rig.surface") === "slab") return 1 / scenario.get("rig.slab_radius");
-  }
-  return scenario.get(name);
+  const freedom = /^rig\.free_(.*)$/.exec(name);
+  if (freedom) return Number(scenario.get("rig.degrees_of_freedom").includes(freedom[1]));
+  if (name === "rig.inertia") return inertia(scenario);
+  const turns = name === "turning_surface.curvature" && scenario.get("rig.surface") === "slab";
+  return turns ? 1 / scenario.get("rig.slab_radius") : scenario.get(name);
 }
 
 function kernelInputs(scenario) {
-  const inputs = new Float64Array(DATA.sizes.inputs);
-  inputs[DATA.sizes.speed] = scenario.get("surface.speed");
-  inputs[DATA.sizes.temperature] = scenario.get("ambient.temperature_degC");
+  const { inputs: count, speed, temperature } = DATA.sizes, inputs = new Float64Array(count);
+  inputs[speed] = scenario.get("surface.speed");
+  inputs[temperature] = scenario.get("ambient.temperature_degC");
   return inputs;
 }
 
@@ -108,9 +105,7 @@ function inertia(scenario) {
 }
 
 /* Unused places of a curve repeat its last value, which ends it. */
-function ofList(list, place) {
-  return list.length === 0 ? 0 : list[Math.min(place, list.length - 1)];
-}
+const ofList = (list, place) => list[Math.min(place, list.length - 1)] ?? 0;
 
 /* --- the file ------------------------------------------------------------------------------ */
 
@@ -123,16 +118,15 @@ function toml(scenario) {
     "#   stickslip run FILE         the same with the heat in belt and ice",
     "",
   ];
-  const top = { ...scenario.preset.top, name: scenario.name };
-  for (const [name, value] of Object.entries(top)) lines.push(`${name} = ${tomlValue(value)}`);
+  lines.push(...Object.entries({ ...scenario.preset.top, name: scenario.name }).map(tomlRow));
   for (const [table, entries] of Object.entries(scenario.tables)) {
     const rows = Object.entries(entries).filter(([name, value]) => departs(table, name, value));
-    if (rows.length === 0) continue;
-    lines.push("", `[${table}]`);
-    for (const [name, value] of rows) lines.push(`${name} = ${tomlValue(value)}`);
+    if (rows.length) lines.push("", `[${table}]`, ...rows.map(tomlRow));
   }
   return lines.join("\n") + "\n";
 }
+
+const tomlRow = ([name, value]) => `${name} = ${tomlValue(value)}`;
 
 /* What was set, and set back to the plain model's, need not be said. */
 function departs(table, name, value) {
@@ -143,10 +137,7 @@ function departs(table, name, value) {
 function tomlValue(value) {
   if (Array.isArray(value)) return `[${value.map(tomlValue).join(", ")}]`;
   if (typeof value === "string") return JSON.stringify(value).replace(/\x7f/g, "\\u007f");
-  if (typeof value === "object") {
-    const entries = Object.entries(value).map(([name, entry]) => `${name} = ${tomlValue(entry)}`);
-    return `{ ${entries.join(", ")} }`;
-  }
+  if (typeof value === "object") return `{ ${Object.entries(value).map(tomlRow).join(", ")} }`;
   return String(value); // of a number, the shortest digits that give it back
 }
 
@@ -169,13 +160,12 @@ run.plot("motion")
 
 /* What was changed, behind the # of the page's address. */
 function addressOf(scenario) {
-  const parts = [`preset=${encodeURIComponent(scenario.preset.name)}`];
+  const parts = [["preset", scenario.preset.name]];
   for (const key of scenario.changed()) {
     const value = scenario.get(key);
-    const text = typeof value === "number" ? String(value) : JSON.stringify(value);
-    parts.push(`${key}=${encodeURIComponent(text)}`);
+    parts.push([key, typeof value === "number" ? String(value) : JSON.stringify(value)]);
   }
-  return `#${parts.join("&")}`;
+  return `#${parts.map(([key, text]) => `${key}=${encodeURIComponent(text)}`).join("&")}`;
 }
 
 /* The scenario of an address, and what of it was not understood. */
@@ -184,15 +174,13 @@ function ofAddress(hash, begin) {
     const at = part.indexOf("=");
     return [part.slice(0, at), decoded(part.slice(at + 1))];
   });
-  const named = said.find(([key]) => key === "preset");
-  const preset = named && DATA.presets.find((each) => each.name === named[1]);
-  const scenario = new Scenario(preset || begin);
-  const strange = named && !preset ? [`preset=${named[1]}`] : [];
+  const named = said.find(([key]) => key === "preset")?.[1];
+  const preset = DATA.presets.find((each) => each.name === named);
+  const scenario = new Scenario(preset || begin), strange = [];
   for (const [key, text] of said) {
-    if (key === "preset") continue;
-    const value = ofText(CONTROLS.get(key), text);
+    const value = key === "preset" ? preset : ofText(CONTROLS.get(key), text);
     if (value === undefined) strange.push(`${key}=${text}`);
-    else scenario.set(key, value);
+    else if (key !== "preset") scenario.set(key, value);
   }
   return { scenario, strange };
 }

@@ -2,11 +2,9 @@
 /* What a motion is like after the run-up: the numbers of `after_run_up` in summary.json. */
 
 function statistics(run) {
-  const end = run.rows ? run.time[run.rows - 1] : 0;
-  const begin = run.rampEnd;
-  const window = end - begin;
-  const aways = run.events.filter((event) => event[1] === 1).map((event) => event[0]);
-  const starts = aways.filter((time) => time >= begin && time <= end);
+  const begin = run.rampEnd, end = run.rows ? run.time[run.rows - 1] : 0, window = end - begin;
+  const aways = run.events.filter(([time, mode]) => mode === 1 && time >= begin && time <= end);
+  const starts = aways.map(([time]) => time);
   const first = run.time.findIndex((time) => time >= begin);
   const late = { from: first < 0 ? run.rows : first, to: run.rows };
   const reached = window > 0;
@@ -32,33 +30,24 @@ function statistics(run) {
 /* Begin and end of every slip, s. */
 function slips(run) {
   if (run.rows === 0) return [];
-  const found = [];
-  const end = run.time[run.rows - 1];
+  const found = [], end = run.time[run.rows - 1];
   let since = run.at("mode", 0) === 1 ? run.time[0] : null;
-  for (const [time, mode] of run.events) {
+  for (const [time, mode] of [...run.events, [end, 0]]) {
     if (time <= run.time[0] || time > end) continue;
-    if (mode === 1 && since === null) since = time;
-    if (mode === 0 && since !== null) {
-      found.push([since, time]);
-      since = null;
-    }
+    if (mode === 0 && since !== null) found.push([since, time]);
+    since = mode === 0 ? null : since ?? time;
   }
-  if (since !== null) found.push([since, end]);
   return found;
 }
 
 function slipTime(run, begin, end) {
-  let sum = 0;
-  for (const [from, to] of slips(run)) {
-    sum += Math.max(0, Math.min(to, end) - Math.max(from, begin));
-  }
-  return sum;
+  const inside = ([from, to]) => Math.max(0, Math.min(to, end) - Math.max(from, begin));
+  return slips(run).reduce((sum, slip) => sum + inside(slip), 0);
 }
 
 /* Mean over time by the trapezoidal rule. */
 function timeMean(run, name, { from, to }) {
-  if (to - from < 1) return NaN;
-  if (to - from === 1) return run.at(name, from);
+  if (to - from < 2) return to > from ? run.at(name, from) : NaN;
   let sum = 0;
   for (let i = from + 1; i < to; i++) {
     sum += 0.5 * (run.at(name, i) + run.at(name, i - 1)) * (run.time[i] - run.time[i - 1]);
@@ -77,8 +66,8 @@ function extremes(run, name, { from, to }) {
 }
 
 function largest(run, name, rows) {
-  const ends = extremes(run, name, rows);
-  return rows.to > rows.from ? Math.max(Math.abs(ends[`min_${name}`]), Math.abs(ends[`max_${name}`])) : NaN;
+  const ends = Object.values(extremes(run, name, rows)).map(Math.abs);
+  return rows.to > rows.from ? Math.max(...ends) : NaN;
 }
 
 /* What the block does, in words. */

@@ -5,25 +5,19 @@ const ICE_STICK = "rgba(156,200,228,.85)", ICE_SLIP = "rgba(240,176,124,.85)";
 
 class TopView {
   constructor(canvas) {
-    this.plot = new Plot(canvas, "", "", "");
     this.canvas = canvas;
   }
 
   /* now: x, y, phi, surface_travel, mode of the moment. */
   show(run, now) {
     if (!run.anchors || this.canvas.clientWidth === 0) return;
-    this.plot.fit();
-    const context = this.canvas.getContext("2d");
-    const density = this.plot.density;
-    const [width, height] = [this.canvas.width / density, this.canvas.height / density];
-    context.setTransform(density, 0, 0, density, 0, 0);
+    const context = live.fitted(this.canvas), { clientWidth: width, clientHeight: height } = this.canvas;
     context.fillStyle = "#ffffff";
     context.fillRect(0, 0, width, height);
-    const get = (key) => run.scenario.get(key);
+    const radius = run.scenario.get("rig.contact_radius");
     const rig = {
-      anchors: run.anchors, arms: run.attachments, radius: get("rig.contact_radius"), ring: 2 * get("rig.contact_radius"),
+      anchors: run.anchors, arms: run.attachments, radius, ring: 2 * radius, speed: run.scenario.get("surface.speed"),
       curvature: kernelValue(run.scenario, "turning_surface.curvature"), width: beltWidth(run.scenario),
-      speed: get("surface.speed"),
     };
     const view = this.view(rig, width, height), pose = { ...now, travel: now.surface_travel };
     live.rig.surface(context, rig, view, pose);
@@ -42,10 +36,7 @@ class TopView {
   }
 
   words(context, rig, now, { scale, width, height }) {
-    context.font = FONT;
-    context.fillStyle = INK;
-    context.textBaseline = "top";
-    context.textAlign = "left";
+    Object.assign(context, { font: live.FONT, fillStyle: INK, textBaseline: "top", textAlign: "left" });
     context.fillText(now.mode === 1 ? "slip" : "stick", 8, 6);
     context.textAlign = "center";
     const speed = now.surface_speed_actual;
@@ -53,15 +44,10 @@ class TopView {
     const what = rig.curvature ? "turning slab" : `belt, ${live.told(MM * rig.width, 3)} mm wide`;
     context.fillText(`${what}, ${live.told(MM * speed, 3)} mm/s${arrow}`, width / 2, 6);
     const bar = 0.05 * scale;
-    context.textBaseline = "bottom";
-    context.textAlign = "right";
+    Object.assign(context, { textBaseline: "bottom", textAlign: "right" });
     context.fillText("50 mm", width - 10, height - 9);
-    context.strokeStyle = INK;
-    context.lineWidth = 2;
-    stroke(context, width - 10 - bar, height - 6, width - 10, height - 6);
+    context.fillRect(width - 10 - bar, height - 7, bar, 2);
   }
 }
 
-function beltWidth(scenario) {
-  return scenario.tables.belt?.width ?? DATA.belt_width;
-}
+const beltWidth = (scenario) => scenario.tables.belt?.width ?? DATA.belt_width;

@@ -22,7 +22,7 @@ function parsedUnit(text) {
       const found = /^([A-Za-zµμ°%]+|1)(-?\d+(?:\.\d+)?)?$/.exec(one);
       const known = found && symbol(found[1]);
       if (!known) return null;
-      const power = sign * (found[2] === undefined ? 1 : Number(found[2]));
+      const power = sign * Number(found[2] ?? 1);
       factor *= known[0] ** power;
       for (const [name, of] of Object.entries(known[1])) {
         dimension[name] = (dimension[name] || 0) + of * power;
@@ -46,15 +46,13 @@ function symbol(text) {
 function typedValue(text, unit) {
   const found = /^\s*([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$/.exec(text.replace(",", "."));
   if (!found) return NaN;
-  const number = Number(found[1].replace("−", "-"));
-  const given = found[2].replace(/^°C$/, "degC");
+  const number = Number(found[1].replace("−", "-")), given = found[2].replace(/^°C$/, "degC");
   if (given === "" || given === unit) return number;
-  const one = parsedUnit(given);
-  const other = parsedUnit(unit);
+  const one = parsedUnit(given), other = parsedUnit(unit);
   if (!one || !other) return NaN;
-  for (const name of new Set([...Object.keys(one.dimension), ...Object.keys(other.dimension)])) {
-    if (Math.abs((one.dimension[name] || 0) - (other.dimension[name] || 0)) > 1e-9) return NaN;
-  }
+  const names = [...Object.keys(one.dimension), ...Object.keys(other.dimension)];
+  const apart = (name) => Math.abs((one.dimension[name] || 0) - (other.dimension[name] || 0)) > 1e-9;
+  if (names.some(apart)) return NaN;
   // to the digits that were typed: 67 mm is 0.067, not 0.06700000000000001
   return Number((number * (one.factor / other.factor)).toPrecision(15));
 }

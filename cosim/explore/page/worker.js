@@ -7,8 +7,7 @@
    friction curve, {rows, events} one after the other, {done}, and the heat, {warmth} and {warmed}; of a
    survey {found}, a regime for each cell. */
 
-let kernel = null, heat = null, blocks = [];
-let newest = 0;
+let kernel = null, heat = null, blocks = [], newest = 0;
 const CHUNK_MS = 12, MOST_ROWS = 1024; // between two answers
 const turn = new MessageChannel();
 let goOn = null;
@@ -30,9 +29,7 @@ onmessage = ({ data }) => {
   else begin(data);
 };
 
-function array(model, at, length) {
-  return new Float64Array(model.memory.buffer, at, length);
-}
+const array = (model, at, length) => new Float64Array(model.memory.buffer, at, length);
 
 function sentence(model, at) {
   const bytes = new Uint8Array(model.memory.buffer, at);

@@ -3,11 +3,4 @@
 from .compare import Comparison, Difference, compare
 from .one_result import NotAResult, OneResult, read_result
 
-__all__ = [
-    "Comparison",
-    "Difference",
-    "NotAResult",
-    "OneResult",
-    "compare",
-    "read_result",
-]
+__all__ = ["Comparison", "Difference", "NotAResult", "OneResult", "compare", "read_result"]

@@ -67,8 +67,7 @@ class Difference(NamedTuple):
         return None if nothing else self.difference / abs(self.a)
 
     def _is_nothing(self, value: float) -> bool:
-        least = max(ROUNDING.get(self.unit, 0.0), PART_OF_SIZE * self.size)
-        return value == 0.0 or abs(value) < least
+        return value == 0.0 or abs(value) < _rounding(self.unit, self.size)
 
     @property
     def in_both(self) -> bool:
@@ -81,11 +80,19 @@ class Difference(NamedTuple):
             return self.a is self.b
         if self._is_nothing(self.a) and self._is_nothing(self.b):
             return True
-        residual = any(part.endswith(RESIDUALS) for part in self.name.split("."))
-        if residual and max(abs(self.a), abs(self.b)) < RESIDUAL:
+        if _is_residual(self.name) and max(abs(self.a), abs(self.b)) < RESIDUAL:
             return True
         least = PART_OF_SIZE * self.size
         return math.isclose(self.a, self.b, rel_tol=SAME, abs_tol=least)
+
+
+def _rounding(unit: str, size: float) -> float:
+    """Below this a number in a unit is nothing, beside the size of what it is of."""
+    return max(ROUNDING.get(unit, 0.0), PART_OF_SIZE * size)
+
+
+def _is_residual(name: str) -> bool:
+    return any(part.endswith(RESIDUALS) for part in name.split("."))
 
 
 @dataclass(frozen=True)
@@ -123,7 +130,7 @@ class Comparison(Result):
     def apart(self) -> list[Apart]:
         """Of each curve that both have, how far they are apart over the time of both."""
         found = (apart(each, self.a.dataset, self.b.dataset) for each in self.series)
-        return [one for one in found if one is not None]
+        return [*filter(None, found)]
 
     @property
     def curves(self) -> list[Apart]:
@@ -131,26 +138,26 @@ class Comparison(Result):
         return [
             one
             for one in self.apart
-            if not any(part.endswith(RESIDUALS) for part in one.name.split("."))
-            and abs(one.largest)
-            > max(ROUNDING.get(one.unit, 0.0), SAME * one.span, PART_OF_SIZE * one.size)
+            if not _is_residual(one.name)
+            and abs(one.largest) > max(_rounding(one.unit, one.size), SAME * one.span)
         ]
 
     @property
     def remarks(self) -> list[str]:
         """What is to be known before the numbers are believed."""
         said = [*self.a.remarks, *self.b.remarks]
-        cases = [str(one.numbers["case"]) for one in (self.a, self.b) if "case" in one.numbers]
+        both = (self.a, self.b)
+        cases = [str(one.numbers["case"]) for one in both if "case" in one.numbers]
         if len(set(cases)) > 1:
             told = [CASES.get(case, case) for case in cases]
             said.append(f"one is of {told[0]}, the other of {told[1]}: not all numbers are in both")
-        ends = [float(one.dataset["time"][-1]) for one in (self.a, self.b)]
+        ends = [float(one.dataset["time"][-1]) for one in both]
         if not math.isclose(*ends, rel_tol=SAME):
             said.append(
                 f"one run is {ends[0]:g} s long, the other {ends[1]:g} s: totals are of each run's"
                 " own time"
             )
-        steps = [one.output_step for one in (self.a, self.b)]
+        steps = [one.output_step for one in both]
         if all(steps) and not math.isclose(*steps, rel_tol=AS_DENSE):
             said.append(
                 f"the one's rows are {steps[0]:g} s apart, the other's {steps[1]:g} s: what is"
@@ -177,19 +184,13 @@ class Comparison(Result):
             "b": {"name": self.b.label, "place": self.b.place},
             "remarks": self.remarks,
             "scenario": {key: {"a": a, "b": b} for key, (a, b) in self.keys.items()},
-            "numbers": {
-                one.name: {
-                    key: getattr(one, key) for key in ("unit", "a", "b", "difference", "relative")
-                }
-                for one in self.numbers
-            },
-            "curves": {
-                one.name: {
-                    key: getattr(one, key) for key in ("unit", "largest", "at", "rms", "span")
-                }
-                for one in self.apart
-            },
+            "numbers": _table(self.numbers, ("unit", "a", "b", "difference", "relative")),
+            "curves": _table(self.apart, ("unit", "largest", "at", "rms", "span")),
         }
+
+
+def _table(ones: Iterable[Difference | Apart], keys: Sequence[str]) -> dict[str, dict[str, Any]]:
+    return {one.name: {key: getattr(one, key) for key in keys} for one in ones}
 
 
 def compare(a: OneResult, b: OneResult) -> Comparison:
@@ -208,12 +209,11 @@ def compare(a: OneResult, b: OneResult) -> Comparison:
     """
     if a.label == b.label:
         a, b = replace(a, label=f"{a.label} (A)"), replace(b, label=f"{b.label} (B)")
-    left, right = dict(_flat(a.numbers)), dict(_flat(b.numbers))
     units = {**b.numbers.get("units", {}), **a.numbers.get("units", {}), "time_reached": "s"}
-    names = [*left, *(name for name in right if name not in left)]
     series, refused = matched(a.dataset, b.dataset)
     numbers = [
-        Difference(name, units.get(name, ""), left.get(name), right.get(name)) for name in names
+        Difference(name, units.get(name, ""), *values)
+        for name, values in _both(dict(_flat(a.numbers)), dict(_flat(b.numbers))).items()
     ]
     if SYSTEM in (a.numbers.get("case"), b.numbers.get("case")):
         numbers += _outputs(a, b, series)
@@ -242,6 +242,10 @@ def _flat(tree: Mapping[str, Any], path: str = "") -> Iterator[tuple[str, float]
 def _differing(a: OneResult, b: OneResult) -> dict[str, tuple[Any, Any]]:
     if bool(a.scenario) is not bool(b.scenario):
         return {}
-    left, right = a.tables, b.tables
-    keys = [*left, *(key for key in right if key not in left)]
-    return {key: (left.get(key), right.get(key)) for key in keys if left.get(key) != right.get(key)}
+    keys = _both(a.tables, b.tables)
+    return {key: (left, right) for key, (left, right) in keys.items() if left != right}
+
+
+def _both(left: Mapping[str, Any], right: Mapping[str, Any]) -> dict[str, tuple[Any, Any]]:
+    """What either has, A's first, with the values of both; None where one has it not."""
+    return {key: (left.get(key), right.get(key)) for key in {**left, **right}}

@@ -16,7 +16,7 @@ from cosim.report.live import Curve, Panel, TimeFigure, panels_on_one_axis
 from cosim.report.live import Series as CurveInTime
 from cosim.report.page import Picture
 from cosim.report.palette import BLUE, ORANGE, readable
-from cosim.report.quantities import ROUNDING
+from cosim.report.quantities import ROUNDING, TABLES
 from cosim.report.style import panels, picture, picture_over_time
 
 from .compare import Comparison
@@ -34,16 +34,7 @@ class Channel(NamedTuple):
     nothing: float
 
 
-CHANNELS = (
-    Channel("x", "x", "m", 1e-7),
-    Channel("y", "y", "m", 1e-7),
-    Channel("phi", "rotation", "rad", 1e-6),
-    Channel("friction_force_x", "friction along x", "N", 1e-6),
-    Channel("heat", "friction heat", "J", 1e-9),
-    Channel("interface_temperature", "interface", "degC", 1e-6),
-    Channel("belt_entry_temperature", "belt at entry", "degC", 1e-6),
-    Channel("ice_face_temperature", "ice face", "degC", 1e-6),
-)
+CHANNELS = [Channel(name, *told) for name, told in TABLES["channels"].items()]
 #: Colour and width of A and of B.
 STROKES = ((ORANGE, 3.0), (BLUE, 1.1))
 #: Ports by which break-aways are found.
@@ -114,31 +105,21 @@ def _starts(dataset: xr.Dataset) -> Array:
 
 def _window(both: Comparison) -> tuple[float, float]:
     """The last cycles that both runs have, s."""
-    end = min(float(one["time"][-1]) for one in _sets(both))
-    lengths = []
-    for one in _sets(both):
-        starts = _starts(one)
-        starts = starts[starts <= end]
-        if starts.size > 2:
-            lengths.append(CYCLES * float(np.mean(np.diff(starts[-6:]))))
-    begin = min(float(one["time"][0]) for one in _sets(both))
-    return end - min(max(lengths, default=PART * (end - begin)), end - begin), end
+    begin, end = (min(float(one["time"][row]) for one in _sets(both)) for row in (0, -1))
+    starts = [each[each <= end] for each in map(_starts, _sets(both))]
+    periods = [float(np.mean(np.diff(each[-6:]))) for each in starts if each.size > 2]
+    length = CYCLES * max(periods) if periods else PART * (end - begin)
+    return end - min(length, end - begin), end
 
 
 def overlay(both: Comparison) -> Picture:
     """Where both have other times, each on the straight lines of its rows."""
     times, shown = _described(_with_events(both))
     part = (*_window(both), "the last cycles that both have")
-    return picture_over_time(
-        "overlay",
-        "Both runs over time, the whole of them and the last cycles that both have. The wide,"
-        " orange line is A, the thin, blue one B: where only blue is seen on orange they are the"
-        " same. What is flat in both is left out; where there is one line only, the other has no"
-        " such quantity.",
-        "Both runs over time, one over the other.",
-        # of many, two beside each other: the figures below them stay on the first screen
-        TimeFigure(times, shown, part=part, own_scale=True, columns=1 + (len(shown) > MOST_BELOW)),
-    )
+    # of many, two beside each other: the figures below them stay on the first screen
+    columns = 1 + (len(shown) > MOST_BELOW)
+    figure = TimeFigure(times, shown, part=part, own_scale=True, columns=columns)
+    return picture_over_time("overlay", **TABLES["compare"]["overlay"], shown=figure)
 
 
 def _described(both: Comparison) -> tuple[Array, list[Panel]]:
@@ -146,7 +127,8 @@ def _described(both: Comparison) -> tuple[Array, list[Panel]]:
     labels = (f"A: {both.a.label}", f"B: {both.b.label}")
     shown = []
     for channel, both_values in moving(both):
-        scale = readable(_all_values(both_values), channel.unit)
+        there = [one for one in both_values if one is not None]
+        scale = readable(np.concatenate(there), channel.unit)
         own = [
             CurveInTime(one["time"].values, Curve(label, scale(values), colour, width=width))
             for one, values, label, (colour, width) in zip(
@@ -157,10 +139,6 @@ def _described(both: Comparison) -> tuple[Array, list[Panel]]:
         label, span = f"{channel.says} [{scale.unit}]", scale.factor * channel.nothing
         shown.append((Panel(label, [], span=span), own))
     return panels_on_one_axis(shown)
-
-
-def _all_values(values: tuple[Array | None, ...]) -> Array:
-    return np.concatenate([one for one in values if one is not None])
 
 
 def _with_events(both: Comparison) -> Comparison:
@@ -174,16 +152,11 @@ def _with_events(both: Comparison) -> Comparison:
     return replace(both, a=a, b=b)
 
 
-@picture(
-    "phases",
-    "Velocity over position in the last cycles: a closed loop is a stick-slip cycle. A wide and"
-    " orange, B thin and blue.",
-)
+@picture("phases", **TABLES["compare"]["phases"])
 def draw_phases(both: Comparison) -> Figure:
     """The phase portraits in one panel; both must have x and vx."""
     begin, end = _window(both)
-    figure, axes = panels(1, 1, height=3.6, width=5.4)
-    ax = axes[0, 0]
+    figure, ((ax,),) = panels(1, 1, height=3.6, width=5.4)
     labels = (both.a.label, both.b.label)
     place, speed = _phase_series(both)
     late = [(one["time"].values >= begin) & (one["time"].values <= end) for one in _sets(both)]

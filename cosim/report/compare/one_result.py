@@ -51,11 +51,9 @@ class OneResult:
         if not self.scenario:
             return _of_system(self.numbers)
         found: dict[str, Any] = {}
-        for name, entries in tomllib.loads(self.scenario).items():
-            if isinstance(entries, dict):
-                found |= {f"{name}.{key}": value for key, value in entries.items()}
-            else:
-                found[name] = entries
+        for name, value in tomllib.loads(self.scenario).items():
+            is_table = isinstance(value, dict)
+            found |= {f"{name}.{key}": value[key] for key in value} if is_table else {name: value}
         return found
 
     @property
@@ -75,8 +73,7 @@ def read_result(folder: Path) -> OneResult:
             )
     try:
         numbers = json.loads((folder / NUMBERS).read_text(encoding="utf-8"))
-        with xr.open_dataset(folder / DATA, engine="h5netcdf") as opened:
-            dataset = opened.load()
+        dataset = xr.load_dataset(folder / DATA, engine="h5netcdf")
         name = str(numbers["name"])
         status, reason = numbers["status"], numbers.get("reason", "")
     except (OSError, ValueError, KeyError, TypeError) as error:

@@ -7,18 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from cosim.files import write_bytes, write_text
-from cosim.report.files import json_text
+from cosim.report import quantities
+from cosim.report.files import write_json
 from cosim.report.page import Picture, render
-from cosim.report.quantities import (
-    DIGITS,
-    FOUND,
-    NONE,
-    ROUNDING,
-    TABLES,
-    digits,
-    told,
-    worded,
-)
+from cosim.report.quantities import DIGITS, FOUND, NONE, digits, is_share, told, worded
 
 from .compare import SAME, Comparison, Difference
 from .series import Apart
@@ -37,12 +29,12 @@ UNFELT = {"m": 1e-7, "m/s": 1e-6, "rad": 1e-6, "rad/s": 1e-5, "N": 1e-6, "N.m": 
 #: Digits that a difference is worth.
 OF_DIFFERENCE = 2
 #: Titles of the summary's groups.
-TITLES = TABLES["compared"]
+TITLES = quantities.TABLES["compared"]
 
 
 def write(both: Comparison, folder: Path, command: str = "") -> None:
     """Numbers, figures and the page."""
-    write_text(json_text(both.summary()), folder / RESULT)
+    write_json(both.summary(), folder / RESULT)
     drawn = pictures(both)
     for one in drawn:
         write_bytes(one.png, folder / f"{one.name}.png")
@@ -71,7 +63,7 @@ def page(both: Comparison, pictures: Sequence[Picture], command: str = "") -> st
         alike=bool(both.a.scenario) is bool(both.b.scenario),
         systems=not (both.a.scenario or both.b.scenario),
         groups=groups(both.different),
-        of_one=[(name, _of_one(both, side)) for name, side in (("A", "a"), ("B", "b"))],
+        of_one=[("A", _of_one(both, "a", 1)), ("B", _of_one(both, "b", 2))],
         curves=[curve_cells(one) for one in both.curves],
         same=_same(both),
         different=len(both.different),
@@ -110,7 +102,7 @@ def _felt(both: Comparison) -> list[Apart]:
 
 def _unfelt(one: Apart) -> float:
     unit = DEGREES.get(one.unit, one.unit)
-    return max(ROUNDING.get(unit, 0.0), UNFELT.get(unit, 0.0))
+    return max(quantities.ROUNDING.get(unit, 0.0), UNFELT.get(unit, 0.0))
 
 
 def _at_top(one: Apart) -> str:
@@ -133,15 +125,14 @@ def groups(numbers: Iterable[Difference]) -> list[tuple[str, list[tuple[str, ...
     """Title -> rows of numbers: name, A, B, difference, relative."""
     found: dict[str, list[tuple[str, ...]]] = {}
     for one in numbers:
-        group, _, name = one.name.partition(".") if "." in one.name else ("", "", one.name)
+        group, name = one.name.split(".", 1) if "." in one.name else ("", one.name)
         words = ", ".join(worded(part) for part in name.split("."))
         found.setdefault(TITLES.get(group, worded(group)), []).append((words, *cells(one)))
     return list(found.items())
 
 
-def _of_one(both: Comparison, side: str) -> list[tuple[str, list[tuple[str, str]]]]:
+def _of_one(both: Comparison, side: str, column: int) -> list[tuple[str, list[tuple[str, str]]]]:
     """Title -> names and values of what only one of them has."""
-    column = 1 if side == "a" else 2
     those = [one for one in both.of_one if getattr(one, side) is not None]
     return [(title, [(row[0], row[column]) for row in rows]) for title, rows in groups(those)]
 
@@ -164,7 +155,7 @@ def cells(one: Difference) -> tuple[str, str, str, str]:
 
     A and B have the digits that a run is worth, or so many more that they are told apart.
     """
-    share = one.name.endswith("share") or one.name.startswith("heat_shares.")
+    share = is_share(one.name)
     for count in range(FOUND, DIGITS + 1):
         a, b = (told(value, one.unit, share, count) for value in (one.a, one.b))
         if a != b:

@@ -7,7 +7,9 @@ is the same quantity, and so is the same port where either has but one of it.
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
+from operator import itemgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -25,11 +27,9 @@ INPUT = "input"
 BASE, FACTOR, OFFSET = "base_units", "si_factor", "si_offset"
 
 
-PICKS: dict[str, Callable[[Array], float]] = {
-    "start": lambda values: float(values[0]),
-    "end": lambda values: float(values[-1]),
-    "lowest": lambda values: float(np.min(values)),
-    "highest": lambda values: float(np.max(values)),
+PICKS: dict[str, Callable[[Array], Any]] = {
+    **{"start": itemgetter(0), "end": itemgetter(-1)},
+    **{"lowest": np.min, "highest": np.max},
 }
 
 
@@ -108,7 +108,7 @@ def apart(series: Series, a: xr.Dataset, b: xr.Dataset) -> Apart | None:
 def ends(series: Series, a: xr.Dataset, b: xr.Dataset) -> dict[str, tuple[float, float]]:
     """start, end, lowest, highest -> those of A and of B, in A's unit."""
     values = (series.of_a(a), series.of_b(b))
-    return {key: (pick(values[0]), pick(values[1])) for key, pick in PICKS.items()}
+    return {key: (float(pick(values[0])), float(pick(values[1]))) for key, pick in PICKS.items()}
 
 
 def _quantities(dataset: xr.Dataset) -> list[str]:
@@ -121,10 +121,9 @@ def _quantities(dataset: xr.Dataset) -> list[str]:
 
 def _single_ports(names: Iterable[str]) -> dict[str, str]:
     """Port -> the one quantity of that name; ports of several units are none of them."""
-    found: dict[str, list[str]] = {}
-    for name in sorted(names):
-        found.setdefault(name.rpartition(".")[2], []).append(name)
-    return {port: those[0] for port, those in found.items() if len(those) == 1}
+    ports = {name: name.rpartition(".")[2] for name in sorted(names)}
+    counts = Counter(ports.values())
+    return {port: name for name, port in ports.items() if counts[port] == 1}
 
 
 def _into(source: Mapping[str, Any], sink: Mapping[str, Any]) -> tuple[float, float] | None:

@@ -57,10 +57,9 @@ class Plate:
 
     def picture(self, dataset: Data) -> Picture:
         """For a page: with what its scripts draw, or else the drawing."""
-        alive = None
-        if self.show is not None:
-            shown = self.show(dataset)
-            alive = shown.live() if isinstance(shown, TimeFigure) else shown
+        shown = self.show(dataset) if self.show else None
+        alive = shown.live() if isinstance(shown, TimeFigure) else shown
+        if alive is not None:
             alive = live_of_material({"title": self.title, **alive}, material_of(dataset))
         return Picture(self.name, self.caption, partial(self.png, dataset), self.alt, alive)
 

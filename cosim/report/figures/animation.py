@@ -7,7 +7,7 @@ belt, which an arrow says the direction of.
 from __future__ import annotations
 
 import io
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
@@ -49,11 +49,9 @@ class Moving(NamedTuple):
     x: Array
     travel: Array
 
-    def at(self, time: float) -> tuple[float, float]:
+    def at(self, time: float) -> list[float]:
         """x and travel, m, at a time, s."""
-        return float(np.interp(time, self.time, self.x)), float(
-            np.interp(time, self.time, self.travel)
-        )
+        return [float(np.interp(time, self.time, each)) for each in (self.x, self.travel)]
 
 
 STANDING = Moving(np.zeros(1), np.zeros(1), np.zeros(1))
@@ -72,15 +70,9 @@ def animation(views: Views, ambient: float, name: str, moving: Moving = STANDING
             for time, view in views
         ]
     speed = np.clip(len(frames) / LASTS, SLOWEST, FASTEST)
-    file = io.BytesIO()
-    frames[0].save(
-        file,
-        format="GIF",
-        save_all=True,
-        append_images=frames[1:],
-        duration=round(1000.0 / speed),
-        loop=0,
-    )
+    file, (first, *rest) = io.BytesIO(), frames
+    how = {"save_all": True, "duration": round(1000.0 / speed), "loop": 0}
+    first.save(file, format="GIF", append_images=rest, **how)
     return file.getvalue()
 
 
@@ -99,10 +91,8 @@ class _Picture:
 
     def __init__(self, views: Views, ambient: float, name: str, moving: Moving) -> None:
         self._ambient, self._name, self._moving = ambient, name, moving
-        rises = (
-            np.array([np.nanmax([np.nanmax(view.belt), np.nanmax(view.ice)]) for _, view in views])
-            - ambient
-        )
+        highest = [max(np.nanmax(view.belt), np.nanmax(view.ice)) for _, view in views]
+        rises = np.array(highest) - ambient
         self._scaled = readable(rises, "K", SMALLEST_RISE)
         top = self._scaled.factor * max(float(rises.max()), SMALLEST_RISE)
         self._norm = Normalize(0.0, top)
@@ -112,64 +102,42 @@ class _Picture:
         ice, belt = figure.subplots(2, 1, height_ratios=[1.6, 1.0])
         self._ice = self._mesh(ice, first.x, first.height, first.ice)
         self._belt = self._mesh(belt, first.offset, -first.depth, first.belt)
-        self._ways: list[tuple[Artist, Affine2D]] = [
-            (mesh, Affine2D()) for mesh in (self._ice, self._belt)
-        ]
-        for (mesh, way), axes in zip(self._ways, (ice, belt), strict=True):
-            mesh.set_transform(way + axes.transData)
-        left = 1e3 * float(np.nanmin(moving.x, initial=0.0))
-        right = 1e3 * float(np.nanmax(moving.x, initial=0.0))
+        self._ways: list[Affine2D] = []
+        self._move(self._ice, ice)
+        self._move(self._belt, belt)
+        left, right = (1e3 * float(pick(moving.x, initial=0.0)) for pick in (np.nanmin, np.nanmax))
         ice.set_xlim(1e3 * first.x.min() + left, 1e3 * first.x.max() + right)
         # the loop's ends, which are one place, go to and fro with the block
         belt.set_xlim(1e3 * first.offset.min() + right, 1e3 * first.offset.max() + left)
-        self._label_ice(ice, _shown_height(views, ambient))
+        ice.set_ylim(0.0, 1e3 * _shown_height(views, ambient))
+        _label(ice, "ice, section through its middle: the part at the contact", "above the contact")
         self._label_belt(belt, first.contact)
         figure.colorbar(self._ice, ax=[ice, belt], label=f"rise over the air [{self._scaled.unit}]")
         self._title = figure.suptitle("", x=0.008, ha="left", color=INK)
 
     def _mesh(self, axes: Axes, x: Array, z: Array, field: Array) -> QuadMesh:
-        return axes.pcolormesh(
-            1e3 * x,
-            1e3 * z,
-            self._rise(field),
-            shading="gouraud" if np.isfinite(field).all() else "nearest",
-            cmap=HEAT_MAP,
-            norm=self._norm,
-            rasterized=True,
-        )
+        look: Any = {"cmap": HEAT_MAP, "norm": self._norm, "rasterized": True}
+        look |= {"shading": "gouraud" if np.isfinite(field).all() else "nearest"}
+        return axes.pcolormesh(1e3 * x, 1e3 * z, self._rise(field), **look)
+
+    def _move(self, artist: Artist, axes: Axes) -> None:
+        """Let a thing go with the block."""
+        self._ways.append(Affine2D())
+        artist.set_transform(self._ways[-1] + axes.transData)
 
     def _rise(self, field: Array) -> Array:
         return np.ma.masked_invalid(self._scaled(field.T - self._ambient))
 
-    def _label_ice(self, axes: Axes, height: float) -> None:
-        axes.set_ylim(0.0, 1e3 * height)
-        axes.set_title("ice, section through its middle: the part at the contact")
-        axes.set_xlabel("along the belt, from the middle of the rig [mm]")
-        axes.set_ylabel("above the contact [mm]")
-        _plain(axes)
-
     def _label_belt(self, axes: Axes, contact: float) -> None:
         half = 0.5e3 * contact
-        (stands,) = axes.plot(
-            [-half, half],
-            [0.0, 0.0],
-            color=SKY,
-            linewidth=5.0,
-            clip_on=False,
-            solid_capstyle="butt",
-        )
-        way = Affine2D()
-        stands.set_transform(way + axes.transData)
-        self._ways.append((stands, way))
+        look: Any = {"linewidth": 5.0, "clip_on": False, "solid_capstyle": "butt"}
+        (stands,) = axes.plot([-half, half], [0.0, 0.0], color=SKY, **look)
+        self._move(stands, axes)
         (self._marks,) = axes.plot([], [], "|", color="white", markersize=8.0)
         gone = float(self._moving.travel[-1] - self._moving.travel[0])
         arrow = {0.0: "", 1.0: "; it moves to the right →", -1.0: "; it moves to the left ←"}
-        axes.set_title(
-            f"belt, the whole loop; the ice stands on the blue line{arrow[float(np.sign(gone))]}"
-        )
-        axes.set_xlabel("along the belt, from the middle of the rig [mm]")
-        axes.set_ylabel("depth [mm]")
-        _plain(axes)
+        title = "belt, the whole loop; the ice stands on the blue line"
+        _label(axes, f"{title}{arrow[float(np.sign(gone))]}", "depth")
         axes.yaxis.set_major_formatter(lambda depth, _: f"{abs(depth):g}")
 
     def frame(self, time: float, view: RigView) -> Image.Image:
@@ -177,7 +145,7 @@ class _Picture:
         self._ice.set_array(self._rise(view.ice))
         self._belt.set_array(self._rise(view.belt))
         x, travel = self._moving.at(time)
-        for _, way in self._ways:
+        for way in self._ways:
             way.clear().translate(1e3 * x, 0.0)
         first, last = view.offset.min(), view.offset.max()
         marks = MARKS * np.arange(np.floor(first / MARKS), np.ceil(last / MARKS)) + travel % MARKS
@@ -188,7 +156,9 @@ class _Picture:
         return Image.fromarray(np.asarray(self._canvas.buffer_rgba())).convert("RGB")
 
 
-def _plain(axes: Axes) -> None:
+def _label(axes: Axes, title: str, upwards: str) -> None:
+    axes.set(title=title, xlabel="along the belt, from the middle of the rig [mm]")
+    axes.set_ylabel(f"{upwards} [mm]")
     plain_ticks(axes)
     axes.grid(visible=False)
     for spine in axes.spines.values():

@@ -10,7 +10,7 @@ What the block left just before a picture is hot in it, and has cooled by the ne
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,11 +78,8 @@ def _places(position: Array, rise: Array) -> tuple[Array, Array]:
     """Means of neighbours, where there are more places than a map shows."""
     many = -(-position.size // MOST_PLACES)
     count = position.size // many
-    used = count * many
-    return (
-        position[:used].reshape(count, many).mean(axis=1),
-        rise[:, :used].reshape(rise.shape[0], count, many).mean(axis=2),
-    )
+    place, rises = (each[..., : count * many] for each in (position, rise))
+    return place.reshape(count, many).mean(axis=1), rises.reshape(-1, count, many).mean(axis=2)
 
 
 def _field(
@@ -102,12 +99,11 @@ def _field(
     below = _below(place, start - way_then[:, None], touched, length)
     # the mean below the block, of the places that are wholly there
     weight = _below(place, start - way_then[:, None], 0.8 * reach, length)
-    contact = np.array(
-        [
-            row[inner].mean() if inner.any() else row.max()
-            for row, inner in zip(rise, weight, strict=True)
-        ]
-    )
+    means = [
+        row[inner].mean() if inner.any() else row.max()
+        for row, inner in zip(rise, weight, strict=True)
+    ]
+    contact = np.array(means)
     rise = np.where(below, contact[:, None], rise)
 
     def behind(k: int) -> Array:
@@ -150,15 +146,10 @@ def belt_temperature(dataset: Data) -> TimeFigure:
     scaled = readable(found.rise.ravel(), "K", SMALLEST_RISE)
     surface = surface_word(dataset)
     least = scaled.factor * SMALLEST_RISE
-    panel = Panel(
-        f"place on the {surface} [m]",
-        [Curve("middle of the block", found.contact, SKY)],
-        shaded=False,
-        from_zero=True,
-        top=found.length,
-        map=Map(
-            scaled(found.rise), found.length, "rise over the air", scaled.unit, HEAT_MAP, least
-        ),
-    )
+    name, unit = "rise over the air", scaled.unit
+    field = Map(scaled(found.rise), found.length, name, unit, HEAT_MAP, least)
+    way = [Curve("middle of the block", found.contact, SKY)]
+    look: Any = {"shaded": False, "from_zero": True, "top": found.length, "map": field}
+    panel = Panel(f"place on the {surface} [m]", way, **look)
     title = titled(f"Temperature of the {surface}", dataset)
     return TimeFigure(found.time, [panel], title=title, height=4.1)

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, Rectangle
 from numpy.typing import NDArray
@@ -20,21 +19,11 @@ from cosim.report.live import Live, TimeFigure
 from cosim.report.palette import BLUE, DARK_RED, GREY, INK, PALE_BLUE, PALE_GREY, RED
 from cosim.report.style import draw_over_time, line, plain_ticks, styled
 
+from . import top_view
 from .friction_table import draw_friction_table
 from .over_time import titled
 from .phase_portrait import Way, phase_portrait
-from .top_view import (
-    REST,
-    Box,
-    Pose,
-    anchors,
-    attachments,
-    belt_width,
-    box_of,
-    centre_of,
-    extreme_poses,
-    surface_words,
-)
+from .top_view import REST, Box, Pose
 
 Array = NDArray[np.float64]
 
@@ -50,8 +39,8 @@ FAINT, FULL = 0.15, 0.9
 def draw_top_view(dataset: Data) -> Figure:
     """Block, springs and surface; a panel for each position, all to the same scale."""
     parameters = mechanics_of(dataset)
-    poses = extreme_poses(dataset)
-    box = box_of(parameters, [pose for _, pose in poses])
+    poses = top_view.extreme_poses(dataset)
+    box = top_view.box_of(parameters, [pose for _, pose in poses])
     width, height = box[1] - box[0], box[3] - box[2]
     across, down = (1, len(poses)) if width > 1.6 * height else (len(poses), 1)
     # beside panels of equal scale there is room for labels, for titles of two lines, for the title
@@ -73,21 +62,21 @@ def draw_top_view(dataset: Data) -> Figure:
 
 def _draw_surface(axes: Axes, dataset: Data, parameters: Parameters, box: Box) -> None:
     """The belt as a band of its width (a slab fills the view), its name and where it moves to."""
-    width = belt_width(dataset)
+    width = top_view.belt_width(dataset)
     low, high = (-0.5 * width, 0.5 * width) if width else (box[2], box[3])
     axes.add_patch(Rectangle((box[0], low), box[1] - box[0], high - low, color=PALE_GREY, zorder=0))
-    centre = centre_of(parameters)
+    centre = top_view.centre_of(parameters)
     if centre is not None:
         radius = abs(centre[1])
         axes.add_patch(Arc(centre, 2 * radius, 2 * radius, color=RED, linewidth=0.8, linestyle=":"))
     # the lower left corner: neither springs nor block ever come there
     left, y, speed = box[0] + 0.012, box[2] + 0.012, parameters.surface.speed
     if speed != 0.0:
-        ends = ((left, y), (left + ARROW, y))[:: 1 if speed > 0.0 else -1]
+        start, end = ((left, y), (left + ARROW, y))[:: 1 if speed > 0.0 else -1]
         look = {"arrowstyle": "-|>", "color": RED, "linewidth": 1.8, "shrinkA": 0, "shrinkB": 0}
-        axes.annotate("", ends[1], ends[0], arrowprops=look)
+        axes.annotate("", end, start, arrowprops=look)
     place = (left + (ARROW if speed else 0.0) + 0.005, y)
-    words = surface_words(dataset, " (grey)")
+    words = top_view.surface_words(dataset, " (grey)")
     axes.annotate(words, place, va="center", color=DARK_RED, fontsize=9)
 
 
@@ -95,7 +84,7 @@ def _draw_rig(axes: Axes, parameters: Parameters, pose: Pose) -> None:
     """Anchors, springs, the contact disc and where it is at rest, its arms and a mark that turns
     with it.
     """
-    fixed, moving = anchors(parameters), attachments(parameters, pose)
+    fixed, moving = top_view.anchors(parameters), top_view.attachments(parameters, pose)
     middle, radius = np.array(pose[:2]), parameters.rig.contact_radius
     springs = [coil(begin, end) for begin, end in zip(fixed, moving, strict=True)]
     axes.add_collection(LineCollection(springs, colors=INK, linewidths=1.0, zorder=3))
@@ -148,7 +137,7 @@ def _draw_way(axes: Axes, way: Way) -> None:
     if way.x is None:
         axes.axhline(float(way.y[0]), **look)
     elif way.fades:
-        _fading(axes, way.x, way.y, way.colour, way.width)
+        _fading(axes, way, np.stack([way.x, way.y], axis=1))
         axes.plot([], [], **look)
     elif way.dash:
         axes.plot(way.x, way.y, **look)
@@ -156,15 +145,12 @@ def _draw_way(axes: Axes, way: Way) -> None:
         line(axes, way.x, way.y, **look)
 
 
-def _fading(axes: Axes, x: Array, y: Array, colour: str, width: float) -> None:
+def _fading(axes: Axes, way: Way, points: Array) -> None:
     """A way that comes out of the paper: its beginning is of the least weight."""
-    ends = np.stack([x, y], axis=1)
-    colours = np.empty((max(x.size - 1, 0), 4))
-    colours[:, :3] = to_rgb(colour)
-    colours[:, 3] = np.linspace(FAINT, FULL, colours.shape[0])
-    pieces = np.stack([ends[:-1], ends[1:]], axis=1)
-    axes.add_collection(LineCollection(list(pieces), colors=colours, linewidths=width))
-    axes.update_datalim(ends[np.isfinite(ends).all(axis=1)])
+    pieces = np.stack([points[:-1], points[1:]], axis=1)
+    colours = [(way.colour, weight) for weight in np.linspace(FAINT, FULL, len(pieces))]
+    axes.add_collection(LineCollection(list(pieces), colors=colours, linewidths=way.width))
+    axes.update_datalim(points[np.isfinite(points).all(axis=1)])
 
 
 def _title(figure: Figure, text: str, dataset: Data) -> None:

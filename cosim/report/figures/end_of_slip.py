@@ -94,10 +94,9 @@ def _gone_again(dataset: Columns, over_time: Columns, ways: list[Way]) -> list[A
     states = [np.array([over_time[name].values[way.row] for name in STATE]) for way in ways]
     strength = np.ones((len(ways), 2))
     outputs = _outputs(dataset, over_time, ways, states, strength)
-    names = FRICTION[:2]
     for number, (way, rows) in enumerate(zip(ways, outputs, strict=True)):
-        was = np.hypot(*(over_time[name].values[way.row] for name in names))
-        is_now = np.hypot(*(rows[0, COLUMNS[name]] for name in names))
+        was = np.hypot(*(over_time[name].values[way.row] for name in FRICTION[:2]))
+        is_now = np.hypot(*(rows[0, COLUMNS[name]] for name in FRICTION[:2]))
         if is_now > 0.0 and np.isfinite(was):
             strength[number, 1] = was / is_now
     if np.all(np.abs(strength - 1.0) < 0.1 * OFF):
@@ -106,25 +105,17 @@ def _gone_again(dataset: Columns, over_time: Columns, ways: list[Way]) -> list[A
 
 
 def _outputs(
-    dataset: Columns,
-    over_time: Columns,
-    ways: list[Way],
-    states: list[Array],
-    strength: Array,
+    dataset: Columns, over_time: Columns, ways: list[Way], states: list[Array], strength: Array
 ) -> list[Array]:
     parameters = mechanics_of(dataset)
     temperature = parameters.temperature_dependence.reference_degC
     if "interface_temperature" in over_time:
         temperature = float(np.nanmean(over_time["interface_temperature"].values))
-    starts = np.concatenate([[0], np.cumsum([way.times.size for way in ways])])
-    rows = simulate_restarted(
-        parameters.pack(),
-        parameters.surface.speed,
-        temperature,
-        np.concatenate([way.times for way in ways]),
-        Restarts.at(starts[:-1].tolist(), states, friction=strength.tolist()),
-    )
-    return [rows[begin:end] for begin, end in zip(starts, starts[1:], strict=False)]
+    ends = np.cumsum([way.times.size for way in ways])
+    restarts = Restarts.at([0, *ends[:-1].tolist()], states, friction=strength.tolist())
+    times, speed = np.concatenate([way.times for way in ways]), parameters.surface.speed
+    rows = simulate_restarted(parameters.pack(), speed, temperature, times, restarts)
+    return np.split(rows, ends[:-1])
 
 
 def _meets(over_time: Columns, way: Way, rows: Array) -> bool:
@@ -148,13 +139,12 @@ def _between(over_time: Columns, way: Way, rows: Array) -> Columns:
     time = over_time["time"].values
     new = ~np.isin(way.times, time) & (rows[:, layout.O_MODE] == SLIP)
     at = way.times[new]
-    filled = {}
-    for name, variable in over_time.data_vars.items():
-        if str(name) in COLUMNS:
-            values = rows[new, COLUMNS[str(name)]]
-        elif str(name) == "mode":
-            values = np.full(at.size, SLIP)
-        else:
-            values = np.interp(at, time, variable.values.astype(float))
-        filled[name] = Column(("time",), values)
-    return Columns(filled, {"time": Column(("time",), at)})
+    filled = {
+        name: rows[new, COLUMNS[name]]
+        if name in COLUMNS
+        else np.interp(at, time, variable.values.astype(float))
+        for name, variable in over_time.data_vars.items()
+    }
+    filled["mode"] = np.full(at.size, SLIP)
+    columns = {name: Column(("time",), values) for name, values in filled.items()}
+    return Columns(columns, {"time": Column(("time",), at)})

@@ -54,37 +54,39 @@ def _rows_through_events(dataset: Columns) -> tuple[Columns, NDArray[np.bool_]]:
     over_time = _with_moments(dataset, over_time, times, slips)
     time = over_time["time"].values.astype(float)
     edges = np.searchsorted(time, times, side="left")
-    ends = np.append(edges[1:], time.size)
-    begins = np.append(0, edges[:-1])
-    before, after = edges - begins > 0, ends - edges > 0
-    on_row = time[np.minimum(edges, time.size - 1)] == times
-    after &= ~on_row  # the row itself is what comes after
+    begins, ends = np.append(0, edges[:-1]), np.append(edges[1:], time.size)
+    last, following = np.maximum(edges - 1, 0), np.minimum(edges, time.size - 1)
+    # a row at the event itself is what comes after
+    before, after = edges > begins, (ends > edges) & (time[following] != times)
+    from_left = np.where(slips, before | ~after, before & ~after)
     added = np.concatenate([times[before], np.nextafter(times, np.inf)[after]])
     rows = np.concatenate([time, added])
     order = np.argsort(rows, kind="stable")
     fixed = _positions(dataset, times)
+
+    def sides(name: str, values: Array) -> tuple[Array, Array]:
+        """At the events, what is before them and after."""
+        if name in fixed:
+            return fixed[name], fixed[name]
+        if name in MEANS:
+            return values[following], values[following]
+        if over_time[name].dtype.kind != "f" or name == "mode":
+            return values[last], values[following]
+        left = _drawn_out(time, values, times, edges - 1, -1, edges - begins)
+        right = _drawn_out(time, values, times, edges, 1, ends - edges)
+        if name in FORCES:  # see `end_of_slip`: what no row knows is not made up
+            return np.where(slips, left, values[last]), right
+        both = np.where(from_left, left, right)
+        return both, both
+
     filled = {}
     for name in columns:
-        variable = over_time[name]
-        values = variable.values.astype(float)
-        if str(name) in fixed:
-            left = right = fixed[str(name)]
-        elif str(name) in MEANS:
-            left = right = values[np.minimum(edges, time.size - 1)]
-        elif variable.dtype.kind != "f" or str(name) == "mode":
-            left, right = values[np.maximum(edges - 1, 0)], values[np.minimum(edges, time.size - 1)]
-        else:
-            left = _drawn_out(time, values, times, edges - 1, -1, edges - begins)
-            if str(name) in FORCES:  # see `end_of_slip`: what no row knows is not made up
-                left = np.where(slips, left, values[np.maximum(edges - 1, 0)])
-            right = _drawn_out(time, values, times, edges, 1, ends - edges)
-            if str(name) not in FORCES:
-                from_left = np.where(slips, before | ~after, before & ~after)
-                left = right = np.where(from_left, left, right)
+        values = over_time[name].values.astype(float)
+        left, right = sides(name, values)
         there = np.concatenate([values, left[before], right[after]])[order]
         filled[name] = Column(("time",), there, dataset[name].attrs)
     new = Columns(filled, {"time": Column(("time",), rows[order])}, dataset.attrs)
-    return new, np.concatenate([np.zeros(time.size, bool), np.ones(added.size, bool)])[order]
+    return new, order >= time.size
 
 
 def _events(dataset: Columns) -> tuple[Array, NDArray[np.bool_]]:

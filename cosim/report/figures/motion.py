@@ -12,54 +12,43 @@ from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.palette import BLUE, GREEN, RED, Scaled, readable
 
 Array = NDArray[np.float64]
-#: Name, rows, colour and width of a part of a run.
-Part = tuple[str, NDArray[np.int64], str, float]
 
 # what a camera over the rig would just see; smaller motions are not blown up to fill the axis
 SMALLEST_LENGTH = 1e-4
 SMALLEST_ANGLE_DEG = 0.1
 # of these: a channel that moves less is told in words instead of drawn as a flat line
 FLAT = 0.05
+DEGREES = Scaled(180.0 / np.pi, "°")
+CHANNELS = (
+    ("x", BLUE, SMALLEST_LENGTH),
+    ("y", GREEN, SMALLEST_LENGTH),
+    ("phi", RED, np.radians(SMALLEST_ANGLE_DEG)),
+)
 
 
 def motion(dataset: Data) -> TimeFigure:
     """x, y and phi over time; where the block keeps to its line or does not turn, words say so."""
-    x, y = (readable(dataset[name].values, "m", floor=1e-3) for name in ("x", "y"))
-    shown = [
-        ("x", BLUE, x, SMALLEST_LENGTH),
-        ("y", GREEN, y, SMALLEST_LENGTH),
-        ("phi", RED, DEGREES, np.radians(SMALLEST_ANGLE_DEG)),
-    ]
     panels, said = [], []
-    for name, colour, scaled, smallest in shown:
-        symbol = {"phi": "φ"}.get(name, name)
-        values = scaled(dataset[name].values)
-        known = values[np.isfinite(values)]
-        if name != "x" and (known.size == 0 or np.ptp(known) < FLAT * scaled.factor * smallest):
-            said.append(_flat(symbol, known, scaled, FLAT * smallest))
-            continue
-        panels.append(
-            Panel(
-                f"{symbol} [{scaled.unit}]",
-                [Curve(symbol, values, colour)],
-                span=scaled.factor * smallest,
-            )
-        )
+    for name, colour, smallest in CHANNELS:
+        symbol, values = {"phi": "φ"}.get(name, name), dataset[name].values
+        scaled = DEGREES if name == "phi" else readable(values, "m", floor=1e-3)
+        span, known = scaled.factor * smallest, scaled(values[np.isfinite(values)])
+        if name != "x" and (known.size == 0 or np.ptp(known) < FLAT * span):
+            said.append(_flat(symbol, known, scaled, FLAT * span))
+        else:
+            curve = Curve(symbol, scaled(values), colour)
+            panels.append(Panel(f"{symbol} [{scaled.unit}]", [curve], span=span))
     note = f"Not drawn, as flat: {'; '.join(said)}." if said else ""
-    return TimeFigure(
-        dataset["time"].values, panels, title="Motion of the block", note=note, height=2.0
-    )
+    time, title = dataset["time"].values, "Motion of the block"
+    return TimeFigure(time, panels, title=title, note=note, height=2.0)
 
 
 def _flat(symbol: str, values: Array, scaled: Scaled, least: float) -> str:
     """What a channel that does not move is."""
     level = float(values.mean()) if values.size else 0.0
-    if abs(level) < scaled.factor * least:
+    if abs(level) < least:
         return f"{symbol} is 0 throughout"
     return f"{symbol} is {level:.3g} {scaled.unit} throughout".replace("-", "−")
-
-
-DEGREES = Scaled(180.0 / np.pi, "°")
 
 
 COMPONENTS = (
@@ -79,25 +68,18 @@ def friction_force(dataset: Data) -> TimeFigure:
     panels, left_out = [], []
     for name, unit, label, colour in COMPONENTS:
         values = dataset[name].values
+        is_first = name == "friction_force_x"
         acts = np.nanmax(np.abs(values), initial=0.0) > SMALLEST_SHARE * max(sizes.values())
-        if name != "friction_force_x" and not acts:
+        if not is_first and not acts:
             left_out.append(label)
             continue
         scaled = readable(values, unit)
-        levels = _levels(scaled(values), scaled, sizes) if name == "friction_force_x" else ()
-        panels.append(
-            Panel(
-                f"{label} [{scaled.unit}]",
-                [Curve(label, scaled(values), colour)],
-                levels=levels,
-                span=1e-6,
-            )
-        )
+        curve = Curve(label, scaled(values), colour)
+        levels = _levels(curve.values, scaled, sizes) if is_first else ()
+        panels.append(Panel(f"{label} [{scaled.unit}]", [curve], levels=levels, span=1e-6))
     note = f"Not drawn, as 0 throughout: {', '.join(left_out)}." if left_out else ""
-    height = 2.6 if len(panels) == 1 else 2.0
-    return TimeFigure(
-        dataset["time"].values, panels, title="Friction on the block", note=note, height=height
-    )
+    height, title = 2.6 if len(panels) == 1 else 2.0, "Friction on the block"
+    return TimeFigure(dataset["time"].values, panels, title=title, note=note, height=height)
 
 
 def _levels(values: Array, scaled: Scaled, sizes: dict[str, float]) -> list[tuple[float, str]]:

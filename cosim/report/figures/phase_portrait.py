@@ -64,13 +64,11 @@ def phase_portrait(dataset: Data) -> list[PhasePlane]:
 
 def phase_portrait_live(dataset: Data) -> Live:
     """The same for a page's scripts."""
-    return {
-        "kind": "phase_plane",
-        "planes": [
-            plane._asdict() | {"ways": [_live(way) for way in plane.ways]}
-            for plane in phase_portrait(dataset)
-        ],
-    }
+    planes = [
+        plane._asdict() | {"ways": [_live(way) for way in plane.ways]}
+        for plane in phase_portrait(dataset)
+    ]
+    return {"kind": "phase_plane", "planes": planes}
 
 
 def _live(way: Way) -> Live:
@@ -85,12 +83,10 @@ def local_surface_speed(dataset: Data) -> Array:
     A slab that turns about (0, 1 / curvature) is slower the nearer to that centre.
     """
     parameters = mechanics_of(dataset)
-    curvature = parameters.pack()[P_CURVATURE]
+    speed: float | Array = parameters.surface.speed
     if "surface_speed_actual" in dataset:
         speed = dataset["surface_speed_actual"].values
-    else:
-        speed = np.full(dataset.sizes["time"], parameters.surface.speed)
-    return np.asarray(speed * (1.0 - curvature * dataset["y"].values))
+    return np.asarray(speed * (1.0 - parameters.pack()[P_CURVATURE] * dataset["y"].values))
 
 
 def _surface_speed(dataset: Data, surface: Array, x: Scaled, vx: Scaled, starts: Array) -> Way:
@@ -111,7 +107,7 @@ class _Part(NamedTuple):
     """A part of a run: rows of its time, its colour and width."""
 
     label: str
-    rows: NDArray[np.int64]
+    rows: slice
     colour: str
     width: float
 
@@ -123,7 +119,7 @@ def _ways(
     return [
         Way(part.label, x[part.rows], y[part.rows], part.colour, part.width, part.label == RAMP)
         for part in parts
-        if part.rows.size
+        if x[part.rows].size
     ]
 
 
@@ -131,15 +127,17 @@ def _parts(run: Data, time: Array) -> list[_Part]:
     """Each ends where the next begins."""
     ramp, zoom = ramp_end(run), zoom_of(run)
     first = int(np.searchsorted(time, ramp, side="right")) if ramp else 0
-    late = int(np.searchsorted(time, zoom.begin)) if zoom else time.size
-    end = int(np.searchsorted(time, zoom.end, side="right")) if zoom else time.size
+    late = end = time.size
+    if zoom:
+        late = int(np.searchsorted(time, zoom.begin))
+        end = int(np.searchsorted(time, zoom.end, side="right"))
     first = min(first, late)
     rest = "after the speed ramp" if ramp else "run"
     parts = [
-        _Part(RAMP, np.arange(0, min(first + 1, time.size) if first else 0), GREY, 0.8),
-        _Part(rest, np.arange(first, min(late + 1, time.size)), BLUE, 0.9),
-        _Part(zoom.title if zoom else "", np.arange(late, end), RED, 1.3),
+        _Part(RAMP, slice(0, first + 1 if first else 0), GREY, 0.8),
+        _Part(rest, slice(first, late + 1), BLUE, 0.9),
+        _Part(zoom.title if zoom else "", slice(late, end), RED, 1.3),
     ]
     if end < time.size:
-        parts.append(_Part("", np.arange(end - 1, time.size), BLUE, 0.9))
+        parts.append(_Part("", slice(end - 1, None), BLUE, 0.9))
     return parts

@@ -7,9 +7,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 from stickslip import Parameters
-from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
+from stickslip.kernel.layout import P_CURVATURE
 
-from cosim.report.bounds import WIDTH
+from cosim.report.bounds import WIDTH, known_rows, spring_ends
 from cosim.report.columns import Data
 from cosim.report.contents import mechanics_of, value_of
 from cosim.report.live import Live, packed
@@ -33,14 +33,14 @@ REST = Pose(0.0, 0.0, 0.0)
 
 def anchors(parameters: Parameters) -> Array:
     """Fixed ends of the springs (4, 2), m."""
-    return np.array(parameters.pack()[P_ANCHOR : P_ANCHOR + 8]).reshape(4, 2)
+    return spring_ends(parameters)[0]
 
 
 def attachments(parameters: Parameters, pose: Pose) -> Array:
     """Ends of the springs on the block (4, 2), m: (x, y) + R(phi) b_i."""
-    arms = np.array(parameters.pack()[P_ATTACH : P_ATTACH + 8]).reshape(4, 2)
     c, s = np.cos(pose.phi), np.sin(pose.phi)
-    return np.asarray(np.array([pose.x, pose.y]) + arms @ np.array([[c, s], [-s, c]]))
+    turned = spring_ends(parameters)[1] @ np.array([[c, s], [-s, c]])
+    return np.asarray(np.array([pose.x, pose.y]) + turned)
 
 
 MARGIN = 0.03  # m around everything drawn
@@ -49,23 +49,18 @@ WORDS = 0.015  # m, for what stands below the rig
 Box = tuple[float, float, float, float]
 
 
-def _known(dataset: Data) -> Data:
-    """The rows in which the block's place is known."""
-    known = [np.isfinite(dataset[name].values) for name in Pose._fields]
-    return dataset.isel(time=np.all(known, axis=0))
-
-
 def extreme_poses(dataset: Data) -> list[tuple[str, Pose]]:
     """At rest, furthest along +-x, and the largest rotation where the block turns."""
-    known = _known(dataset)
-    times, poses = known["time"].values, [known[name].values for name in Pose._fields]
+    known = known_rows(dataset)
     found = [("at rest", REST)]
-    for what, values in (("furthest from rest", poses[0]), ("largest rotation", poses[2])):
-        turns = np.max(np.abs(np.degrees(poses[2])), initial=0.0) > SMALLEST_ANGLE_DEG
-        if values.size and (turns or values is poses[0]):
-            row = int(np.abs(values).argmax())
-            pose = Pose(*(float(each[row]) for each in poses))
-            found.append((f"{what}, t = {times[row]:.2f} s\n{_told(pose)}", pose))
+    for what, name in (("furthest from rest", "x"), ("largest rotation", "phi")):
+        sizes = np.abs(known[name].values)
+        turns = name == "phi" and np.degrees(np.max(sizes, initial=0.0)) > SMALLEST_ANGLE_DEG
+        if sizes.size and (turns or name == "x"):
+            row = int(sizes.argmax())
+            pose = Pose(*(float(known[each][row]) for each in Pose._fields))
+            time = float(known["time"][row])
+            found.append((f"{what}, t = {time:.2f} s\n{_told(pose)}", pose))
     return found
 
 
@@ -132,16 +127,14 @@ def top_view_live(dataset: Data) -> Live:
     """
     parameters = mechanics_of(dataset)
     poses = extreme_poses(dataset)
-    known = _known(dataset)
+    known = known_rows(dataset)
     every = max(-(-known.sizes["time"] // MOST_FRAMES), 1)
     rows = known.isel(time=slice(None, None, every))
     curvature = parameters.pack()[P_CURVATURE]
     return {
         "kind": "top_view",
         "time": packed(rows["time"].values, "f8"),
-        "x": packed(rows["x"].values),
-        "y": packed(rows["y"].values),
-        "phi": packed(rows["phi"].values),
+        **{name: packed(rows[name].values) for name in Pose._fields},
         "travel": packed(rows["surface_travel"].values),
         "mode": packed(np.nan_to_num(rows["mode"].values), "u1"),
         "anchors": anchors(parameters).ravel().tolist(),

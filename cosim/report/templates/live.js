@@ -5,9 +5,7 @@ const live = (() => {
 
   // Numbers as Python packed them: base64 of a little-endian array.
   function numbers(packed) {
-    const text = atob(packed.data);
-    const bytes = new Uint8Array(text.length);
-    for (let i = 0; i < text.length; i++) bytes[i] = text.charCodeAt(i);
+    const bytes = Uint8Array.from(atob(packed.data), (letter) => letter.charCodeAt(0));
     return new KINDS[packed.type](bytes.buffer);
   }
 
@@ -18,12 +16,21 @@ const live = (() => {
     return made;
   }
 
-  // The colour of a curve or of a phase, for a legend.
-  function swatch(colour) {
-    const made = element("span", { class: "swatch" });
-    made.style.background = colour;
+  function button(text, attributes, call) {
+    const made = element("button", { type: "button", ...attributes }, text);
+    made.addEventListener("click", call);
     return made;
   }
+
+  // An attribute with a value; without one (false), none.
+  function attribute(one, name, value) {
+    if (value) one.setAttribute(name, value);
+    else one.removeAttribute(name);
+  }
+
+  // The colour of a phase or of a curve, for a legend.
+  const swatch = (colour, look = "") => element("span", { class: "swatch", style: `background: ${colour}; ${look}` });
+  const swatchOf = ({ colour, dash }) => swatch(colour, dash ? "height: .15rem" : "");
 
   // A number with so many significant digits and a true minus, as the rest of the page has them.
   function told(value, digits = 4) {
@@ -43,10 +50,8 @@ const live = (() => {
 
   // Each figure of a kind with its data and an empty stage; none where its script fails.
   function each(kind, draw) {
-    for (const figure of document.querySelectorAll("figure.live")) {
-      const script = figure.querySelector("script");
-      if (!script) continue;
-      const data = JSON.parse(script.textContent);
+    for (const figure of document.querySelectorAll("figure.live:has(script)")) {
+      const script = figure.querySelector("script"), data = JSON.parse(script.textContent);
       if (data.kind !== kind) continue;
       const stage = element("div", { class: "stage", role: "group", "aria-label": figure.dataset.alt });
       if (data.title) stage.append(element("h3", {}, data.title));
@@ -63,8 +68,8 @@ const live = (() => {
   }
 
   function dataOf(name) {
-    const figure = document.querySelector(`figure.live[data-name="${name}"]`);
-    return figure ? JSON.parse(figure.querySelector("script").textContent) : null;
+    const script = document.querySelector(`figure.live[data-name="${name}"] script`);
+    return script && JSON.parse(script.textContent);
   }
 
   // Call with the width of a box, at once and whenever it changes; on paper that of a sheet, which
@@ -100,25 +105,30 @@ const live = (() => {
     return context;
   }
 
+  // The context of a canvas, in CSS pixels, with as many pixels as the screen has where it lies.
+  function fitted(canvas) {
+    const dense = Math.min(window.devicePixelRatio || 1, 2);
+    const [width, height] = [canvas.clientWidth, canvas.clientHeight].map((size) => Math.round(size * dense));
+    if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, { width, height });
+    const context = canvas.getContext("2d");
+    context.setTransform(dense, 0, 0, dense, 0, 0);
+    return context;
+  }
+
   // "rrggbb" after "rrggbb" as [r, g, b] after [r, g, b].
   function colours(table) {
-    const found = [];
-    for (let i = 0; i < table.length; i += 6) {
-      found.push([0, 2, 4].map((at) => parseInt(table.slice(i + at, i + at + 2), 16)));
-    }
-    return found;
+    const colour = (text) => text.match(/../g).map((part) => parseInt(part, 16));
+    return table.match(/.{6}/g).map(colour);
   }
 
   // The scale of a colour table: lowest value, colours, highest value.
   function scale(map) {
-    const bar = element("div", { class: "bar" });
-    const stops = colours(map.colours).filter((_, i) => i % 15 === 0);
-    const ramp = element("span", { class: "ramp", role: "presentation" });
-    ramp.style.background = `linear-gradient(to right, ${stops.map((c) => `rgb(${c})`)})`;
-    bar.append(
-      element("span", {}, map.label), element("span", {}, told(map.low, 3)), ramp,
+    const stops = colours(map.colours).filter((_, i) => i % 15 === 0).map((c) => `rgb(${c})`);
+    const style = `background: linear-gradient(to right, ${stops})`;
+    return element("div", { class: "bar" },
+      element("span", {}, map.label), element("span", {}, told(map.low, 3)),
+      element("span", { class: "ramp", role: "presentation", style }),
       element("span", {}, `${told(map.high, 3)} ${map.unit}`));
-    return bar;
   }
 
   // The last place at which a rising array is not above a value.
@@ -135,14 +145,13 @@ const live = (() => {
   const listeners = [];
   const clock = {
     time: null,
+    follow: (call) => listeners.push(call),
     show(time) {
       clock.time = time;
       for (const call of listeners) call(time);
     },
-    follow(call) {
-      listeners.push(call);
-    },
   };
 
-  return { DASH, FONT, axis, numbers, element, swatch, told, each, dataOf, onPaper, onWidth, sized, colours, scale, placeOf, clock };
+  return { DASH, FONT, axis, numbers, element, button, attribute, swatch, swatchOf, told, each, dataOf, onPaper, onWidth,
+    sized, fitted, colours, scale, placeOf, clock };
 })();

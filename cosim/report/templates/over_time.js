@@ -2,8 +2,8 @@
 // figures of a page that are over the same time, from begin to end, zoom and point together.
 "use strict";
 (() => {
-  const HEIGHT = 190, MAP_HEIGHT = 340, PAPER = 0.6, INK = "#222", SOFT = "#5c5c5c", SHADE = "#f8ead0";
-  const ON_A_SCREEN = 3, { DASH, FONT } = live;
+  const HEIGHT = 190, MAP_HEIGHT = 340, PAPER = 0.6, INK = "#222", SOFT = "#5c5c5c";
+  const ON_A_SCREEN = 3, { DASH, FONT } = live, { SHADE, density, shade, line } = live.plots;
   const plots = [];
   let sharing = false;
 
@@ -26,67 +26,35 @@
 
   // Sums from below of the filled curves of a stacked panel; others as they are.
   function stacked(curves, values) {
-    let below = null;
-    return curves.map((curve, n) => {
-      if (!curve.fill) return values[n];
-      const sum = Float64Array.from(values[n], (v, i) => (below ? below[i] : 0) + (v || 0));
-      return (below = sum);
-    });
-  }
-
-  // Shaded phases, behind the curves.
-  function shade(plot, phases) {
-    const { ctx, bbox } = plot, { min, max } = plot.scales.x;
-    ctx.save();
-    ctx.fillStyle = SHADE;
-    for (let i = 0; i < phases.length; i += 2) {
-      if (phases[i + 1] < min || phases[i] > max) continue;
-      const left = plot.valToPos(Math.max(phases[i], min), "x", true);
-      const right = plot.valToPos(Math.min(phases[i + 1], max), "x", true);
-      ctx.fillRect(left, bbox.top, Math.max(right - left, 0.5), bbox.height);
-    }
-    ctx.restore();
+    let below = [];
+    const onTop = (own) => (below = own.map((v, i) => (below[i] || 0) + (v || 0)));
+    return curves.map(({ fill }, n) => (fill ? onTop(Float64Array.from(values[n])) : values[n]));
   }
 
   // Broken lines at levels, upright lines at marks and at the time that the animation shows.
   function annotate(plot, panel, marks, named) {
-    const { ctx, bbox } = plot, dense = devicePixelRatio || 1;
-    const { min, max } = plot.scales.x;
+    const { ctx, bbox } = plot, dense = density(), { min, max } = plot.scales.x;
+    const right = bbox.left + bbox.width, bottom = bbox.top + bbox.height;
     ctx.save();
     ctx.beginPath();
-    ctx.rect(bbox.left, 0, plot.ctx.canvas.width - bbox.left, bbox.top + bbox.height);
+    ctx.rect(bbox.left, 0, ctx.canvas.width - bbox.left, bottom);
     ctx.clip();
-    ctx.lineWidth = dense;
-    ctx.font = FONT.replace("12px", `${12 * dense}px`);
-    ctx.fillStyle = INK;
-    function stroke(colour, dash, x0, y0, x1, y1) {
-      ctx.strokeStyle = colour;
-      ctx.setLineDash(dash.map((length) => length * dense));
-      ctx.beginPath();
-      ctx.moveTo(x0, y0);
-      ctx.lineTo(x1, y1);
-      ctx.stroke();
-    }
-    const bottom = bbox.top + bbox.height, right = bbox.left + bbox.width;
+    Object.assign(ctx, { font: FONT.replace("12px", `${12 * dense}px`), fillStyle: INK, textAlign: "left" });
     for (const [height, text] of panel.levels) {
       const y = plot.valToPos(height, "y", true);
       if (y < bbox.top || y > bottom) continue;
-      stroke(SOFT, DASH, bbox.left, y, right, y);
-      ctx.textAlign = "left";
+      line(plot, "y", y, SOFT, 1, DASH);
       ctx.fillText(text, right + 4 * dense, y + 4 * dense);
     }
     for (const [time, text] of marks) {
       if (time < min || time > max) continue;
       const x = plot.valToPos(time, "x", true);
-      stroke(INK, [1, 3], x, bbox.top, x, bottom);
+      line(plot, "x", x, INK, 1, [1, 3]);
       ctx.textAlign = x + ctx.measureText(text).width > ctx.canvas.width ? "right" : "left";
       if (named) ctx.fillText(text, x, bbox.top - 4 * dense);
     }
     const now = live.clock.time;
-    if (now !== null && now >= min && now <= max) {
-      const x = plot.valToPos(now, "x", true);
-      stroke("#b3261e", [], x, bbox.top, x, bottom);
-    }
+    if (now !== null && now >= min && now <= max) line(plot, "x", plot.valToPos(now, "x", true), "#b3261e");
     ctx.restore();
   }
 
@@ -95,8 +63,7 @@
       if (low === null || high === null) return [0, 1];
       for (const [height] of panel.levels) {
         const room = 0.1 * (high - low);
-        if (height > high && height < high + room) high = height;
-        if (height < low && height > low - room) low = height;
+        if (height > low - room && height < high + room) [low, high] = [Math.min(low, height), Math.max(high, height)];
       }
       if (panel.logarithmic) return [low / 1.5, high * 1.5];
       if (high - low < panel.span) {
@@ -128,7 +95,7 @@
         const asked = JSON.stringify([live.onPaper(), plot.bbox, plot.scales.x.min, plot.scales.x.max]);
         if (asked === painted && !live.onPaper()) return;
         painted = asked;
-        const { left, top, width, height } = plot.bbox, dense = devicePixelRatio || 1;
+        const { left, top, width, height } = plot.bbox, dense = density();
         // on paper what is cleared is white, and covers what is below
         const context = live.onPaper() ? plot.ctx : live.sized(floor, width / dense, height / dense);
         const px = (row) => plot.valToPos(data.time[row], "x", true);
@@ -157,11 +124,8 @@
     };
   }
 
-  // Logarithmic, or linear near 0 and logarithmic beyond, or linear.
-  function scaleOf(panel) {
-    if (panel.linear_to) return { range: range(panel), distr: 4, asinh: panel.linear_to };
-    return { range: range(panel), distr: panel.logarithmic ? 3 : 1 };
-  }
+  // Linear near 0 and logarithmic beyond, or logarithmic, or linear.
+  const distrOf = ({ linear_to: linear, logarithmic }) => linear ? { distr: 4, asinh: linear } : { distr: logarithmic ? 3 : 1 };
 
   // Room for the names of levels, the same for all panels of a figure.
   function besidePlots(data) {
@@ -171,7 +135,6 @@
 
   // A label that is longer than the plot is high stands above it; of plots side by side, all do.
   const isAbove = (panel, data) => data.columns > 1 || panel.label.length > 20;
-  const unitOf = (panel) => (panel.label.match(/\[(.*)\]/) || ["", ""])[1];
 
   function options(panel, data, first, last, onCursor, holder, floor) {
     const series = panel.curves.map((curve) => ({
@@ -190,7 +153,7 @@
       height: (floor ? MAP_HEIGHT : HEIGHT) + (first && data.marks.length ? 14 : 0) + (last ? 18 : 0),
       padding: [first && data.marks.length ? 20 : 6, besidePlots(data), 0, 0],
       legend: { show: false },
-      scales: { x: { time: false }, y: scaleOf(panel) },
+      scales: { x: { time: false }, y: { range: range(panel), ...distrOf(panel) } },
       axes: [
         { ...look, size: 26, label: last ? "time [s]" : undefined, labelSize: 18 },
         isAbove(panel, data)
@@ -212,29 +175,30 @@
     };
   }
 
-  // A button for each curve that shows its value where the pointer is, and takes it away.
-  function keys(panel, box, above) {
+  // A button for each curve that shows its value where the pointer is, and takes it away: those places.
+  function keys(panel, box, above, turn) {
     const bar = live.element("div", { class: "bar" });
     // a lone curve by the name of its panel
     const lone = panel.curves.length === 1 && panel.label.startsWith(panel.curves[0].label);
     if (above && !lone) box.append(live.element("div", { class: "small" }, panel.label));
-    const found = panel.curves.map((curve) => {
-      const key = live.element("button", { type: "button", class: "key", "aria-pressed": "true" });
-      const swatch = live.swatch(curve.colour);
-      if (curve.dash) swatch.style.height = ".15rem";
-      const value = live.element("span");
-      key.append(swatch, `${above && lone ? panel.label : curve.label} `, value);
-      bar.append(key);
-      return { key, value };
-    });
     box.append(bar);
-    return found;
+    return panel.curves.map((curve, n) => {
+      const value = live.element("span"), key = live.button("", { class: "key", "aria-pressed": "true" }, () => {
+        const show = key.getAttribute("aria-pressed") !== "true";
+        key.setAttribute("aria-pressed", String(show));
+        turn(n, show);
+      });
+      key.append(live.swatchOf(curve), `${above && lone ? panel.label : curve.label} `, value);
+      bar.append(key);
+      return value;
+    });
   }
 
   function makePanel(room, data, panel, number) {
     const box = live.element("div", { class: "panel" });
-    const shown = keys(panel, box, isAbove(panel, data));
-    const unit = unitOf(panel);
+    const turn = (n, show) => plot.setSeries(order.indexOf(n) + 1, { show });
+    const shown = keys(panel, box, isAbove(panel, data), turn);
+    const [, unit] = panel.label.match(/\[(.*)\]/) || ["", ""];
     const values = panel.curves.map((curve) => live.numbers(curve.values));
     // the lowest has the title for all, unless they are side by side or more than a screen is high
     const many = data.columns > 1 || data.panels.length > ON_A_SCREEN;
@@ -242,18 +206,15 @@
     const onCursor = (plot) => {
       const at = plot.cursor.idx;
       const isThere = at !== null && at !== undefined;
-      shown.forEach(({ value }, n) => (value.textContent = isThere ? `${live.told(values[n][at])} ${unit}` : ""));
+      shown.forEach((value, n) => (value.textContent = isThere ? `${live.told(values[n][at])} ${unit}` : ""));
       if (floor) said.textContent = isThere ? floor.read(plot) : "";
     };
     const floor = panel.map && floorOf(panel, data), said = live.element("output", { class: "small" });
     if (floor) box.append(live.scale(panel.map), said);
     const drawn = panel.stacked ? stacked(panel.curves, values) : values;
     // filled ones from the highest down, so that each covers the lower part of the one before
-    const order = panel.curves.map((_, n) => n);
-    if (panel.stacked) {
-      const filled = order.filter((n) => panel.curves[n].fill).reverse();
-      order.splice(0, order.length, ...filled, ...order.filter((n) => !panel.curves[n].fill));
-    }
+    const places = panel.curves.map((_, n) => n), filled = places.filter((n) => panel.stacked && panel.curves[n].fill);
+    const order = [...filled.reverse(), ...places.filter((n) => !filled.includes(n))];
     const sorted = { ...panel, curves: order.map((n) => panel.curves[n]) };
     const holder = live.element("div", {
       class: "plot", tabindex: "0", role: "group",
@@ -264,37 +225,29 @@
     room.append(box);
     const columns = [data.time, ...order.map((n) => Array.from(drawn[n], (v) => (Number.isFinite(v) ? v : null)))];
     const plot = new uPlot(options(sorted, data, number === 0, last, onCursor, holder, floor), columns, holder);
-    const { time } = data;
-    const lone = time[0] === time[time.length - 1] ? 0.5 : 0;
+    const { time } = data, { height } = plot, lone = time[0] === time[time.length - 1] ? 0.5 : 0;
     plots.push({ plot, group: data.group, begin: time[0] - lone, end: time[time.length - 1] + lone });
-    const { height } = plot;
     live.onWidth(holder, (width) => plot.setSize({ width, height: live.onPaper() ? PAPER * height : height }));
     live.clock.follow(() => plot.redraw(false, false));
-    shown.forEach(({ key }, n) => key.addEventListener("click", () => {
-      const show = key.getAttribute("aria-pressed") !== "true";
-      key.setAttribute("aria-pressed", String(show));
-      plot.setSeries(order.indexOf(n) + 1, { show });
-    }));
     holder.addEventListener("keydown", (event) => onKey(event, data.group, plot, Boolean(floor)));
     return plot;
   }
 
   function onKey(event, group, plot, mapped) {
-    const shift = { ArrowLeft: -1, ArrowRight: 1 }[event.key], rise = { ArrowUp: -1, ArrowDown: 1 }[event.key];
-    if (shift && event.shiftKey) zoomBy(group, plot, 1, 0.25 * shift);
-    else if (shift) point(plot, shift);
-    else if (rise && mapped) point(plot, 0, rise);
-    else if (event.key === "+" || event.key === "=") zoomBy(group, plot, 0.5);
-    else if (event.key === "-") zoomBy(group, plot, 2);
-    else if (event.key === "Home" || event.key === "0" || event.key === "Escape") zoomTo(group, -Infinity, Infinity);
+    const { key, shiftKey } = event, factor = { "+": 0.5, "=": 0.5, "-": 2 }[key];
+    const shift = { ArrowLeft: -1, ArrowRight: 1 }[key], rise = { ArrowUp: -1, ArrowDown: 1 }[key];
+    if (shift && shiftKey) zoomBy(group, plot, 1, 0.25 * shift);
+    else if (shift || (rise && mapped)) point(plot, shift || 0, rise || 0);
+    else if (factor) zoomBy(group, plot, factor);
+    else if (["Home", "0", "Escape"].includes(key)) zoomTo(group, -Infinity, Infinity);
     else return;
     event.preventDefault();
   }
 
   // The pointer a hundredth of what is seen further; it begins in the middle.
-  function point(plot, across, down = 0) {
+  function point(plot, across, down) {
     const [left, top] = [["left", "width", across], ["top", "height", down]].map(([edge, size, step]) => {
-      const length = plot.bbox[size] / (devicePixelRatio || 1), at = plot.cursor[edge];
+      const length = plot.bbox[size] / density(), at = plot.cursor[edge];
       return Math.max(0, Math.min(length, (at >= 0 ? at : 0.5 * length) + 0.01 * step * length));
     });
     plot.setCursor({ left, top }, true);
@@ -302,22 +255,15 @@
 
   function controls(stage, data, plot) {
     const bar = live.element("div", { class: "bar" }), { group } = data;
-    const add = (text, label, call) => {
-      const button = live.element("button", { type: "button", "aria-label": label }, text);
-      button.addEventListener("click", call);
-      bar.append(button);
-    };
+    const add = (text, label, call) => bar.append(live.button(text, { "aria-label": label }, call));
     add("whole run", "show the whole run", () => zoomTo(group, -Infinity, Infinity));
     if (data.part) add(data.part[2], `zoom to ${data.part[2]}`, () => zoomTo(group, data.part[0], data.part[1]));
     add("+", "zoom in", () => zoomBy(group, plot(), 0.5));
     add("−", "zoom out", () => zoomBy(group, plot(), 2));
     add("◀", "earlier", () => zoomBy(group, plot(), 1, -0.5));
     add("▶", "later", () => zoomBy(group, plot(), 1, 0.5));
-    if (data.phases.length && data.phase) {
-      const swatch = live.swatch(SHADE);
-      swatch.style.outline = "1px solid #c9b48a";
-      bar.append(live.element("span", {}, swatch, data.phase));
-    }
+    const shaded = live.swatch(SHADE, "outline: 1px solid #c9b48a");
+    if (data.phases.length && data.phase) bar.append(live.element("span", {}, shaded, data.phase));
     const [rows, all] = data.rows;
     if (rows < all) bar.append(live.element("span", { class: "soft" },
       `${rows} of ${all} rows; lowest, highest and all known events are among them`));

@@ -2,18 +2,15 @@
 "use strict";
 live.player = function (stage, times, start, show) {
   const begin = times[0], end = times[times.length - 1];
-  const bar = live.element("div", { class: "bar" });
-  const button = live.element("button", { type: "button" }, "▶ play");
+  const button = live.button("▶ play", {}, () => set(!playing));
   const slider = live.element("input", {
     type: "range", min: String(begin), max: String(end), step: "any", value: String(begin), "aria-label": "time",
   });
   const rate = live.element("select", { "aria-label": "speed" });
-  for (const [value, word] of [[0.1, "a tenth"], [0.25, "a quarter"], [1, "real time"], [4, "4 times"]]) {
-    rate.append(live.element("option", { value: String(value) }, word));
-  }
+  const rates = [[0.1, "a tenth"], [0.25, "a quarter"], [1, "real time"], [4, "4 times"]];
+  rate.append(...rates.map(([value, word]) => live.element("option", { value }, word)));
   rate.value = "1";
-  bar.append(button, slider, rate);
-  stage.append(bar);
+  stage.append(live.element("div", { class: "bar" }, button, slider, rate));
 
   let time = begin, playing = false, last = 0;
 
@@ -42,7 +39,6 @@ live.player = function (stage, times, start, show) {
     else requestAnimationFrame(step);
   }
 
-  button.addEventListener("click", () => set(!playing));
   slider.addEventListener("input", () => go(Number(slider.value)));
   // one row further, where a range input would go a hundredth of the run
   slider.addEventListener("keydown", (event) => {

@@ -14,9 +14,7 @@ live.rig = (() => {
   }
 
   // The surface; colour: of what is so far (m) ahead of the middle of the block, none where not known.
-  function surface(context, rig, view, pose, colour) {
-    (rig.curvature ? slab : belt)(context, rig, view, pose, colour);
-  }
+  const surface = (context, rig, ...how) => (rig.curvature ? slab : belt)(context, rig, ...how);
 
   function belt(context, rig, view, pose, colour) {
     const half = 0.5 * rig.width, metres = (pixels) => (pixels - view.x(0)) / view.scale;
@@ -80,35 +78,29 @@ live.rig = (() => {
     const c = Math.cos(pose.phi), s = Math.sin(pose.phi), radius = rig.radius * view.scale;
     const middle = [view.x(pose.x), view.y(pose.y)];
     const ends = [0, 1, 2, 3].map((n) => {
-      const [bx, by] = [rig.arms[2 * n], rig.arms[2 * n + 1]];
+      const [bx, by] = rig.arms.slice(2 * n, 2 * n + 2);
       return [pose.x + c * bx - s * by, pose.y + s * bx + c * by];
     });
     context.setLineDash([2, 3]);
-    context.lineWidth = 1;
-    context.strokeStyle = "#5c5c5c";
+    Object.assign(context, { lineWidth: 1, strokeStyle: "#5c5c5c" });
     disc(context, view, 0, 0, radius);
     context.stroke();
     context.setLineDash([]);
-    context.lineWidth = 3;
-    context.strokeStyle = BLUE;
+    Object.assign(context, { lineWidth: 3, strokeStyle: BLUE });
     for (const [ex, ey] of ends) stroke(context, middle, [view.x(ex), view.y(ey)]);
-    context.lineWidth = 2;
-    context.fillStyle = colour;
+    Object.assign(context, { lineWidth: 2, fillStyle: colour });
     disc(context, view, pose.x, pose.y, radius);
     context.fill();
     context.stroke();
     stroke(context, middle, [view.x(pose.x + 0.8 * rig.radius * c), view.y(pose.y + 0.8 * rig.radius * s)]);
     ends.forEach(([ex, ey], n) => {
-      const [ax, ay] = [rig.anchors[2 * n], rig.anchors[2 * n + 1]];
+      const [ax, ay] = rig.anchors.slice(2 * n, 2 * n + 2);
       // a pale edge, to be seen on whatever colour the belt has
       for (const [edge, thick] of [["rgba(255,255,255,.8)", 3.5], [INK, 1.3]]) {
-        context.strokeStyle = edge;
-        context.lineWidth = thick;
+        Object.assign(context, { strokeStyle: edge, lineWidth: thick });
         spring(context, view, ax, ay, ex, ey);
       }
-      context.lineWidth = 1;
-      context.fillStyle = INK;
-      context.strokeStyle = "#fff";
+      Object.assign(context, { lineWidth: 1, fillStyle: INK, strokeStyle: "#fff" });
       disc(context, view, ex, ey, 3.5);
       context.fill();
       context.stroke();
@@ -117,5 +109,5 @@ live.rig = (() => {
     });
   }
 
-  return { surface, block };
+  return { stroke, surface, block };
 })();

@@ -7,18 +7,16 @@ live.each("top_view", (stage, data) => {
   const known = data.map && live.dataOf(data.map), map = known && known.panels[0].map;
   const canvas = live.element("canvas", { role: "img", "aria-label": "the rig from above at the time of the slider" });
   const said = live.element("output", { class: "small" });
-  const plot = live.element("div", { class: "plot" });
-  plot.append(canvas);
+  const plot = live.element("div", { class: "plot" }, canvas);
   stage.append(plot);
-  let colours = null, levels = null, mapTimes = null, contact = null;
+  let colours, levels, mapTimes, contact, floor;
   if (map) {
     colours = live.colours(map.colours);
     [levels, mapTimes, contact] = [map.levels, known.time, known.panels[0].curves[0].values].map(live.numbers);
     stage.append(live.scale(map));
+    // below the rig, so that the dark does not turn its colours over
+    plot.prepend(floor = live.element("canvas", { class: "map" }));
   }
-  // below the rig, so that the dark does not turn its colours over
-  const floor = map && live.element("canvas", { class: "map" });
-  if (map) plot.prepend(floor);
   let context = null, ground = null, view = null, now = data.start;
 
   // The colour of the belt so far (m) ahead of the middle of the block: its material is looked up
@@ -40,14 +38,9 @@ live.each("top_view", (stage, data) => {
     if (!data.speed) return;
     context.strokeStyle = context.fillStyle = RED;
     context.lineWidth = 2.5;
+    live.rig.stroke(context, [from, y0], [to - 8 * forwards, y0]);
     context.beginPath();
-    context.moveTo(from, y0);
-    context.lineTo(to - 8 * forwards, y0);
-    context.stroke();
-    context.beginPath();
-    context.moveTo(to, y0);
-    context.lineTo(to - 10 * forwards, y0 - 5);
-    context.lineTo(to - 10 * forwards, y0 + 5);
+    for (const [back, up] of [[0, 0], [10, -5], [10, 5]]) context.lineTo(to - back * forwards, y0 + up);
     context.fill();
     context.font = '13px system-ui, "DejaVu Sans", sans-serif';
     context.fillText(`${data.curvature ? "slab" : "belt"}, ${live.told(Math.abs(data.speed))} m/s`, 62, y0 + 4);

@@ -23,7 +23,8 @@ def system_columns(run: SystemRun) -> Columns:
     Attributes of a variable: units, participant, causality, nominal, fed_by for an input; where its
     unit is defined, base_units, si_factor and si_offset (value in them = factor * value + offset).
     """
-    result, sources, steps = run.result, _sources(run), run.steps
+    result = run.result
+    sources = {str(each.sink): str(each.source) for each in run.assembly.system.connections}
     variables = {
         column(name): Column(("time",), np.asarray(values), _attributes(run, name, sources))
         for name, values in result.values.items()
@@ -32,12 +33,12 @@ def system_columns(run: SystemRun) -> Columns:
         said = "energy handed over and not taken up, and what units state to be off by"
         variables[RESIDUAL] = Column(("time",), result.ledger.residual, _told("J", said))
     # an entry is one step or, in a long run, some neighbouring ones
+    ends, shortest, longest = run.steps.groups
     for name, values, said in (
-        ("shortest_step", steps.shortest, "smallest macro step up to this time"),
-        ("longest_step", steps.longest, "largest macro step up to this time"),
+        ("shortest_step", shortest, "smallest macro step up to this time"),
+        ("longest_step", longest, "largest macro step up to this time"),
     ):
-        variables[name] = Column(("step_time",), np.asarray(values), _told("s", said))
-    ends = np.asarray(steps.ends)
+        variables[name] = Column(("step_time",), values, _told("s", said))
     axes = {
         "time": Column(("time",), np.asarray(result.time), _told("s", "time")),
         "step_time": Column(("step_time",), ends, _told("s", "end of a macro step")),
@@ -84,19 +85,18 @@ def _attributes(run: SystemRun, name: str, sources: dict[str, str]) -> dict[str,
     return found
 
 
-def _sources(run: SystemRun) -> dict[str, str]:
-    return {str(each.sink): str(each.source) for each in run.assembly.system.connections}
-
-
 def is_rounding(columns: Columns, name: str) -> bool:
     """Whether it is never more than rounding of what its participant computes with."""
     own = columns[name].attrs
-    size = float(np.max(np.abs(columns[name].values)))
     alike = [
-        float(np.max(np.abs(each.values)))
+        _size(each)
         for each in columns.data_vars.values()
         if each.attrs.get("participant") == own["participant"]
         and each.attrs["units"] == own["units"] != NO_UNIT
     ]
-    found: bool = 0.0 < size < max(OF_NOMINAL * own["nominal"], OF_ALIKE * max(alike, default=0.0))
-    return found
+    least = max(OF_NOMINAL * own["nominal"], OF_ALIKE * max(alike, default=0.0))
+    return bool(0.0 < _size(columns[name]) < least)
+
+
+def _size(column: Column) -> float:
+    return float(np.max(np.abs(column.values)))

@@ -70,29 +70,24 @@ def diagram(system: CoupledSystem, order: Sequence[str]) -> Figure:
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set(xlim=(0.0, width), ylim=(height, 0.0))
     axes.axis("off")
+    sheet = _Sheet(axes, system, boxes)
     for number, each in enumerate(back):
-        _draw_around(axes, system, boxes, each, lowest - 0.14 + LANE * number, number)
+        sheet.around(each, lowest - 0.14 + LANE * number, number)
     for number, each in enumerate(over):
-        _draw_around(axes, system, boxes, each, MARGIN + LANE * (number - 0.5), number)
+        sheet.around(each, MARGIN + LANE * (number - 0.5), number)
     for each in system.connections:
         if spans[each] == 1:
-            _draw_forth(axes, system, boxes, each)
+            sheet.forth(each)
     for box in boxes.values():
-        _draw_box(axes, system, box)
+        sheet.box(box)
     return figure
 
 
 def colour_key(system: CoupledSystem) -> str:
     """What the colours of energy and power stand for, as far as the system has any."""
+    kinds = {RED: "dark orange and thick: energy", ORANGE: "light orange and thick: power"}
     colours = {_colour(system, each) for each in system.connections}
-    told = [
-        f"{words} and thick: {what}"
-        for colour, words, what in (
-            (RED, "dark orange", "energy"),
-            (ORANGE, "light orange", "power"),
-        )
-        if colour in colours
-    ]
+    told = [words for colour, words in kinds.items() if colour in colours]
     return f" {', '.join(told).capitalize()}." if told else ""
 
 
@@ -106,24 +101,19 @@ def _boxes(system: CoupledSystem) -> dict[str, Box]:
     for name, participant in system.participants.items():
         fed = [each.sink.port for each in system.connections if each.sink.participant == name]
         sent = [each.source.port for each in system.connections if each.source.participant == name]
-        ports = participant.ports.values()
-        kinds = [port.causality for port in ports]
+        kinds = [port.causality for port in participant.ports.values()]
         outputs = list(dict.fromkeys(sent))
-        free = (
-            kinds.count(Causality.INPUT) - len(fed),
-            kinds.count(Causality.OUTPUT) - len(outputs),
-        )
-        found[name] = Box(name, fed, outputs, _counted(*free))
+        free = {
+            "input": kinds.count(Causality.INPUT) - len(fed),
+            "output": kinds.count(Causality.OUTPUT) - len(outputs),
+        }
+        found[name] = Box(name, fed, outputs, _counted(free))
     return found
 
 
-def _counted(inputs: int, outputs: int) -> str:
+def _counted(free: Mapping[str, int]) -> str:
     """Ports that nothing is connected to, in words."""
-    parts = [
-        f"{count} {word}{'s' * (count > 1)}"
-        for count, word in ((inputs, "input"), (outputs, "output"))
-        if count
-    ]
+    parts = [f"{count} {word}{'s' * (count > 1)}" for word, count in free.items() if count]
     return f"also {' and '.join(parts)}" if parts else ""
 
 
@@ -175,67 +165,82 @@ def _width(box: Box) -> float:
     return min(max(LETTER * letters, NARROW), 2 * WIDE)
 
 
-def _ends(boxes: Mapping[str, Box], connection: Connection) -> tuple[float, float, float, float]:
-    source, sink = boxes[connection.source.participant], boxes[connection.sink.participant]
-    return (
-        source.x + source.width,
-        source.places[connection.source.port],
-        sink.x,
-        sink.places[connection.sink.port],
-    )
+class _Sheet:
+    """What a system is drawn on."""
 
+    def __init__(self, axes: Axes, system: CoupledSystem, boxes: Mapping[str, Box]) -> None:
+        self._axes, self._system, self._boxes = axes, system, boxes
 
-def _draw_forth(
-    axes: Axes, system: CoupledSystem, boxes: Mapping[str, Box], connection: Connection
-) -> None:
-    x1, y1, x2, y2 = _ends(boxes, connection)
-    reach = 0.5 * (x2 - x1)
-    points = [(x1, y1), (x1 + reach, y1), (x2 - reach, y2), (x2, y2)]
-    _draw_line(axes, system, connection, points, Path.CURVE4, (x2 - 0.12, y2 - 0.04, "right"))
+    def forth(self, connection: Connection) -> None:
+        """A line to the next column."""
+        x1, y1, x2, y2 = self._ends(connection)
+        reach = 0.5 * (x2 - x1)
+        points = [(x1, y1), (x1 + reach, y1), (x2 - reach, y2), (x2, y2)]
+        self._line(connection, points, Path.CURVE4, (x2 - 0.12, y2 - 0.04, "right"))
 
+    def around(self, connection: Connection, lane: float, number: int) -> None:
+        """Out to the right, along a lane below or above all boxes, and in from the left."""
+        x1, y1, x2, y2 = self._ends(connection)
+        aside = ASIDE + SHIFT * (number % LANES)
+        points = [
+            *((x1, y1), (x1 + aside, y1), (x1 + aside, lane)),
+            *((x2 - aside, lane), (x2 - aside, y2), (x2, y2)),
+        ]
+        label = (0.5 * (x1 + x2), lane - 0.02, "center")
+        self._line(connection, points, Path.LINETO, label)
 
-def _draw_around(
-    axes: Axes,
-    system: CoupledSystem,
-    boxes: Mapping[str, Box],
-    connection: Connection,
-    lane: float,
-    number: int,
-) -> None:
-    """Out to the right, along a lane below or above all boxes, and in from the left."""
-    x1, y1, x2, y2 = _ends(boxes, connection)
-    aside = ASIDE + SHIFT * (number % LANES)
-    points = [
-        *((x1, y1), (x1 + aside, y1), (x1 + aside, lane)),
-        *((x2 - aside, lane), (x2 - aside, y2), (x2, y2)),
-    ]
-    label = (0.5 * (x1 + x2), lane - 0.02, "center")
-    _draw_line(axes, system, connection, points, Path.LINETO, label)
+    def box(self, box: Box) -> None:
+        """A unit with its ports."""
+        corner, round_ = (box.x, box.y), "round,pad=0,rounding_size=0.08"
+        look: Any = {"facecolor": PALE_GREY, "edgecolor": GREY, "linewidth": 1.0, "zorder": 3}
+        self._axes.add_patch(FancyBboxPatch(corner, box.width, box.height, boxstyle=round_, **look))
+        middle = box.x + 0.5 * box.width
+        self._text(middle, box.y + 0.22, box.name, 10, weight="bold")
+        ports = self._system.participants[box.name].ports
+        for names, x, align in (
+            (box.inputs, box.x + 0.08, "left"),
+            (box.outputs, box.x + box.width - 0.08, "right"),
+        ):
+            for name in names:
+                unit = ports[name].unit
+                said = "" if unit == NO_UNIT else f" [{unit_text(unit)}]"
+                self._text(x, box.places[name], clipped(name, LONGEST_NAME) + said, 8, ha=align)
+        if box.note:
+            self._text(middle, box.y + box.height - 0.13, box.note, 7.5, color=GREY)
 
+    def _text(self, x: float, y: float, words: str, size: float, **look: Any) -> None:
+        usual: Any = {"ha": "center", "va": "center", "color": INK, "zorder": 5}
+        self._axes.text(x, y, words, fontsize=size, **usual | look)
 
-def _draw_line(
-    axes: Axes,
-    system: CoupledSystem,
-    connection: Connection,
-    points: Sequence[tuple[float, float]],
-    code: Any,
-    label: tuple[float, float, str],
-) -> None:
-    """A line of a kind, with an arrow, and how the value is changed on its way, where it is.
+    def _ends(self, connection: Connection) -> tuple[float, float, float, float]:
+        source = self._boxes[connection.source.participant]
+        sink = self._boxes[connection.sink.participant]
+        start, end = source.places[connection.source.port], sink.places[connection.sink.port]
+        return source.x + source.width, start, sink.x, end
 
-    label: x, y and alignment.
-    """
-    colour, affine = _colour(system, connection), system.conversions[connection]
-    path = Path(points, [Path.MOVETO, *[code] * (len(points) - 1)])
-    width = 2.4 if colour in (RED, ORANGE) else 1.2
-    axes.add_patch(PathPatch(path, facecolor="none", edgecolor=colour, linewidth=width, zorder=1))
-    x, y = points[-1]
-    axes.fill([x, x - 0.09, x - 0.09], [y, y - 0.045, y + 0.045], color=colour, zorder=2)
-    if not affine.is_identity:
-        axes.text(
-            *label[:2], str(affine), ha=label[2], va="bottom", fontsize=7.5, color=INK,
-            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8}, zorder=4,
-        )  # fmt: skip
+    def _line(
+        self,
+        connection: Connection,
+        points: Sequence[tuple[float, float]],
+        code: Any,
+        label: tuple[float, float, str],
+    ) -> None:
+        """A line of a kind, with an arrow, and how the value is changed on its way, where it is.
+
+        label: x, y and alignment.
+        """
+        colour, affine = _colour(self._system, connection), self._system.conversions[connection]
+        path = Path(points, [Path.MOVETO, *[code] * (len(points) - 1)])
+        look: Any = {"facecolor": "none", "edgecolor": colour, "zorder": 1}
+        width = 2.4 if colour in (RED, ORANGE) else 1.2
+        self._axes.add_patch(PathPatch(path, linewidth=width, **look))
+        x, y = points[-1]
+        corners = [x, x - 0.09, x - 0.09], [y, y - 0.045, y + 0.045]
+        self._axes.fill(*corners, color=colour, zorder=2)
+        if not affine.is_identity:
+            paper = {"facecolor": "white", "edgecolor": "none", "pad": 0.8}
+            x, y, align = label
+            self._text(x, y, str(affine), 7.5, ha=align, va="bottom", bbox=paper, zorder=4)
 
 
 def _colour(system: CoupledSystem, connection: Connection) -> str:
@@ -245,34 +250,3 @@ def _colour(system: CoupledSystem, connection: Connection) -> str:
     others = [each for each in SERIES if each not in (RED, ORANGE)]
     names = list(system.participants)
     return others[names.index(connection.source.participant) % len(others)]
-
-
-def _draw_box(axes: Axes, system: CoupledSystem, box: Box) -> None:
-    axes.add_patch(
-        FancyBboxPatch(
-            (box.x, box.y), box.width, box.height, boxstyle="round,pad=0,rounding_size=0.08",
-            facecolor=PALE_GREY, edgecolor=GREY, linewidth=1.0, zorder=3,
-        )
-    )  # fmt: skip
-    middle = box.x + 0.5 * box.width
-    axes.text(
-        middle, box.y + 0.22, box.name, ha="center", va="center", weight="bold", fontsize=10,
-        color=INK, zorder=5,
-    )  # fmt: skip
-    for ports, x, align in (
-        (box.inputs, box.x + 0.08, "left"),
-        (box.outputs, box.x + box.width - 0.08, "right"),
-    ):
-        for port in ports:
-            unit = system.participants[box.name].ports[port].unit
-            words = clipped(port, LONGEST_NAME) + (
-                "" if unit == NO_UNIT else f" [{unit_text(unit)}]"
-            )
-            axes.text(
-                x, box.places[port], words, ha=align, va="center", fontsize=8, color=INK, zorder=5,
-            )  # fmt: skip
-    if box.note:
-        axes.text(
-            middle, box.y + box.height - 0.13, box.note, ha="center", va="center", fontsize=7.5,
-            color=GREY, zorder=5,
-        )  # fmt: skip

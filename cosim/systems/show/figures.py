@@ -12,7 +12,7 @@ from cosim.coupling import Ledger
 from cosim.coupling.conversion import NO_UNIT
 from cosim.names import unknown_name
 from cosim.packaged import packaged_tables
-from cosim.report.columns import Columns
+from cosim.report.columns import Column, Columns
 from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.page import Picture, number, unit_text
 from cosim.report.palette import BLUE, FAINT_BLUE, INK, SERIES, Scaled, readable
@@ -63,7 +63,7 @@ def figure_of(run: SystemRun, columns: Columns, name: str) -> Figure:
 def described(run: SystemRun, columns: Columns) -> dict[str, TimeFigure]:
     """The figures over time that there is something for."""
     found = {}
-    if any(each.attrs.get("causality") == "output" for each in columns.data_vars.values()):
+    if any(map(_is_output, columns.data_vars.values())):
         found["signals"] = signals(columns)
     if len(_drawn(columns)[0]) > FIRST_PANELS:
         found["more_signals"] = signals(columns, more=True)
@@ -84,17 +84,13 @@ def signals(columns: Columns, more: bool = False) -> TimeFigure:
         names = names[FIRST_PANELS : FIRST_PANELS + MOST_PANELS]
     elif len(names) > FIRST_PANELS:
         names, said = names[:FIRST_PANELS], ""
-    panels = []
-    for name in names:
-        label, values, least = _signal(columns, name)
-        panels.append(Panel(label, [Curve(name, values, BLUE)], span=least))
+    panels = [_signal(columns, name) for name in names]
     return TimeFigure(columns["time"].values, panels, note=said, columns=2)
 
 
-def _signal(columns: Columns, name: str) -> tuple[str, NDArray[np.float64], float]:
-    """Label, values in a readable unit, and the least that an axis spans.
-
-    Else the last bits of what stays the same would fill the panel.
+def _signal(columns: Columns, name: str) -> Panel:
+    """A signal in a readable unit; its axis has a least span, or else the last bits of what stays
+    the same would fill it.
     """
     values, unit = columns[name].values, columns[name].attrs["units"]
     if is_rounding(columns, name):
@@ -102,19 +98,15 @@ def _signal(columns: Columns, name: str) -> tuple[str, NDArray[np.float64], floa
     scaled = readable(values, unit) if unit in PREFIXED else Scaled(1.0, unit)
     least = NOTHING * scaled.factor * float(np.max(np.abs(values)))
     told = unit_text(scaled.unit)
-    return name if told == NO_UNIT else f"{name} [{told}]", scaled(values), least
+    label = name if told == NO_UNIT else f"{name} [{told}]"
+    return Panel(label, [Curve(name, scaled(values), BLUE)], span=least)
 
 
 def _drawn(columns: Columns) -> tuple[list[str], str]:
     """Outputs to draw, and a line of text on those that stay as they are."""
     sources = {each.attrs.get("fed_by", "") for each in columns.data_vars.values()}
-    outputs = [
-        str(name)
-        for name, each in columns.data_vars.items()
-        if each.attrs.get("causality") == "output"
-    ]
-    connected = [name for name in outputs if columns[name].attrs["long_name"] in sources]
-    ordered = [*connected, *(name for name in outputs if name not in connected)]
+    outputs = [name for name, each in columns.data_vars.items() if _is_output(each)]
+    ordered = sorted(outputs, key=lambda name: columns[name].attrs["long_name"] not in sources)
     noise = [name for name in ordered if is_rounding(columns, name)]
     flat = [name for name in ordered if name not in noise and _is_flat(columns[name].values)]
     # a figure of nothing at all would be less than one of something flat
@@ -127,14 +119,17 @@ def _drawn(columns: Columns) -> tuple[list[str], str]:
     return shown, said
 
 
+def _is_output(column: Column) -> bool:
+    return column.attrs.get("causality") == "output"
+
+
 def _is_flat(values: NDArray[np.float64]) -> bool:
     return bool(np.ptp(values) <= NOTHING * np.max(np.abs(values)))
 
 
 def _constant(columns: Columns, name: str) -> str:
-    unit = columns[name].attrs["units"]
-    told = "" if unit == NO_UNIT else unit_text(unit)
-    return f"{name} {number(float(columns[name].values[-1]))} {told}".strip()
+    value, unit = float(columns[name].values[-1]), columns[name].attrs["units"]
+    return f"{name} {number(value)} {'' if unit == NO_UNIT else unit_text(unit)}".strip()
 
 
 def _energy(time: NDArray[np.float64], ledger: Ledger) -> TimeFigure:
@@ -152,17 +147,18 @@ def _energy(time: NDArray[np.float64], ledger: Ledger) -> TimeFigure:
 
 def _steps(columns: Columns, start: float) -> TimeFigure:
     """Step size over time, on a logarithmic scale where the steps differ much."""
-    edges = np.concatenate([[start], columns["step_time"].values])
+    edges = np.append(start, columns["step_time"].values)
     longest, shortest = (
         np.append(columns[name].values[:1], columns[name].values)
         for name in ("longest_step", "shortest_step")
     )
-    curves = [Curve("macro step", longest, BLUE, steps=True)]
     if np.any(longest > shortest * (1.0 + 1e-6)):
         curves = [
             Curve("longest of neighbours", longest, BLUE, steps=True),
             Curve("shortest of them", shortest, FAINT_BLUE, steps=True),
         ]
+    else:
+        curves = [Curve("macro step", longest, BLUE, steps=True)]
     differ = bool(longest.max() > 5.0 * shortest.min())
     panel = Panel("macro step [s]", curves, logarithmic=differ, from_zero=not differ)
     return TimeFigure(edges, [panel])

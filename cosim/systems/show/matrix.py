@@ -55,10 +55,8 @@ def matrix(system: CoupledSystem, order: Sequence[str]) -> Figure:
         Line2D([], [], marker="s", linestyle="", color=colour, label=label)
         for colour, label in ((RED, "energy"), (ORANGE, "power"), (BLUE, "all else"))
     ]
-    figure.legend(
-        handles=marks, loc="upper left", ncols=3, fontsize=8,
-        bbox_to_anchor=(MARGIN / width - 0.01, 1.0 - 0.36 / height),
-    )  # fmt: skip
+    place = (MARGIN / width - 0.01, 1.0 - 0.36 / height)
+    figure.legend(handles=marks, loc="upper left", ncols=3, fontsize=8, bbox_to_anchor=place)
     return figure
 
 

@@ -39,7 +39,6 @@ def page(
         tiles=tiles(numbers),
         doubts=[f"{each}." for each in doubts(numbers["coupling"])],
         connections=[_connection_row(each) for each in numbers["connections"]],
-        units=_units(numbers["participants"]),
         steps=step_rows(numbers["coupling"]),
         figures={**dict.fromkeys(PICTURES), **figures},
         files=files or {},
@@ -57,10 +56,8 @@ def sentence(numbers: Mapping[str, Any]) -> str:
         f"{steps} step{'s' * (steps != 1)}"
     )
     ended = "" if numbers["status"] == "complete" else ", then the run ended before its time"
-    flows = numbers["ledger"]["energies"]
-    handed = sum(flow["handed"] or 0.0 for flow in flows)
-    missing = sum(abs(flow["in_transit"] or 0.0) for flow in flows)
-    if flows and not ended and missing <= TAKEN_UP * abs(handed):
+    handed, transits = _energies(numbers)
+    if transits and not ended and sum(map(abs, transits)) <= TAKEN_UP * abs(handed):
         ended = f", and all of the {number(handed, 3)} J handed over was taken up"
     left = "; ".join(
         f"from {_seconds(each['since'])} on, {each['unit']} moves as no rig does: {each['says']}"
@@ -71,59 +68,34 @@ def sentence(numbers: Mapping[str, Any]) -> str:
 
 def tiles(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
     """The four figures that stand below the first picture."""
-    coupling, flows = numbers["coupling"], numbers["ledger"]["energies"]
-    handed = sum(flow["handed"] or 0.0 for flow in flows)
-    missing = sum(flow["in_transit"] or 0.0 for flow in flows)
+    coupling, (handed, transits) = numbers["coupling"], _energies(numbers)
     rejected = coupling.get("rejected")
+    steps = f"macro steps, {rejected} taken back" if rejected else "macro steps"
+    third = ("connections", str(len(numbers["connections"])))
+    if transits:
+        missing = number(sum(transits), 2, largest=handed)
+        third = (f"of {number(handed, 3)} J handed over not taken up", f"{missing} J")
     return [
         ("simulated", _seconds(numbers["time_reached"])),
-        (
-            f"macro steps, {rejected} taken back" if rejected else "macro steps",
-            str(coupling["steps"]),
-        ),
-        (
-            f"of {number(handed, 3)} J handed over not taken up",
-            f"{number(missing, 2, largest=handed)} J",
-        )
-        if flows
-        else ("connections", str(len(numbers["connections"]))),
+        (steps, str(coupling["steps"])),
+        third,
         ("computing time of the units", _seconds(numbers["wall_time"], 2)),
     ]
 
 
+def _energies(numbers: Mapping[str, Any]) -> tuple[float, list[float]]:
+    """J handed over by all connections, and of each how much of it was not taken up."""
+    flows = numbers["ledger"]["energies"]
+    handed: float = sum(flow["handed"] or 0.0 for flow in flows)
+    return handed, [flow["in_transit"] or 0.0 for flow in flows]
+
+
 def _seconds(value: float | None, digits: int = 4) -> str:
-    return f"{number(value, digits)} s" if value is not None else number(None)
+    return number(None) if value is None else f"{number(value, digits)} s"
 
 
 def _connection_row(each: Mapping[str, Any]) -> tuple[str, str, str, str]:
-    units = [unit_text(each[key]) for key in ("unit", "to_unit")]
-    units = ["none" if unit == NO_UNIT else unit for unit in units]
-    unit = units[0] if units[0] == units[1] else " to ".join(units)
-    return each["from"], each["to"], unit, str(Affine(each["factor"], each["offset"]))
-
-
-def _units(participants: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
-    """Head and rows of the table of units; columns that no unit has are left out."""
-    columns = {
-        "file": "file",
-        "inputs": "inputs",
-        "outputs": "outputs",
-        "set": "values set",
-        "substeps": "steps a macro step",
-        "steps": "macro steps made",
-        "seconds": "in the unit [s]",
-        "messages": "messages",
-    }
-    there = [key for key in columns if any(key in each for each in participants.values())]
-    if all(each.get("substeps", 1) == 1 for each in participants.values()):
-        there = [key for key in there if key != "substeps"]
-    rows = [
-        (name, *(_cell(key, each.get(key)) for key in there)) for name, each in participants.items()
-    ]
-    return {"head": ["unit", *(columns[key] for key in there)], "rows": rows}
-
-
-def _cell(key: str, value: Any) -> str:
-    if key == "set":
-        return str(len(value or {}))
-    return number(value, 3) if isinstance(value, float) else str(value)
+    units = dict.fromkeys(
+        "none" if each[key] == NO_UNIT else unit_text(each[key]) for key in ("unit", "to_unit")
+    )
+    return each["from"], each["to"], " to ".join(units), str(Affine(each["factor"], each["offset"]))

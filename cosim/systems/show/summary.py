@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -112,59 +113,53 @@ def ledger(run: SystemRun) -> dict[str, Any]:
         {"output": name, "end": _last(values), "largest": _largest(values)}
         for name, values in result.ledger.residuals.items()
     ]
-    powers = []
-    for connection in run.assembly.system.connections:
-        given, made, counted = _integrals(run, connection)
-        if given is not None and made is not None:
-            powers.append(
-                {
-                    "connection": str(connection),
-                    "given": given,
-                    "made" if counted else "under_the_curve": made,
-                    "added": given - made,
-                }
-            )
-    return {"energies": energies, "powers": powers, "residuals": residuals}
+    powers = [_power(run, connection) for connection in run.assembly.system.connections]
+    return {"energies": energies, "powers": [*filter(None, powers)], "residuals": residuals}
 
 
-def _integrals(run: SystemRun, connection: Connection) -> tuple[float | None, float | None, bool]:
-    """J given to the sink, J that the source made, and whether by its own total.
+def _power(run: SystemRun, connection: Connection) -> dict[str, Any] | None:
+    """J given to the sink, and J that the source made; None for what is no power.
 
     The total of `name_flow` in W is `name` in J beside it; else what is under the source's curve.
-    None for what is no power.
     """
     participants, result = run.assembly.system.participants, run.result
     source = watts(find_port(participants, connection.source))
     sink = watts(find_port(participants, connection.sink))
     if source is None or sink is None or result.time.size < 2:
-        return None, None, False
-    given = result.values[str(connection.sink)]
+        return None
     sent = result.values[str(connection.source)]
-    total = str(connection.source).removesuffix("_flow")
-    address = replace(connection.source, port=connection.source.port.removesuffix("_flow"))
-    ports = participants[address.participant].ports
-    counted = (
-        address != connection.source
-        and address.port in ports
-        and (ports[address.port].unit == ENERGY_UNIT)
-    )
-    made = (
-        float(result.values[total][-1] - result.values[total][0])
-        if counted else source * float(np.trapezoid(sent, result.time))
-    )  # fmt: skip
-    return _number(sink * float(np.sum(given[1:] * np.diff(result.time)))), _number(made), counted
+    total = connection.source.port.removesuffix("_flow")
+    beside = participants[connection.source.participant].ports.get(total)
+    is_flow = total != connection.source.port
+    counted = is_flow and beside is not None and beside.unit == ENERGY_UNIT
+    if counted:
+        sums = result.values[str(replace(connection.source, port=total))]
+        made = _number(float(sums[-1] - sums[0]))
+    else:
+        made = _number(source * float(np.trapezoid(sent, result.time)))
+    held = result.values[str(connection.sink)][1:] * np.diff(result.time)
+    given = _number(sink * float(np.sum(held)))
+    if given is None or made is None:
+        return None
+    return {
+        "connection": str(connection),
+        "given": given,
+        "made" if counted else "under_the_curve": made,
+        "added": given - made,
+    }
 
 
 def _coupling(run: SystemRun) -> dict[str, Any]:
-    settings, steps = run.specification.coupling, run.steps
+    settings = run.specification.coupling
+    _, shortest, longest = run.steps.groups
     return {
         "scheme": settings.scheme,
         "order": list(run.assembly.order),
         "step_control": settings.step_control,
         "macro_step": run.assembly.macro_step,
         **step_numbers(run.result),
-        "shortest_step": _number(float(steps.shortest.min())) if steps.count else None,
-        "longest_step": _number(float(steps.longest.max())) if steps.count else None,
+        "shortest_step": _picked(np.min, shortest),
+        "longest_step": _picked(np.max, longest),
     }
 
 
@@ -204,21 +199,26 @@ def _outputs(columns: Columns) -> dict[str, dict[str, Any]]:
             found[str(name)] = {
                 "unit": variable.attrs["units"],
                 "nominal": variable.attrs["nominal"],
-                "start": _number(float(values[0])) if values.size else None,
+                "start": _picked(itemgetter(0), values),
                 "end": _last(values),
-                "lowest": _number(float(np.min(values))) if values.size else None,
-                "highest": _number(float(np.max(values))) if values.size else None,
+                "lowest": _picked(np.min, values),
+                "highest": _picked(np.max, values),
                 "rounding": bool(values.size) and is_rounding(columns, str(name)),
             }
     return found
 
 
+def _picked(pick: Callable[[np.ndarray], float], values: np.ndarray) -> float | None:
+    """One of some values; None where there are none, or it is not finite."""
+    return _number(float(pick(values))) if values.size else None
+
+
 def _last(values: np.ndarray) -> float | None:
-    return _number(float(values[-1])) if values.size else None
+    return _picked(itemgetter(-1), values)
 
 
 def _largest(values: np.ndarray) -> float | None:
-    return _number(float(np.max(np.abs(values)))) if values.size else None
+    return _picked(np.max, np.abs(values))
 
 
 def _number(value: float) -> float | None:
@@ -253,27 +253,24 @@ def ledger_lines(found: Mapping[str, Any]) -> list[str]:
         f"{number(flow['in_transit'], 2, largest=flow['handed'] or 0.0)} J of them not taken up"
         for flow in found["energies"]
     ]
+    made = {"made": "made by the source", "under_the_curve": "under the output's curve"}
     return lines + [
-        f"{flow['connection']}: {number(flow['given'])} J given, "
-        + (
-            f"{number(flow['made'])} J made by the source"
-            if "made" in flow
-            else f"{number(flow['under_the_curve'])} J under the output's curve"
-        )
+        f"{flow['connection']}: {number(flow['given'])} J given, {number(flow[key])} J {words}"
         for flow in found["powers"]
+        for key, words in made.items()
+        if key in flow
     ]
 
 
 def _repeated(coupling: Mapping[str, Any]) -> str:
     """What was made more than once, and what stands although it should not."""
-    parts = []
-    if coupling["rejected"]:
-        parts.append(f"{coupling['rejected']} taken back")
-    if coupling["most_iterations"] > 1:
-        parts.append(f"at most {coupling['most_iterations']} iterations a step")
-    for key, words in (("unconverged", "not converged"), ("above_tolerance", "above tolerance")):
-        if coupling[key]:
-            parts.append(f"{coupling[key]} {words}")
+    told = (
+        ("rejected", 0, "{} taken back"),
+        ("most_iterations", 1, "at most {} iterations a step"),
+        ("unconverged", 0, "{} not converged"),
+        ("above_tolerance", 0, "{} above tolerance"),
+    )
+    parts = [words.format(coupling[key]) for key, usual, words in told if coupling[key] > usual]
     return "".join(f", {part}" for part in parts)
 
 

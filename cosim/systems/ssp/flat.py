@@ -6,15 +6,15 @@ from, and what a parameter set gives to it goes to what it feeds.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
 from cosim.coupling import UnitDefinition
 from cosim.names import unknown_name
 from cosim.systems.specification import Hop, Link, Start, UnitEntry
 from cosim.systems.ssp.package import Package
 from cosim.systems.ssp.structure import NUMBERS, Connector, Element, Ends, Structure
-from cosim.systems.ssp.values import Bound, bound_values
+from cosim.systems.ssp.values import bound_values
 from cosim.systems.system_errors import SystemFault
 
 #: Names of the elements from the outermost system's to this one, without the outermost's.
@@ -25,23 +25,17 @@ Node = tuple[Path, str]
 GIVES, TAKES = ("output", "calculatedParameter"), ("input", "parameter", "structuralParameter")
 
 
-@dataclass(frozen=True)
-class Feed:
-    """What comes to a connector: from where, and the connection that it comes by."""
-
-    source: Node
-    ends: Ends
-
-
 class Flat:
     """The units and links of a structure."""
 
     def __init__(self, structure: Structure, package: Package):
         self._structure, self._package = structure, package
-        self._components: dict[Path, Element] = {}
-        self._systems: dict[Path, Element] = {}
-        self._feeds: dict[Node, Feed] = {}
+        #: Components and systems.
+        self._elements: dict[Path, Element] = {}
+        #: What comes to a connector: from where, and by which connection.
+        self._feeds: dict[Node, tuple[Node, Ends]] = {}
         self._walk((), structure.system)
+        self._components = {path: one for path, one in self._elements.items() if one.source}
         self._names = _names(self._components)
 
     def units(self) -> list[UnitEntry]:
@@ -51,10 +45,10 @@ class Flat:
             UnitEntry(
                 name=self._names[path],
                 file=self._package.file(component.source),
-                given=given[path],
+                given={name: start for (owner, name), start in given.items() if owner == path},
                 ports={
-                    connector.name: (connector.unit, self._definition(connector.unit))
-                    for connector in component.connectors.values()
+                    name: (connector.unit, self._definition(connector.unit))
+                    for name, connector in component.connectors.items()
                     if connector.unit is not None
                 },
             )
@@ -69,164 +63,147 @@ class Flat:
                 continue
             *_, (source, hops) = self._behind(node)
             if source[0] in self._components:
-                for end in (source, node):
-                    self._check_kind(end)
+                self._check_kind(source)
+                self._check_kind(node)
                 found.append(Link(self._address(source), self._address(node), tuple(hops)))
         return found
 
-    def _walk(self, path: Path, system: Element) -> None:
-        self._systems[path] = system
-        for name, element in system.elements.items():
-            if element.source:
-                self._components[(*path, name)] = element
-            else:
-                self._walk((*path, name), element)
-        for ends in system.connections:
-            self._add(path, system, ends)
+    def _walk(self, path: Path, element: Element) -> None:
+        self._elements[path] = element
+        for name, inner in element.elements.items():
+            self._walk((*path, name), inner)
+        for ends in element.connections:
+            self._add(path, element, ends)
 
     def _add(self, path: Path, system: Element, ends: Ends) -> None:
         """Note a connection by the end that it feeds, whichever end the file puts first."""
-        nodes = []
-        for element, name in (ends.start, ends.end):
-            owner = system if not element else system.elements.get(element)
-            if owner is None:
-                known = list(system.elements)
-                raise SystemFault(f"connection {ends}: {unknown_name('element', element, known)}")
-            if name not in owner.connectors:
-                known = list(owner.connectors)
-                raise SystemFault(f"connection {ends}: {unknown_name('connector', name, known)}")
-            kind = owner.connectors[name].kind
-            if kind not in GIVES + TAKES:
-                raise SystemFault(
-                    f"connection {ends}: a connector of kind {kind} is not connected here,"
-                    " allowed are input and output"
-                )
-            # an input of the system gives to what is in it
-            gives = (kind in GIVES) is bool(element)
-            nodes.append((((*path, element) if element else path, name), gives))
-        (start, start_gives), (end, end_gives) = nodes
+        start_gives, end_gives = (_gives(system, ends, end) for end in (ends.start, ends.end))
         if start_gives == end_gives:
             raise SystemFault(
                 f"connection {ends}: both ends {'give' if end_gives else 'take'}, allowed is"
                 " an output to an input"
             )
-        source, sink = (start, end) if start_gives else (end, start)
+        sides = (ends.start, ends.end) if start_gives else (ends.end, ends.start)
+        source, sink = (((*path, *filter(None, [element])), name) for element, name in sides)
         if sink in self._feeds:
             raise SystemFault(
-                f"connection {ends}: {'.'.join((*sink[0], sink[1]))} is fed twice,"
+                f"connection {ends}: {_spelled(sink)} is fed twice,"
                 " allowed is one connection to an input"
             )
-        self._feeds[sink] = Feed(source, ends)
+        self._feeds[sink] = source, ends
 
     def _behind(self, node: Node) -> Iterator[tuple[Node, list[Hop]]]:
         """From where a value comes, farther and farther back, and the hops that it makes from there
         on."""
         seen: set[Node] = set()
         hops: list[Hop] = []
-        while node in self._feeds and node not in seen:
+        while node in self._feeds and node not in seen and not (hops and self._is_of_unit(node)):
             seen.add(node)
-            feed, unit = self._feeds[node], self._connector(node).unit
-            ends, definition = feed.ends, self._definition(unit)
-            hops = [Hop(ends.transformation, ends.converts, unit, definition), *hops]
-            node = feed.source
+            (source, ends), unit = self._feeds[node], self._connector(node).unit
+            hops = [Hop(ends.transformation, ends.converts, unit, self._definition(unit)), *hops]
+            node = source
             yield node, hops
-            if node[0] in self._components:
-                return
+
+    def _is_of_unit(self, node: Node) -> bool:
+        return node[0] in self._components
 
     def _definition(self, unit: str | None) -> UnitDefinition | None:
         return None if unit is None else self._structure.units.get(unit)
 
     def _connector(self, node: Node) -> Connector:
         path, name = node
-        owner = self._components.get(path) or self._systems[path]
-        return owner.connectors[name]
+        return self._elements[path].connectors[name]
 
     def _address(self, node: Node) -> str:
         return f"{self._names[node[0]]}.{node[1]}"
 
     def _check_kind(self, node: Node) -> None:
         connector = self._connector(node)
-        where = ".".join((*node[0], node[1]))
-        if connector.type not in NUMBERS:
-            raise SystemFault(
-                f"connector {where} is a {connector.type}, which is not coupled here,"
-                " allowed are numbers"
-            )
-        if connector.is_array:
-            raise SystemFault(
-                f"connector {where} is an array, which is not coupled here,"
-                " allowed are its elements"
-            )
-        if connector.kind not in ("input", "output"):
-            raise SystemFault(
-                f"connector {where} is a {connector.kind}, which is not coupled here,"
-                " allowed are input and output"
-            )
+        for wrong, what, allowed in (
+            (connector.type not in NUMBERS, f"a {connector.type}", "numbers"),
+            (connector.is_array, "an array", "its elements"),
+            (connector.kind not in ("input", "output"), f"a {connector.kind}", "input and output"),
+        ):
+            if wrong:
+                raise SystemFault(
+                    f"connector {_spelled(node)} is {what}, which is not coupled here,"
+                    f" allowed are {allowed}"
+                )
 
-    def _all_given(self) -> dict[Path, dict[str, Start]]:
-        """Component -> variable -> what it starts from; outer bindings count more than inner."""
-        found: dict[Path, dict[str, Start]] = {path: {} for path in self._components}
-        borders: dict[Node, Start] = {}
+    def _all_given(self) -> dict[Node, Start]:
+        """What every connector and variable starts from; outer bindings count more than inner."""
+        found: dict[Node, Start] = {}
         # from the innermost system outwards, so that what comes later counts
-        for path in sorted(self._components, key=len, reverse=True):
-            for bound in self._bound(path):
-                found[path][bound.name] = bound.start
-        for path in sorted(self._systems, key=len, reverse=True):
-            for bound in self._bound(path):
-                targets = list(self._targets(path, bound.name))
+        inwards = sorted(self._elements, key=len, reverse=True)
+        for path in sorted(inwards, key=lambda path: path not in self._components):
+            node = self._elements[path].node
+            for name, start, place in bound_values(node, self._package, self._structure.units):
+                targets = [*self._targets(path, name)]
                 if not targets:
                     known = self._known_names(path)
-                    unknown = unknown_name("variable of the system", bound.name, known)
-                    raise SystemFault(f"{bound.place}: {unknown}")
-                for owner, name in targets:
-                    if owner in found:
-                        found[owner][name] = bound.start
-                    else:
-                        borders[owner, name] = bound.start
-        self._pass_on(borders, found)
-        return found
-
-    def _bound(self, path: Path) -> Iterator[Bound]:
-        owner = self._components.get(path) or self._systems[path]
-        return bound_values(owner.node, self._package, self._structure.units)
+                    raise SystemFault(
+                        f"{place}: {unknown_name('variable of the system', name, known)}"
+                    )
+                found |= dict.fromkeys(targets, start)
+        return found | self._passed_on(found)
 
     def _targets(self, path: Path, name: str) -> Iterator[Node]:
-        """All connectors and variables that a name means, seen from a system."""
-        system = self._systems[path]
-        if name in system.connectors:
+        """All connectors and variables that a name means, seen from a component or a system."""
+        element = self._elements[path]
+        if element.source or name in element.connectors:
             yield path, name
         for dot in (place for place, letter in enumerate(name) if letter == "."):
-            element, rest = name[:dot], name[dot + 1 :]
-            if element not in system.elements:
-                continue
-            inner = (*path, element)
-            if inner in self._components:
-                yield inner, rest
-            else:
-                yield from self._targets(inner, rest)
+            if name[:dot] in element.elements:
+                yield from self._targets((*path, name[:dot]), name[dot + 1 :])
 
     def _known_names(self, path: Path) -> list[str]:
-        system = self._systems[path]
+        system = self._elements[path]
         known = list(system.connectors)
         for name, element in system.elements.items():
             known += [f"{name}.{connector}" for connector in element.connectors]
         return known
 
-    def _pass_on(self, borders: Mapping[Node, Start], found: dict[Path, dict[str, Start]]) -> None:
+    def _passed_on(self, given: dict[Node, Start]) -> dict[Node, Start]:
         """What a system's connector starts from, to the inputs and parameters that it feeds."""
-        for node, feed in self._feeds.items():
-            if node[0] not in self._components:
+        found = {}
+        for node, (_, ends) in self._feeds.items():
+            if not self._is_of_unit(node):
                 continue
             for passed, hops in self._behind(node):
-                if passed in borders:
-                    found[node[0]][node[1]] = _moved(borders[passed], hops)
+                if passed in given and not self._is_of_unit(passed):
+                    found[node] = _moved(given[passed], hops)
                     break
             else:
-                if passed[0] in self._components and self._connector(node).kind != "input":
+                if self._is_of_unit(passed) and self._connector(node).kind != "input":
                     raise SystemFault(
-                        f"connection {feed.ends}: a parameter that another unit computes is not"
+                        f"connection {ends}: a parameter that another unit computes is not"
                         " done here, allowed are inputs"
                     )
+        return found
+
+
+def _gives(system: Element, ends: Ends, end: tuple[str, str]) -> bool:
+    """Whether an end of a connection is one that gives; SystemFault where there is none such."""
+    element, name = end
+    owner = system.elements.get(element) if element else system
+    if owner is None:
+        known = unknown_name("element", element, system.elements)
+        raise SystemFault(f"connection {ends}: {known}")
+    if name not in owner.connectors:
+        known = unknown_name("connector", name, owner.connectors)
+        raise SystemFault(f"connection {ends}: {known}")
+    kind = owner.connectors[name].kind
+    if kind not in GIVES + TAKES:
+        raise SystemFault(
+            f"connection {ends}: a connector of kind {kind} is not connected here,"
+            " allowed are input and output"
+        )
+    # an input of the system gives to what is in it
+    return (kind in GIVES) is bool(element)
+
+
+def _spelled(node: Node) -> str:
+    return ".".join((*node[0], node[1]))
 
 
 def _moved(start: Start, hops: Iterable[Hop]) -> Start:
@@ -240,11 +217,9 @@ def _moved(start: Start, hops: Iterable[Hop]) -> Start:
 def _names(paths: Iterable[Path]) -> dict[Path, str]:
     """Component -> its name as a participant: without dots, and no two the same."""
     found: dict[Path, str] = {}
-    taken: set[str] = set()
     for path in paths:
         name = "_".join(path).replace(".", "_").replace("/", "_")
-        while name in taken:
+        while name in found.values():
             name += "_"
         found[path] = name
-        taken.add(name)
     return found

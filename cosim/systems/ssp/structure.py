@@ -7,22 +7,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from xml.etree.ElementTree import Element as Xml
 from xml.etree.ElementTree import register_namespace
 
 from cosim.coupling import Affine, UnitDefinition
 from cosim.coupling.conversion import BASE_UNITS
-from cosim.systems.system_errors import SystemFault
+from cosim.systems.system_errors import SystemFault, naming
 
+_NAMES = {
+    **{"ssc": "Common", "ssd": "Description"},
+    **{"ssv": "ParameterValues", "ssm": "ParameterMapping"},
+}
 _SPACES = {
-    prefix: f"http://ssp-standard.org/SSP1/SystemStructure{name}"
-    for prefix, name in {
-        "ssc": "Common",
-        "ssd": "Description",
-        "ssv": "ParameterValues",
-        "ssm": "ParameterMapping",
-    }.items()
+    prefix: f"http://ssp-standard.org/SSP1/SystemStructure{name}" for prefix, name in _NAMES.items()
 }
 for _prefix, _space in _SPACES.items():
     register_namespace(_prefix, _space)
@@ -34,11 +32,14 @@ NUMBERS = (*REALS, *INTEGERS, "Boolean", "Enumeration")
 TYPES = (*NUMBERS, "String", "Binary", "Clock")
 
 
+#: Masters with a fixed step, of OMSimulator and of the OSP tools -> their key of it.
+MASTERS = {"FixedStepMaster": "stepSize", "FixedStepAlgorithm": "baseStepSize"}
+
+
 @dataclass(frozen=True)
 class Connector:
     """A connector of a component or a system; kind and type as the file has them."""
 
-    name: str
     kind: str
     type: str
     unit: str | None
@@ -81,7 +82,6 @@ class Structure:
     """The whole file. start, stop, step: s, None where it names none."""
 
     name: str
-    version: str
     system: Element
     units: Mapping[str, UnitDefinition]
     start: float | None
@@ -99,18 +99,15 @@ def read_structure(root: Xml, place: str) -> Structure:
     if top is None:
         raise SystemFault(f"{place}: has no System, needed is one")
     experiment = root.find(tag("ssd:DefaultExperiment"))
-    try:
+    with naming(place):
         return Structure(
             name=root.get("name") or top.get("name") or "system",
-            version=root.get("version", "1.0"),
             system=_system(top),
             units=units_of(root, "ssd"),
             start=_number(experiment, "startTime"),
             stop=_number(experiment, "stopTime"),
             step=_step(root),
         )
-    except SystemFault as fault:
-        raise SystemFault(f"{place}: {fault}") from None
 
 
 def tag(name: str) -> str:
@@ -121,8 +118,7 @@ def tag(name: str) -> str:
 
 def below(node: Xml, path: str) -> Iterator[Xml]:
     """Elements at a path such as `ssd:Elements/ssd:Component`."""
-    found: Iterator[Xml] = node.iterfind("/".join(tag(part) for part in path.split("/")))
-    return found
+    yield from node.iterfind("/".join(map(tag, path.split("/"))))
 
 
 def local(node: Xml) -> str:
@@ -171,17 +167,14 @@ def converts(node: Xml) -> bool:
 
 def _system(node: Xml) -> Element:
     name = node.get("name", "")
-    for word in ("SignalDictionary", "SignalDictionaryReference"):
-        places = ("ssd:SignalDictionaries", "ssd:Elements")
-        for found in (each for place in places for each in below(node, f"{place}/ssd:{word}")):
+    for found in (*below(node, "ssd:SignalDictionaries/*"), *below(node, "ssd:Elements/*")):
+        if local(found) in ("SignalDictionary", "SignalDictionaryReference"):
             raise SystemFault(
-                f"{word} {found.get('name', '')!r} in system {name!r} is not done here;"
-                " allowed are connections"
-                " of the units themselves"
+                f"{local(found)} {found.get('name', '')!r} in system {name!r} is not done here;"
+                " allowed are connections of the units themselves"
             )
     elements: dict[str, Element] = {}
-    for child in below(node, "ssd:Elements/*"):
-        element = _element(child)
+    for element in map(_element, below(node, "ssd:Elements/*")):
         if element.name in elements:
             raise SystemFault(
                 f"system {name!r} has two elements named {element.name!r}, allowed is one"
@@ -218,7 +211,6 @@ def _connectors(node: Xml) -> dict[str, Connector]:
         kinds = [inner for inner in child if local(inner) in TYPES]
         form = kinds[0] if kinds else None
         found[child.get("name", "")] = Connector(
-            name=child.get("name", ""),
             kind=child.get("kind", "unspecified"),
             type="Real" if form is None else local(form),
             unit=None if form is None else unit_of(form),
@@ -233,17 +225,13 @@ def _ends(node: Xml) -> Ends:
         for side in ("start", "end")
     )
     bare = Ends(start, end, Affine(), converts(node))
-    return Ends(start, end, transformation_of(node, f"connection {bare}"), bare.converts)
+    return replace(bare, transformation=transformation_of(node, f"connection {bare}"))
 
 
 def _number(node: Xml | None, key: str) -> float | None:
-    return None if node is None or node.get(key) is None else _finite(node, key, 0.0)
-
-
-def _finite(node: Xml, key: str, default: float) -> float:
-    text = node.get(key)
-    if text is None:
-        return default
+    text = None if node is None else node.get(key)
+    if node is None or text is None:
+        return None
     try:
         value = float(text)
     except ValueError:
@@ -253,10 +241,14 @@ def _finite(node: Xml, key: str, default: float) -> float:
     return value
 
 
+def _finite(node: Xml, key: str, default: float) -> float:
+    value = _number(node, key)
+    return default if value is None else value
+
+
 def _step(root: Xml) -> float | None:
     """The step of a master that the annotations name: OMSimulator's, or that of the OSP tools."""
     for node in root.iter():
-        for name, key in (("FixedStepMaster", "stepSize"), ("FixedStepAlgorithm", "baseStepSize")):
-            if local(node) == name:
-                return _number(node, key)
+        if local(node) in MASTERS:
+            return _number(node, MASTERS[local(node)])
     return None

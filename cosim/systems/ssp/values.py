@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from xml.etree.ElementTree import Element
 
 from cosim.coupling import UnitDefinition
@@ -27,22 +27,11 @@ SET, MAPPING = "application/x-ssp-parameter-set", "application/x-ssp-parameter-m
 TRUTH = {"true": True, "1": True, "false": False, "0": False}
 
 
-@dataclass(frozen=True)
-class Bound:
-    """A value that a binding gives to a name, seen from the element that has the binding.
-
-    place: where it stands, for messages.
-    """
-
-    name: str
-    start: Start
-    place: str
-
-
 def bound_values(
     node: Element, package: Package, units: Mapping[str, UnitDefinition]
-) -> Iterator[Bound]:
-    """All that the bindings of a component or a system give, in their order: later ones count.
+) -> Iterator[tuple[str, Start, str]]:
+    """All that the bindings of a component or a system give: a name, seen from there, what it
+    starts from, and where that stands, for messages. In their order: later ones count.
 
     units: of the structure file, for sets that have none of their own.
     """
@@ -51,7 +40,7 @@ def bound_values(
         prefix = binding.get("prefix", "")
         named = {prefix + name: start for name, start in given.items()}
         for name, start in _mapped(binding, named, package, place):
-            yield Bound(name, start, place)
+            yield name, start, place
 
 
 def _set(
@@ -63,7 +52,7 @@ def _set(
     if source:
         root, place = package.xml(source), source
     else:
-        inline = binding.find("/".join((tag("ssd:ParameterValues"), tag("ssv:ParameterSet"))))
+        inline = next(below(binding, "ssd:ParameterValues/ssv:ParameterSet"), None)
         if inline is None:
             return {}, "a binding without values"
         root, place = inline, f"the set {inline.get('name', '')!r}"
@@ -94,20 +83,14 @@ def _mapped(
         )
     for entry in below(root, "ssm:MappingEntry"):
         name, target = entry.get("source", ""), entry.get("target", "")
+        what = f"the mapping of {name!r} to {target!r}"
         if not name:
             continue  # of a tool that lists all targets, those that get nothing
         if name not in given:
-            raise SystemFault(
-                f"the mapping of {name!r} to {target!r}: {place} has no such value,"
-                " allowed are those that it has"
-            )
-        affine = transformation_of(entry, f"the mapping of {name!r} to {target!r}")
-        start = given[name]
+            raise SystemFault(f"{what}: {place} has no such value, allowed are those that it has")
+        affine, start = transformation_of(entry, what), given[name]
         if not affine.is_identity and isinstance(start.value, (bool, str)):
-            raise SystemFault(
-                f"the mapping of {name!r} to {target!r} scales what is no number,"
-                " allowed are numbers"
-            )
+            raise SystemFault(f"{what} scales what is no number, allowed are numbers")
         yield target, replace(start, transformation=affine, converts=converts(entry))
 
 
@@ -130,8 +113,7 @@ def _value(parameter: Element, units: Mapping[str, UnitDefinition], what: str) -
             raise SystemFault(f"{what} has no value, needed is one")
         if form in REALS or form in INTEGERS:
             unit = unit_of(child)
-            definition = None if unit is None else units.get(unit)
-            return Start(_numeric(text, form, what), unit, definition)
+            return Start(_numeric(text, form, what), unit, units.get(unit or ""))
         if form == "Boolean":
             if text.strip() not in TRUTH:
                 raise SystemFault(f"{what} is {text!r}, allowed is true or false")
@@ -151,9 +133,8 @@ def _numeric(text: str, form: str, what: str) -> float | int:
         )
     try:
         value = int(text) if form in INTEGERS else float(text)
-        is_finite = math.isfinite(value)
+        if math.isfinite(value):
+            return value
     except (ValueError, OverflowError):
-        is_finite = False
-    if not is_finite:
-        raise SystemFault(f"{what} is {text!r}, allowed is a finite number")
-    return value
+        pass
+    raise SystemFault(f"{what} is {text!r}, allowed is a finite number")

@@ -46,7 +46,7 @@ def test_columns_are_figures_and_rows_their_panels():
     for one in live["figures"]:
         upper, lower = one["panels"]
         assert [upper["label"], lower["label"]] == ["x [cm]", "φ [mrad]"]
-        assert upper["levels"] == [[1.5, "the study's"]] and lower["levels"] == []
+        assert upper["levels"] == [(1.5, "the study's")] and lower["levels"] == []
         assert upper["curves"][0]["label"] == lower["curves"][0]["label"] == "a model"
         time = unpacked(one["time"])
         assert time[-1] == 1.0, "what is seen, and not more"
