@@ -7,19 +7,33 @@ change, the trajectory therefore does not depend on when anybody looks at it.
 
 from math import isfinite
 
-from .bristles.law import *
-from .bristles.step import *
-from .contact import *
-from .events import *
-from .friction.coefficient import *
-from .interpolant import *
+from .bristles.law import has_bristles
+from .bristles.step import (
+    choose_bristles,
+    fast_slip_bound,
+    finish_bristle_step,
+    settle_bristles,
+    stable_step,
+)
+from .contact import rest_speed, scaled_sliding_speed
+from .events import (
+    break_away,
+    choose_sliding,
+    keep_direction_steady,
+    look_at,
+    set_direction,
+    settle,
+    time_to_rest,
+)
+from .friction.coefficient import holding_coefficient, is_felt
+from .interpolant import copy_instant, look_inside, set_interpolant
 from .layout import *
-from .motion import *
-from .rig.drive import *
-from .rig.springs import *
-from .runge_kutta import *
-from .steady_sliding import *
-from .terms import *
+from .motion import block_energy
+from .rig.drive import set_surface_phase
+from .rig.springs import shortest_spring
+from .runge_kutta import begin_step, load_instant, take_step
+from .steady_sliding import direction_is_free
+from .terms import set_starting_states
 
 
 def initialise(p: Floats, z: Floats, time: float) -> None:

@@ -2,11 +2,11 @@
 
 from math import sqrt
 
-from .friction.coefficient import *
-from .friction.disc import *
+from .friction.coefficient import holding_coefficient, onset_coefficient
+from .friction.disc import disc_friction
 from .layout import *
-from .rig.drive import *
-from .rig.springs import *
+from .rig.drive import input_at, surface_motion
+from .rig.springs import add_damping, add_spring_forces
 
 
 def set_sliding_velocity(p: Floats, w: Floats, state: int) -> None:

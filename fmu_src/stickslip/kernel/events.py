@@ -5,16 +5,29 @@ Both are events, located to rounding. How what slides comes to rest, and what th
 
 from math import log, sqrt
 
-from .bristles.law import *
-from .contact import *
-from .friction.coefficient import *
-from .friction.force import *
+from .bristles.law import has_bristles, set_bristle_friction, yielding_share
+from .contact import (
+    holding_ratio,
+    rest_speed,
+    scaled_sliding_speed,
+    set_contact,
+    set_holding_load,
+    set_onset_direction,
+)
+from .friction.coefficient import age_left, holding_coefficient
+from .friction.force import friction_in_slip
 from .layout import *
-from .motion import *
-from .rig.drive import *
-from .runge_kutta import *
-from .steady_sliding import *
-from .stick import *
+from .motion import kinetic_energy
+from .rig.drive import set_surface_phase
+from .runge_kutta import begin_step, follow_surface, load_instant, take_step
+from .steady_sliding import (
+    may_slide_quasi_steadily,
+    set_steady_direction,
+    slides_quasi_steadily,
+    sliding_energy,
+    turn_to_steady_direction,
+)
+from .stick import fastest_presliding, set_stick_velocity
 
 # Of v_s: sliding slower than this is a stick of a contact with bristles.
 STICK_SPEED = 0.1

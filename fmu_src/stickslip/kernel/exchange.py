@@ -28,19 +28,30 @@ Inputs may change in events, and between them too: then their rates, and with th
 of the surface, come from their past, see `rig.history`.
 """
 
-from .advance import *
-from .bristles.law import *
-from .contact import *
-from .events import *
-from .friction.coefficient import *
+from .advance import settle_contact, sliding_along
+from .bristles.law import has_bristles
+from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load, speed_scale
+from .events import (
+    excess_load,
+    judged_ratio,
+    look_at,
+    mode_excess,
+    note_mode,
+    release,
+    set_direction,
+    settle,
+    stop_sliding,
+    switch_mode,
+)
+from .friction.coefficient import holding_coefficient
 from .layout import *
-from .motion import *
-from .outputs import *
-from .rig.springs import *
-from .runge_kutta import *
-from .steady_sliding import *
-from .stick import *
-from .terms import *
+from .motion import set_slopes
+from .outputs import show
+from .rig.springs import shortest_spring
+from .runge_kutta import load_instant, state_scale
+from .steady_sliding import LOOK_AHEAD
+from .stick import set_stick_velocity
+from .terms import has_state_law
 
 # What a load may lack of the limit, relative to that, for a host's event to be the break-away.
 AT_THE_LIMIT = 1e-9

@@ -13,9 +13,9 @@ an instant is reached by steps of the integrator that leave its own grid alone.
 
 from math import isfinite
 
-from .bristles.law import *
+from .bristles.law import has_bristles
 from .layout import *
-from .runge_kutta import *
+from .runge_kutta import add_stage, begin_step, finish_stick, load_instant, state_scale, take_step
 
 
 def copy_instant(z: Floats, source: int, target: int) -> None:

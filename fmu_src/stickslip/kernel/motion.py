@@ -1,14 +1,14 @@
 """Equations of motion: slopes of the integrated state in stick and in slip."""
 
-from .bristles.law import *
-from .contact import *
-from .friction.force import *
+from .bristles.law import bristle_energy, has_bristles, set_bristle_friction, storing_power
+from .contact import rest_speed, scaled_sliding_speed, set_contact, set_holding_load
+from .friction.force import friction_at_onset, friction_in_slip
 from .layout import *
-from .rig.drive import *
-from .rig.springs import *
-from .steady_sliding import *
-from .stick import *
-from .terms import *
+from .rig.drive import input_at, surface_speed
+from .rig.springs import damping_power, elastic_energy
+from .steady_sliding import set_quasi_steady_motion
+from .stick import ride_surface, set_presliding
+from .terms import set_state_rates
 
 
 def set_slip_friction(p: Floats, u: Floats, w: Floats) -> None:

@@ -7,12 +7,12 @@ surface - goes on from the model's own past.
 
 from math import isfinite
 
-from .advance import *
-from .events import *
+from .advance import advance
+from .events import look_at
 from .layout import *
-from .motion import *
-from .rig.drive import *
-from .runge_kutta import *
+from .motion import block_energy
+from .rig.drive import surface_speed
+from .runge_kutta import begin_step, follow_surface
 
 
 def energy_residual(p: Floats, z: Floats) -> float:

@@ -2,13 +2,13 @@
 
 from math import sqrt
 
-from .bristles.law import *
-from .contact import *
+from .bristles.law import has_bristles
+from .contact import speed_scale
 from .layout import *
-from .motion import *
-from .rig.drive import *
-from .stick import *
-from .terms import *
+from .motion import set_slopes
+from .rig.drive import set_surface_phase
+from .stick import held_energy, set_stick_velocity
+from .terms import with_state_scale
 
 
 def load_instant(p: Floats, z: Floats, w: Floats, instant: int) -> None:

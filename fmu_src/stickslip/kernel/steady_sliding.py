@@ -19,10 +19,17 @@ at the same sigma.
 
 from math import sqrt
 
-from .contact import *
-from .friction.coefficient import *
-from .friction.disc import *
-from .friction.force import *
+from .contact import (
+    rest_speed,
+    scaled_sliding_speed,
+    set_contact,
+    set_holding_load,
+    set_yielding_motion,
+    speed_scale,
+)
+from .friction.coefficient import feels_slow_speed, onset_coefficient, slow_coefficient
+from .friction.disc import disc_friction
+from .friction.force import friction_at_onset, friction_in_slip
 from .layout import *
 
 # Of the motion's own speed; above it an explicit step is long enough to follow the turning.

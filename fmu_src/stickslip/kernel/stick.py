@@ -19,12 +19,12 @@ surface's work, see `held_energy`. (Quasi-steady sliding, see `steady_sliding`, 
 
 from math import sqrt
 
-from .contact import *
-from .friction.coefficient import *
-from .friction.disc import *
+from .contact import set_contact, set_holding_load, set_sliding_velocity
+from .friction.coefficient import holding_coefficient
+from .friction.disc import disc_friction
 from .layout import *
-from .rig.drive import *
-from .rig.springs import *
+from .rig.drive import surface_motion
+from .rig.springs import damping_per_speed
 
 # Each multiplies what the presliding velocity is off by by the presliding speed per load times the
 # damping per speed: hundredths where a contact sticks.

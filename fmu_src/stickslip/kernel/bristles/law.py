@@ -25,10 +25,16 @@ stays as it was, and friction is that of a slip, see `friction.force`.
 
 from math import sqrt
 
-from ..contact import *
-from ..friction.force import *
+from ..contact import (
+    holding_ratio,
+    scale_sliding,
+    scaled_sliding_speed,
+    set_contact,
+    set_holding_load,
+)
+from ..friction.force import add_contact_drag, set_sliding_coefficients
 from ..layout import *
-from ..steady_sliding import *
+from ..steady_sliding import LOOK_AHEAD
 
 # Of its friction that a contact keeps where a law leaves it none: without a limit bristles would
 # give way faster than any step could follow.

@@ -13,11 +13,17 @@ say.
 
 from math import sqrt
 
-from ..contact import *
-from ..events import *
+from ..contact import scaled_sliding_speed, speed_scale
+from ..events import STICK_SPEED, look_at, note_mode, step_to_event, stopping_time, switch_mode
 from ..layout import *
-from ..runge_kutta import *
-from .law import *
+from ..runge_kutta import begin_step, load_instant, take_step
+from .law import (
+    bristle_energy,
+    set_holding_shear,
+    set_presliding_shear,
+    set_sliding_shear,
+    yielding_share,
+)
 
 # Of P_FAST_SLIP: a fast slip ends between it and this, and begins above the second. In between
 # either way of reckoning is good.

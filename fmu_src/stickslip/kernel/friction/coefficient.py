@@ -18,9 +18,9 @@ the way s since the break-away (Dieterich's theta' = 1 - v theta / D without its
 from math import exp
 
 from ..layout import *
-from ..rig.drive import *
+from ..rig.drive import varies
 from ..terms import *
-from .table import *
+from .table import table_coefficient
 
 
 def surface_factor(p: Floats, u: Floats, w: Floats) -> float:

@@ -16,7 +16,7 @@ over the contact is needed where mu is uniform, and none of its noise reaches th
 from math import pi, sqrt
 
 from ..layout import *
-from .coefficient import *
+from .coefficient import sliding_coefficient
 
 
 def elliptic_pair(kc2: float, w: Floats) -> None:

@@ -10,9 +10,15 @@ motion for every kappa.
 from math import sqrt
 
 from ..layout import *
-from ..terms import *
-from .coefficient import *
-from .disc import *
+from ..terms import with_contact_drag
+from .coefficient import (
+    kinetic_coefficient,
+    set_excess,
+    sliding_coefficient,
+    slow_coefficient,
+    state_coefficient,
+)
+from .disc import add_local_law, disc_friction
 
 
 def set_friction(p: Floats, w: Floats, sx: float, sy: float, sr: float, sliding: float) -> None:

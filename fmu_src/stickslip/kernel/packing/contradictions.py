@@ -4,8 +4,8 @@ What is said of each is in `stickslip.contradictions`.
 """
 
 from ..layout import *
-from ..terms import *
-from .vector import *
+from ..terms import has_dry_law
+from .vector import count_grown, count_points
 
 # what `contradiction` returns
 NO_CONTRADICTION = 0

@@ -8,7 +8,7 @@ departs by from its drawing, friction, springs, and the scales that the integrat
 
 from math import cos, log, radians, sin, sqrt
 
-from ..friction.table import *
+from ..friction.table import end_slope, joined_slope
 from ..layout import *
 from ..terms import *
 

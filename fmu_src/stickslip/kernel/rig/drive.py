@@ -15,7 +15,7 @@ where a block breaks away would make it stick again. Inputs that are held jump t
 """
 
 from ..layout import *
-from ..terms import *
+from ..terms import with_surface_acceleration, with_surface_speed
 
 # Of a step: by how much what is left of it behind an event may miss its end, as a host rounds.
 ROUNDING = 1e-9

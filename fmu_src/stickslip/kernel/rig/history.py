@@ -17,7 +17,7 @@ time for which it asks for rates and then leaves one as it is, holds it.
 """
 
 from ..layout import *
-from .drive import *
+from .drive import driven_acceleration, driven_speed, input_at, is_mean
 
 # Of the motion's own time: what lies nearer than that says of a rate nothing but its rounding,
 # which is of some 1e-16 of the input in this time.

@@ -3,7 +3,7 @@
 from math import cos, sin, sqrt
 
 from ..layout import *
-from ..terms import *
+from ..terms import with_spring_energy, with_spring_force
 
 
 def curve_piece(p: Floats, extension: float) -> int:
