@@ -14,6 +14,7 @@ from stickslip.kernel.bristles.law import (
     set_sliding_shear,
     storing_power,
 )
+from stickslip.kernel.contact import scale_sliding
 from stickslip.kernel.friction.force import friction_in_slip
 
 GRAVITY = 9.81
@@ -34,6 +35,7 @@ def sliding(p, motion):
     """Scratch space of a contact that slides with (U_x, U_y, Omega)."""
     w = [0.0] * layout.W_SIZE
     w[SLIDING] = motion
+    scale_sliding(p, w)
     w[layout.W_STATE + layout.MODE] = layout.SLIP
     return w
 
