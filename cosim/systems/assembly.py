@@ -256,19 +256,20 @@ def _step(
             " ends, for instance by --set run.stop=10"
         )
     length = run.stop - run.start
-    if chosen != NOT_GIVEN:
-        if length / chosen > MOST_STEPS:
-            raise SystemFault(
-                f"{specification.source}: coupling.macro_step: {chosen:g} s cuts the run into more"
-                f" than {MOST_STEPS} steps, allowed is at least {length / MOST_STEPS:g} s"
-            )
-        return chosen, ""
     stated = [each.defaultExperiment for each in descriptions.values() if each.defaultExperiment]
     sizes = [float(each.stepSize) for each in stated if each.stepSize is not None]
     advised = min((size for size in sizes if math.isfinite(size) and size > 0.0), default=None)
-    step = advised or length / STEPS_OF_A_RUN
-    why = "as a unit advises" if advised else "a thousandth of the run"
-    return step, f"coupling.macro_step is not given: {step:g} s, {why}"
+    step, why = length / STEPS_OF_A_RUN, "a thousandth of the run"
+    if chosen != NOT_GIVEN:
+        step, why = chosen, ""
+    elif advised:
+        step, why = advised, "as a unit advises"
+    if length / step > MOST_STEPS:
+        raise SystemFault(
+            f"{specification.source}: coupling.macro_step: {step:g} s{why and f' ({why})'} cuts the"
+            f" run into more than {MOST_STEPS} steps, allowed is at least {length / MOST_STEPS:g} s"
+        )
+    return step, why and f"coupling.macro_step is not given: {step:g} s, {why}"
 
 
 def record_every(specification: SystemSpecification, macro_step: float) -> int:

@@ -220,6 +220,8 @@ def called(*argv, figures=True):
         stack.enter_context(warnings.catch_warnings())
         # whether a motion is stable is another question, which takes seconds
         stack.enter_context(mock.patch("cosim.cli.runs.running.MOST_STEPS", 2e4))
+        # what is asked for may be a run of days
+        stack.enter_context(mock.patch("cosim.systems.assembly.MOST_STEPS", 20_000))
         if not figures:
             stack.enter_context(mock.patch("cosim.report.figures.plates_of", return_value=()))
             stack.enter_context(mock.patch("cosim.report.style.png", return_value=b""))

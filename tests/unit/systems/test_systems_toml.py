@@ -147,6 +147,7 @@ def test_rows_of_a_step_control_are_its_steps_and_that_is_told(chain):
         ('to = "second.u"', 'to = "second.u"\nfactor = 0.0', r"factor: 0 would carry nothing"),
         ("macro_step = 0.01", "macro_step = 0", r"coupling.macro_step: out of range \(0\)"),
         ("macro_step = 0.01", "macro_step = 1e-12", r"into more than 1000000000 steps, allowed is"),
+        ("macro_step = 0.01\n[run]\nstop = 1.0", "[run]\nstop = 1e9", r"s \(as a unit advises\)"),
         ("macro_step = 0.01", "macrostep = 1", r"coupling.macrostep: no such key, nearest known"),
         ("macro_step = 0.01", "order = [1]", r"coupling.order: not a text \(1\)"),
         ("macro_step = 0.01", 'order = ["first"]', r"the order leaves out second"),
