@@ -56,6 +56,8 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
             continue
         named = fitting.with_likeliest_filter(named)
         parts = [fitting.part(named, finding) for finding in named.findings]
+        if judge.is_beyond_all(named.findings, named.ladder.rung.gap):
+            return Agreed(named, parts, fitting.fitted(named, parts), tuple(rejected))
         most = max((part.finding.gain for part in parts), default=0.0)
         faint = {part.finding.name for part in parts
                  if judge.may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
@@ -113,7 +115,7 @@ class Fitting:
 
         def missed(form: Named) -> float:
             parts = [self.part(form, form.findings[0])]
-            left = self._fitted(form, parts, is_shown=False, scatters=False).unscattered
+            left = self.fitted(form, parts, is_shown=False, scatters=False).unscattered
             return max(left.fit, judge.judged(left))
 
         chosen = min(forms, key=missed)
@@ -132,7 +134,7 @@ class Fitting:
 
         Rows hardly tell the one from the other.
         """
-        without = self._fitted(named, [])
+        without = self.fitted(named, [])
         offered = named.ladder.first_offers.get(AGEING)
         if offered is None or not judge.is_asked_for_ageing(
             without.fits[-1].values.get(LOADING, 0.0)
@@ -169,20 +171,20 @@ class Fitting:
         Where laws of two effects follow a curve, as one of the user's own and the catalogue's may,
         it is the one with which runs come out better that no fit has seen.
         """
-        models = self._fitted(named, parts)
+        models = self.fitted(named, parts)
         for part in parts:
             for law in part.rivals(self.campaign):
                 if law.effect == part.effect and judge.explains(models.ladder):
                     continue  # another form of it hardly tells
                 other = self.part(named, part.finding, law)
                 swapped = [other if one.finding is part.finding else one for one in parts]
-                others = self._fitted(named, swapped)
+                others = self.fitted(named, swapped)
                 if judge.judged(others.ladder[-1].gap) < judge.judged(models.ladder[-1].gap):
                     parts, models = swapped, others
         if not judge.explains(models.ladder):  # a law may be near its curve, and not near enough
             points = [as_points(self.campaign, named.system, part) for part in parts]
             if points != parts:
-                others = self._fitted(named, points)
+                others = self.fitted(named, points)
                 if judge.judged(others.ladder[-1].gap) < judge.judged(models.ladder[-1].gap):
                     return points, others
         return parts, models
@@ -217,7 +219,7 @@ class Fitting:
         lesser = [part for part in parts if part is not greatest and part.finding.name in asked]
         if greatest is None or len(lesser) < 2 or any(p.finding.gain >= judge.SURE for p in lesser):
             return []
-        alone = self._fitted(named, [greatest], is_shown=False, scatters=False)
+        alone = self.fitted(named, [greatest], is_shown=False, scatters=False)
         if judge.judged(alone.unscattered) > judge.EXPLAINED:
             return []
         alone.let_scatter()
@@ -233,8 +235,8 @@ class Fitting:
         greatest = _greatest(parts)
         if greatest is None or greatest.finding.name not in asked or not greatest.in_kernel:
             return None
-        alone = self._fitted(named, [greatest], is_shown=False, scatters=False)
-        without = self._fitted(named, [], is_shown=False, scatters=False)
+        alone = self.fitted(named, [greatest], is_shown=False, scatters=False)
+        without = self.fitted(named, [], is_shown=False, scatters=False)
         if not alone.is_lost_beside(without):
             return None
         without.let_scatter()
@@ -244,7 +246,7 @@ class Fitting:
         return Rejected(greatest.finding.name, greatest.finding.gain, gained)
 
     def _without(self, part: Part, parts: Sequence[Part], named: Named) -> Models:
-        return self._fitted(named, [other for other in parts if other is not part], is_shown=False)
+        return self.fitted(named, [other for other in parts if other is not part], is_shown=False)
 
     def _is_asked_for(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
         """Whether the simulated runs are more probable with a finding beside the others.
@@ -274,7 +276,7 @@ class Fitting:
         is_missed = judge.leaves(before := without.ladder[-1].gap)
         if not part.in_kernel:
             return True
-        found = self._fitted(named, parts)
+        found = self.fitted(named, parts)
         if found.is_lost:
             return False
         if without.gained(part) > judge.SURE or (len(parts) == 1 and not is_missed):
@@ -289,7 +291,7 @@ class Fitting:
         """What the runs miss without any finding; None where the model with them is near enough."""
         if not parts or judge.explains(models.ladder):
             return None
-        return self._fitted(named, [], is_shown=False).ladder[-1].gap
+        return self.fitted(named, [], is_shown=False).ladder[-1].gap
 
     def rivals(self, parts: Sequence[Part], named: Named, models: Models) -> _Rivals:
         """Of a lone finding along x what the rows would nearly have in its place, simulated.
@@ -326,7 +328,7 @@ class Fitting:
 
         Runs that no fit has seen must come out better with the rival, too; and be explained by it
         in place of what no effect stands for. A curve that is itself the law is not fitted to the
-        runs as a rival is: it stays where it explains them.
+        runs as a rival is: it stays where it explains them, and not by scatter of friction alone.
         """
         lone = _lone(parts)
         if lone is None:
@@ -334,9 +336,11 @@ class Fitting:
         for rival, more in rivals.values():
             if more > judge.SURE:
                 in_place = [rival if part is lone else part for part in parts]
-                with_it, own = (self._fitted(named, some) for some in (in_place, parts))
+                with_it, own = (self.fitted(named, some) for some in (in_place, parts))
                 is_better = judge.judged(with_it.ladder[-1].gap) < judge.judged(own.ladder[-1].gap)
-                stays = lone.in_model and judge.explains(own.ladder)
+                bare = self._without(lone, parts, named).unscattered
+                stays = (lone.in_model and judge.explains(own.ladder)
+                         and judge.halves(own.unscattered, bare))  # fmt: skip
                 if is_better and not stays and (lone.in_kernel or judge.explains(with_it.ladder)):
                     without = self._without(lone, parts, named)
                     gained = without.gained(lone) if lone.in_kernel else None
@@ -362,7 +366,7 @@ class Fitting:
         finding = Finding(name, named.ladder.first_offers[name][1], 0.0)
         return self.part(_with_alone(named, finding), finding)
 
-    def _fitted(
+    def fitted(
         self, named: Named, parts: Sequence[Part], is_shown: bool = True, scatters: bool = True
     ) -> Models:
         """Models of these findings; of what no page shows friction need not scatter."""
