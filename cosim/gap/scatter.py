@@ -23,6 +23,7 @@ from cosim.gap.weak_form.constants import (
     ZERO_PARTS_ASKED,
 )
 from cosim.gap.weak_form.system import Rung
+from cosim.gap.windows.descent import LONGEST
 from cosim.gap.windows.fitted import Fitted, Information
 
 #: Numbers of the runs' own friction, and of the tracker's zeros.
@@ -90,7 +91,8 @@ def _of_runs(fitted: Fitted, known: Information, asked: np.ndarray) -> np.ndarra
     asked : of friction, and of the zeros in parts of what is stated. The runs' own friction and
     zeros are averaged over, and the numbers that the runs share follow: a law that half the scatter
     has taken up takes all of it where less scatter is allowed. With the fit's own information,
-    linear about where it ended; shared numbers at a bound stay there.
+    linear about where it ended, and so by some ten scales of a shared number at most, however little
+    the runs determine it; one at a bound stays there.
     """
     of_friction = np.array([label.startswith(OWN_FRICTION) for label in known.labels])
     own = of_friction | [label.startswith(OWN_ZEROS) for label in known.labels]
@@ -98,10 +100,11 @@ def _of_runs(fitted: Fitted, known: Information, asked: np.ndarray) -> np.ndarra
     root, at = known.root[:, free], np.where(own, known.scaled, 0.0)[free]
     own, of_friction = own[free], of_friction[free]
     noise = max(1.0, fitted.misfit)
-    told, slope = (root.T @ root - np.diag(own.astype(float))) / noise, -at / noise
+    told = (root.T @ root - np.diag(own.astype(float))) / noise
+    slope = (known.slope[free] - at) / noise
     densities = []
     for scatter, zeros in (asked[-1] / asked) ** 2:
-        pull = own * np.where(of_friction, scatter, zeros)
+        pull = np.where(own, np.where(of_friction, scatter, zeros), LONGEST**-2)
         inner = told + np.diag(pull)
         step = np.linalg.lstsq(inner, -slope - pull * at, rcond=None)[0]
         off = step @ told @ step + 2.0 * slope @ step + pull @ (at + step) ** 2

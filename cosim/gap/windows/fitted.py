@@ -57,11 +57,13 @@ class Information:
     """What a fit knows of its numbers, those that are known beforehand included.
 
     labels, scaled : (k,) of the numbers; root : (k, k), the information by these is R' R
+    slope : (k,) of half the sum of squares, not quite 0 where the fit ended early
     """
 
     labels: tuple[str, ...]
     scaled: np.ndarray
     root: np.ndarray
+    slope: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -135,9 +137,9 @@ class Fitted:
     @classmethod
     def at(
         cls, unknowns: Sequence[Unknown], scaled: np.ndarray, derivatives: np.ndarray,
-        runs: tuple[FittedRun, ...], cost: float,
+        runs: tuple[FittedRun, ...], off: np.ndarray,
     ) -> Fitted:  # fmt: skip
-        """From the scaled numbers (k,), the derivatives (rows, k) and the cost there.
+        """From the scaled numbers (k,), the derivatives (rows, k) and the residuals (rows,) there.
 
         The covariance of the scaled numbers is (J'J)^-1, sd = |d value / d scaled| times the root
         of its diagonal.
@@ -156,8 +158,9 @@ class Fitted:
             for bound in (number.low, number.high):
                 if abs(place - number.scaled(bound)) < NEAR:
                     at_bound[label] = bound
-        known = Information(tuple(values), scaled, root)
-        return cls(values, sd, at_bound, runs, cost, Leeway.at(unknowns, scaled, root), (known,))
+        known = Information(tuple(values), scaled, root, derivatives.T @ off)
+        leeway = Leeway.at(unknowns, scaled, root)
+        return cls(values, sd, at_bound, runs, float(off @ off), leeway, (known,))
 
     @property
     def gap(self) -> tuple[float, float]:

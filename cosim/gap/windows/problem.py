@@ -166,5 +166,4 @@ class Problem:
     def _fitted(self, at: np.ndarray) -> Fitted:
         derivatives = self.derivatives(at)
         runs = tuple(part.described(at) for part in self.parts)
-        cost = float(np.sum(self.residuals(at) ** 2))
-        return Fitted.at(self.unknowns, at, derivatives, runs, cost)
+        return Fitted.at(self.unknowns, at, derivatives, runs, self.residuals(at))
