@@ -91,7 +91,7 @@ def _of_runs(fitted: Fitted, known: Information, asked: np.ndarray) -> np.ndarra
     asked : of friction, and of the zeros in parts of what is stated. The runs' own friction and
     zeros are averaged over, and the numbers that the runs share follow: a law that half the scatter
     has taken up takes all of it where less scatter is allowed. With the fit's own information,
-    linear about where it ended, and so by some ten scales of a shared number at most, however little
+    linear about where it ended, and so good for some ten scales of a shared number, however little
     the runs determine it; one at a bound stays there.
     """
     of_friction = np.array([label.startswith(OWN_FRICTION) for label in known.labels])
