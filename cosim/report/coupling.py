@@ -92,14 +92,6 @@ def step_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
     ]
 
 
-def effort_rows(participants: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, ...]]:
-    """Participant, and its steps and seconds."""
-    return [
-        (name, f"{each['steps']} steps, {number(each['seconds'], 3)} s")
-        for name, each in participants.items()
-    ]
-
-
 def _told(key: str, value: Any) -> str:
     if isinstance(value, list):
         return ", ".join(map(str, value)) or "none"

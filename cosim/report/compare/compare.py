@@ -6,18 +6,14 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from importlib import import_module
-from pathlib import Path
 from typing import Any, NamedTuple
 
+from cosim.report.page import PageResult
 from cosim.report.quantities import ROUNDING
-from cosim.result import Result
 
 from .one_result import OneResult
 from .series import Apart, Series, apart, ends, matched
 
-#: What draws and writes; loaded when asked for.
-PAGE = "cosim.report.compare.page"
 #: What a summary has beside the numbers of the run itself, and how it was computed.
 NOT_NUMBERS = (
     *("units", "versions", "parameters", "name", "case", "status", "reason", "created"),
@@ -96,7 +92,7 @@ def _is_residual(name: str) -> bool:
 
 
 @dataclass(frozen=True)
-class Comparison(Result):
+class Comparison(PageResult):
     """Two results beside each other.
 
     Attributes
@@ -108,6 +104,8 @@ class Comparison(Result):
     series : what both have over time, in one unit
     not_compared : what has one name and is not one quantity, a line each
     """
+
+    SHOWN_BY = f"{__package__}.page"
 
     a: OneResult
     b: OneResult
@@ -164,18 +162,6 @@ class Comparison(Result):
                 " found in rows, such as a largest value, may differ by what lies between"
             )
         return [*said, *self.not_compared]
-
-    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        page = import_module(PAGE)
-        return page.sentence(self), page.tiles(self)
-
-    def _page(self) -> str:
-        page = import_module(PAGE)
-        text: str = page.page(self, page.pictures(self))
-        return text
-
-    def _write(self, folder: Path) -> None:
-        import_module(PAGE).write(self, folder)
 
     def summary(self) -> dict[str, Any]:
         """What `compare.json` holds: everything but the time series."""

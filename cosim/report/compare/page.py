@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from cosim.files import write_bytes, write_text
 from cosim.report import quantities
 from cosim.report.files import write_json
 from cosim.report.page import Picture, render
@@ -32,13 +31,9 @@ OF_DIFFERENCE = 2
 TITLES = quantities.TABLES["compared"]
 
 
-def write(both: Comparison, folder: Path, command: str = "") -> None:
-    """Numbers, figures and the page."""
+def write_numbers(both: Comparison, folder: Path) -> None:
+    """All numbers of both."""
     write_json(both.summary(), folder / RESULT)
-    drawn = pictures(both)
-    for one in drawn:
-        write_bytes(one.png, folder / f"{one.name}.png")
-    write_text(page(both, drawn, command), folder / PAGE)
 
 
 def pictures(both: Comparison) -> list[Picture]:
@@ -49,14 +44,15 @@ def pictures(both: Comparison) -> list[Picture]:
     return [*found, draw_phases(both)] if has_phases(both) else found
 
 
-def page(both: Comparison, pictures: Sequence[Picture], command: str = "") -> str:
-    """HTML of a comparison."""
-    return render(
+def page(both: Comparison, command: str = "") -> tuple[str, list[Picture]]:
+    """HTML of a comparison, and its pictures."""
+    drawn = pictures(both)
+    html = render(
         "compare.html.j2",
         "cosim.report.compare",
         a=both.a,
         b=both.b,
-        sentence=sentence(both),
+        sentence=headline(both),
         tiles=tiles(both),
         remarks=both.remarks,
         keys=[(key, _key(left), _key(right)) for key, (left, right) in both.keys.items()],
@@ -67,12 +63,13 @@ def page(both: Comparison, pictures: Sequence[Picture], command: str = "") -> st
         curves=[curve_cells(one) for one in both.curves],
         same=_same(both),
         different=len(both.different),
-        pictures=pictures,
+        pictures=drawn,
         command=command,
     )
+    return html, drawn
 
 
-def sentence(both: Comparison) -> str:
+def headline(both: Comparison) -> str:
     """Whether the two differ, and by how much, in one sentence."""
     names = f"{both.a.label} and {both.b.label}"
     different, curves = len(both.different), _felt(both)

@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,11 +20,9 @@ from stickslip import Parameters, friction_coefficient
 from stickslip.packing import GRAVITY
 
 from cosim.coupling.case import run_scenario
-from cosim.result import Result
+from cosim.report.page import PageResult
 from cosim.scenario import Scenario
 
-#: What shows a map; loaded when asked for.
-PAGE = "cosim.studies.friction_map.page"
 MEASURED = "cosim.studies.friction_map.measured"
 #: Damping over what the fall of friction with the speed drives.
 DAMPING = 3.0
@@ -186,11 +183,13 @@ MELTING_POINT = 0.0  # degC
 
 
 @dataclass(frozen=True)
-class FrictionMap(Result):
+class FrictionMap(PageResult):
     """Points of all ambient temperatures (warmest last), each with the speeds growing.
 
     failed: a line for each point at which the block does not slide steadily, with the reason.
     """
+
+    SHOWN_BY = f"{__package__}.page"
 
     scenario: Scenario
     duration: float
@@ -244,17 +243,6 @@ class FrictionMap(Result):
         """How many points of which temperatures, in a line."""
         air = ", ".join(f"{ambient:g}" for ambient in self.ambients)
         return f"<FrictionMap of {self.scenario.name}: {len(self.points)} points, air {air} degC>"
-
-    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        page = import_module(PAGE)
-        return page.sentence(self), page.tiles(self)
-
-    def _page(self) -> str:
-        page = import_module(PAGE)
-        return str(page.page(self, page.draw_map(self), ""))
-
-    def _write(self, folder: Path) -> None:
-        import_module(PAGE).write(self, folder)
 
     def summary(self) -> dict[str, Any]:
         """What `friction_map.json` holds: everything as plain data."""

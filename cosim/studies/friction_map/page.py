@@ -16,7 +16,7 @@ from stickslip import friction_coefficient
 
 from cosim.files import write_text
 from cosim.report.files import write_table
-from cosim.report.page import Picture, number, render, write_page
+from cosim.report.page import Picture, number, render
 from cosim.report.palette import GREY, INK, PALE_GREY, SERIES
 from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
 
@@ -163,7 +163,7 @@ def _mark_slopes(ax: Axes, speed: np.ndarray, law: np.ndarray) -> None:
         _say(ax, words, (speed[at], 0.75 * law[at]), (side, -6), color=GREY)
 
 
-def sentence(found: FrictionMap) -> str:
+def headline(found: FrictionMap) -> str:
     """How friction goes with the speed, of the coldest air."""
     ambient = found.ambients[0]
     points = found.at(ambient)
@@ -223,16 +223,15 @@ def slope_in_words(slope: float, digits: int = 3) -> str:
     return "0" if not told.strip("+0.") else told
 
 
-def write(found: FrictionMap, folder: Path, command: str = "") -> None:
-    """Numbers first, then the figure and the page."""
+def write_numbers(found: FrictionMap, folder: Path) -> None:
+    """The map as JSON, and its points as a table."""
     write_text(json.dumps(found.summary(), indent=1), folder / "friction_map.json")
     write_table(pd.DataFrame(found.points), folder / "friction_map.csv", index=False)
+
+
+def page(found: FrictionMap, command: str = "") -> tuple[str, list[Picture]]:
+    """HTML of a map, and its figure."""
     drawn = draw_map(found)
-    write_page(page(found, drawn, command), [drawn], folder)
-
-
-def page(found: FrictionMap, drawn: Picture, command: str) -> str:
-    """HTML of a map, its figure, and the command line that made it."""
     # the template calls what this module knows
     told = {"found": found, "drawn": drawn, "differences": differences(found), "command": command}
-    return render("friction_map.html.j2", "cosim.studies.friction_map", **globals() | told)
+    return render("friction_map.html.j2", __package__ or "", **globals() | told), [drawn]

@@ -24,7 +24,7 @@ from cosim.studies.friction_map.map import (
     steady_scenario,
 )
 from cosim.studies.friction_map.measured import differences, measured_beside, own_point
-from cosim.studies.friction_map.page import draw_map, page, tiles
+from cosim.studies.friction_map.page import page, tiles
 
 CASE = read_scenario("melting_friction").changed(
     {"ice.radial_elements": 2, "ice.axial_elements": 3, "belt.cell_length": 4e-3}
@@ -133,7 +133,7 @@ def test_measured_friction_lies_beside_the_law():
     found = FrictionMap(CASE, 2.0, (point(0.15), point(1.0)))
     assert own_point(found).friction == (0.2086,) and own_point(found).speeds == (0.15,)
     assert "0.0256 where the source study's rig has 0.2086 (0.15 m/s, −8 °C)" in differences(found)
-    text = page(found, draw_map(found), "command")
+    text = page(found, "command")[0]
     assert "Law and measurement differ by more than a factor of 2" in text
     assert text.count("Seppyo 61 (1999)") == 1
     assert found.summary()["measured"][0]["friction"] == (0.2086,)
@@ -198,7 +198,7 @@ def test_the_page_begins_with_a_sentence_a_picture_and_figures():
     found = FrictionMap(
         CASE, 2.0, tuple(replace(point(v), friction=f) for v, f in ((0.1, 0.3), (1, 0.1), (9, 0.2)))
     )
-    text = page(found, draw_map(found), "command")
+    text = page(found, "command")[0]
     places = [
         text.index(each) for each in ("<h1>Friction falls", "<figure", 'class="tiles"', "<h2")
     ]
