@@ -110,15 +110,15 @@ def _left_belt(
         return {}
     radius = parameters.rig.contact_radius
     allowed, aside = allowed_aside(radius, width), np.abs(y)
-    first, farthest = _first(aside > allowed), int(aside.argmax())
-    off = None if _turns(parameters) else _first(aside > 0.5 * width)
+    beyond, off = aside > allowed, (aside > 0.5 * width) & (not _turns(parameters))
+    farthest = int(aside.argmax())
     left = {
-        "time": _at(time, first),
-        "y": _at(y, first),
+        "time": _first(time, beyond),
+        "y": _first(y, beyond),
         "allowed": allowed,
         "farthest_y": float(y[farthest]),
         "least_contact_share": contact_share(aside[farthest], radius, width),
-        "centre_off_since": _at(time, off),
+        "centre_off_since": _first(time, off),
     }
     return left | ({"heat_as_in_the_middle_since": left["time"]} if heated else {})
 
@@ -130,7 +130,7 @@ def _at_centre(parameters: Parameters, time: Array, x: Array, y: Array) -> dict[
     centre = 1.0 / parameters.pack()[P_CURVATURE]
     distance = np.hypot(x, y - centre)
     allowed = parameters.rig.contact_radius
-    at = {name: _at(each, _first(distance < allowed)) for name, each in (("time", time), ("y", y))}
+    at = {name: _first(each, distance < allowed) for name, each in (("time", time), ("y", y))}
     return at | {"least_distance": float(distance.min()), "allowed": allowed}
 
 
@@ -141,7 +141,7 @@ def _overstretched(
     allowed = LONGEST * parameters.rig.spring_length
     if curve := parameters.springs.force_curve_extension:
         allowed = parameters.rig.spring_natural_length + curve[-1]
-    beyond = _at(time, _first(longest > allowed))
+    beyond = _first(time, longest > allowed)
     return {"time": beyond, "longest": float(longest.max()), "allowed": allowed}
 
 
@@ -149,12 +149,9 @@ def _turns(parameters: Parameters) -> bool:
     return bool(parameters.pack()[P_CURVATURE] != 0.0)
 
 
-def _first(beyond: NDArray[np.bool_]) -> int | None:
-    return int(beyond.argmax()) if beyond.any() else None
-
-
-def _at(values: Array, row: int | None) -> float | None:
-    return None if row is None else float(values[row])
+def _first(values: Array, rows: NDArray[np.bool_]) -> float | None:
+    """The value in the first of these rows, where there is one."""
+    return float(values[rows.argmax()]) if rows.any() else None
 
 
 def bounds_sentences(numbers: Mapping[str, Any]) -> list[str]:

@@ -233,8 +233,7 @@ def film_of(dataset: Data) -> Film:
     couette = pressure * sheared * dataset["sliding_speed"].values / thickness
     flooded = p[P_MIXED_LUBRICATION_SHARE] * thickness / (thickness + roughness)
     at_most = np.minimum(1.0, np.sqrt(friction / couette))
-    water = flooded**2 * couette
-    return Film(thickness, _fed(dataset), friction, couette, at_most, flooded, water)
+    return Film(thickness, _fed(dataset), friction, couette, at_most, flooded, flooded**2 * couette)
 
 
 def _fed(dataset: Data) -> Array:

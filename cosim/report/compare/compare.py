@@ -78,8 +78,7 @@ class Difference(NamedTuple):
             return True
         if _is_residual(self.name) and max(abs(self.a), abs(self.b)) < RESIDUAL:
             return True
-        least = PART_OF_SIZE * self.size
-        return math.isclose(self.a, self.b, rel_tol=SAME, abs_tol=least)
+        return math.isclose(self.a, self.b, rel_tol=SAME, abs_tol=PART_OF_SIZE * self.size)
 
 
 def _rounding(unit: str, size: float) -> float:

@@ -19,6 +19,7 @@ from cosim.report.files import write_table
 from cosim.report.page import Picture, number, render
 from cosim.report.palette import GREY, INK, PALE_GREY, SERIES
 from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
+from cosim.studies import FIGURES
 
 from .laws import laws_of
 from .map import SAME, FrictionMap, SteadySliding, steady_scenario
@@ -34,11 +35,7 @@ AT_TOP = 3
 NAMED = 0.3
 
 
-@picture(
-    "friction_map",
-    "Friction over the speed of sliding. Lines: the law at the ambient temperature. Points: "
-    "coupled runs, whose interface is warmer.",
-)
+@picture("friction_map", **FIGURES["friction_map"])
 def draw_map(found: FrictionMap) -> Figure:
     """Lines: the law at the ambient temperature. Points: coupled runs, interface warmer."""
     figure, ((ax,),) = panels(1, 1, height=5.2, width=9.0)
@@ -81,8 +78,7 @@ def draw_map(found: FrictionMap) -> Figure:
 
 def _law(found: FrictionMap, ambient: float, speeds: np.ndarray) -> np.ndarray:
     """The law at an ambient temperature, degC, over speeds (n,): (n,)."""
-    first = found.at(ambient)[0].speed
-    case = steady_scenario(found.scenario, first, ambient, found.duration)
+    case = steady_scenario(found.scenario, found.at(ambient)[0].speed, ambient, found.duration)
     return friction_coefficient(case.mechanics, speeds, ambient)
 
 

@@ -104,8 +104,7 @@ def pretension_map(
     for j, speed in enumerate(speeds):
         moving = at_speed(case.parameters, speed)
         for i, pretension in enumerate(pretensions):
-            parameters = with_pretension(moving, pretension)
-            growth[i, j], sticks[i, j] = _cell(parameters, case.interface)
+            growth[i, j], sticks[i, j] = _cell(with_pretension(moving, pretension), case.interface)
             done(1)
     return PretensionMap(np.asarray(pretensions), np.asarray(speeds), growth, sticks)
 

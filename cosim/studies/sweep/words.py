@@ -127,8 +127,7 @@ def sentence(rows: Sequence[Record], dims: Mapping[str, str]) -> str:
 
 def _span(rows: Sequence[Record], key: str, digits: int) -> str:
     """From the first to the last of some numbers or names."""
-    ends = dict.fromkeys(number(row[key], digits) for row in (rows[0], rows[-1]))
-    return " to ".join(ends)
+    return " to ".join(dict.fromkeys(number(row[key], digits) for row in (rows[0], rows[-1])))
 
 
 def tiles(rows: Sequence[Record], dims: Mapping[str, str]) -> list[tuple[str, str]]:

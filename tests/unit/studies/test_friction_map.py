@@ -37,9 +37,9 @@ call = partial(executed, friction_regimes_command)
 def test_slope_of_a_power_over_each_decade():
     speed = np.geomspace(0.1, 100.0, 10)
     slopes = decade_slopes(speed, 3.0 * speed**-0.5)
-    assert [entry.slope for entry in slopes] == pytest.approx([-0.5] * 7, rel=1e-12)
-    assert (slopes[0].low, slopes[0].high) == pytest.approx((0.1, 1.0))
-    assert (slopes[-1].low, slopes[-1].high) == pytest.approx((10.0, 100.0))
+    assert [entry["slope"] for entry in slopes] == pytest.approx([-0.5] * 7, rel=1e-12)
+    assert (slopes[0]["low"], slopes[0]["high"]) == pytest.approx((0.1, 1.0))
+    assert (slopes[-1]["low"], slopes[-1]["high"]) == pytest.approx((10.0, 100.0))
 
 
 def test_less_than_a_decade_has_no_slope():

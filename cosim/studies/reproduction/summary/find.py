@@ -86,8 +86,7 @@ def find_summary_gap(
         if not one.holds:
             break
         trial = one.best
-    free = _with_free_friction(bench, plain) if found else None
-    answer = _answer(bench, plain, free, found)
+    answer = _answer(bench, plain, _with_free_friction(bench, plain) if found else None, found)
     if bench.smooth or answer.extended is None:
         return answer
     share = _share_that_fits(bench, trial)

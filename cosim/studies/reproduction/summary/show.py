@@ -22,6 +22,7 @@ from cosim.report.files import json_text
 from cosim.report.page import Picture, render
 from cosim.report.palette import BLUE, GREY, INK, PALE_GREY, RED
 from cosim.report.style import panels, picture
+from cosim.studies import FIGURES
 
 from ..cases import SETTLING
 from ..motion import WINDOW
@@ -66,8 +67,7 @@ def quantities(gap: SummaryGap) -> list[Quantity]:
     intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
     for row in gap.ranking:
         intervals |= row.intervals if row.effect in gap.found else {}
-    values = gap.last.values.items()
-    return [quantity(key, value, intervals.get(key)) for key, value in values]
+    return [quantity(key, value, intervals.get(key)) for key, value in gap.last.values.items()]
 
 
 def closing_lines(gap: SummaryGap) -> list[str]:
@@ -163,11 +163,7 @@ def drawers(gap: SummaryGap) -> dict[str, Callable[[], Picture]]:
     return {"observations": partial(draw_observations, gap)}
 
 
-@picture("observations", (
-    "How far each figure of the model is from the observed one, in the observation's standard "
-    "deviations: with the numbers as they are known (grey), the plain model refitted (blue), the "
-    "extended model (dark orange). Shaded: within two."
-))  # fmt: skip
+@picture("observations", **FIGURES["observations"])
 def draw_observations(gap: SummaryGap) -> Figure:
     """A row for each observation."""
     models = [("as known", GREY, gap.printed), ("plain model, refitted", BLUE, gap.plain)]
