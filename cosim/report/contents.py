@@ -54,8 +54,7 @@ def _entries(table: BaseModel) -> dict[str, dict[str, Any]]:
 
 def stored_tables(dataset: Data) -> Tables:
     """The tables of parameters that a dataset carries."""
-    tables: Tables = json.loads(dataset.attrs["parameters"])
-    return tables
+    return dict(json.loads(dataset.attrs["parameters"]))
 
 
 def value_of(dataset: Data, table: str, key: str) -> Any:
@@ -204,7 +203,4 @@ def attach_assessment(dataset: Data, assessment: Assessment | None) -> None:
 
 def assessment_numbers(dataset: Data) -> dict[str, Any]:
     """Stability and regimes; nothing for a run that was not assessed."""
-    if ATTRIBUTE not in dataset.attrs:
-        return {}
-    found: dict[str, Any] = json.loads(dataset.attrs[ATTRIBUTE])
-    return found
+    return dict(json.loads(dataset.attrs.get(ATTRIBUTE, "{}")))

@@ -79,8 +79,7 @@ def attach_coupling(
 
 def coupling_numbers(dataset: Data) -> dict[str, Any]:
     """What `attach_coupling` gave; {} where a dataset has none of it."""
-    found: dict[str, Any] = json.loads(dataset.attrs.get(ATTRIBUTE, "{}"))
-    return found
+    return dict(json.loads(dataset.attrs.get(ATTRIBUTE, "{}")))
 
 
 def step_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:

@@ -86,8 +86,7 @@ def render(template: str, package: str, **values: Any) -> str:
     def drawn(picture: Picture, alt: str = "") -> Markup:
         if picture.live is not None:
             kinds.add(picture.live["kind"])
-        found: Markup = parts.figure(picture, alt or picture.alt or picture.caption)
-        return found
+        return Markup(parts.figure(picture, alt or picture.alt or picture.caption))
 
     told = {"figure": drawn, "boxes": parts.boxes, "scripts": lambda: _scripts(kinds)}
     return environment.get_template(template).render(**values, **told)
@@ -115,7 +114,8 @@ class PageResult(Result):
         """As `Result.save`; command: the line that the page says it is made by."""
         folder, shown_by = writable(Path(folder)), import_module(self.SHOWN_BY)
         shown_by.write_numbers(self, folder)
-        write_page(*shown_by.page(self, command), folder)
+        html, pictures = shown_by.page(self, command)
+        write_page(html, pictures, folder)
         return folder
 
     def _page(self) -> str:

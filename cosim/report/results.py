@@ -112,31 +112,27 @@ def run_page(
     """HTML of a run: numbers of `summary`, its figures, the files beside it."""
     from .figures import plates_of
 
-    html = render(
-        "run.html.j2",
-        "cosim.report",
-        numbers=numbers,
-        created=datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z"),
-        case=CASES.get(numbers["case"], numbers["case"]),
-        headline=headline(numbers),
-        tiles=tiles(numbers),
-        simulated=_simulated(numbers),
-        titles=TABLES,
-        beyond=beyond(numbers),
-        assessed=assessed(numbers),
-        figures=[plate.picture(dataset) for plate in plates_of(dataset)],
-        parameters=stored_tables(dataset),
-        defaults=taken_line(numbers["defaults"]),
-        files=files or {},
-        command=command,
-        coupled=numbers["case"] == "coupled",
-        starts=STARTS,
-        **{each.__name__: each for each in (worded, told, told_at, degrees, valued, step_rows)},
-    )
+    values: dict[str, Any] = {
+        "numbers": numbers,
+        "files": files or {},
+        "command": command,
+        "starts": STARTS,
+    }
+    values |= {"headline": headline(numbers), "tiles": tiles(numbers), "step_rows": step_rows}
+    values |= {"parameters": stored_tables(dataset), "worded": worded, "told_at": told_at}
+    values |= {"defaults": taken_line(numbers["defaults"])}
+    values |= {"figures": [plate.picture(dataset) for plate in plates_of(dataset)]}
+    # the template calls what this module knows
+    html = render("run.html.j2", __package__ or "", **globals() | values)
     return page_of_material(html, material_of(dataset))
 
 
-def _simulated(numbers: Mapping[str, Any]) -> str:
+def made(numbers: Mapping[str, Any]) -> str:
+    """When the run was made."""
+    return datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z")
+
+
+def simulated(numbers: Mapping[str, Any]) -> str:
     """How long the run was, and how long it took: to two digits, for that is the machine's mood."""
     took = numbers.get("wall_time")
     computing = "" if took is None else f", computed in {told(float(f'{took:.2g}'), 's')}"

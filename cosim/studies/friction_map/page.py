@@ -203,16 +203,6 @@ def tiles(found: FrictionMap) -> list[tuple[str, str]]:
     return [*told, ("warmest contact", f"{warmest:z.2f} °C".replace("-", "−"))]
 
 
-def regimes_of(found: FrictionMap) -> list[dict[str, Any]]:
-    """The regimes of each temperature, and what stands where there is none."""
-    ends = {True: "the same at all speeds", False: "at an end of the speeds"}
-    return [
-        found.regimes(one)
-        | {"no_slope": found.no_slope(one), "no_minimum": ends[found.is_flat(one)]}
-        for one in found.ambients
-    ]
-
-
 def slope_in_words(slope: float, digits: int = 3) -> str:
     """With its sign, unless it is 0."""
     told = f"{slope:+z.{digits}f}".replace("-", "−")

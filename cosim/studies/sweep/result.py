@@ -24,10 +24,6 @@ if TYPE_CHECKING:
 RESULT, FIGURE, TABLE, PAGE = "sweep.nc", "sweep.png", "sweep.csv", "report.html"
 #: Runs that the page lists; the rest is in the file.
 MOST_ROWS = 500
-FILES = {
-    RESULT: "all features of all runs, with units: netCDF 4, for xarray, Matlab",
-    TABLE: "the same as a table, a line for each run",
-}
 
 
 class Sweep(xr.Dataset, Result):  # type: ignore[no-untyped-call]
@@ -56,8 +52,7 @@ class Sweep(xr.Dataset, Result):  # type: ignore[no-untyped-call]
 def summary(datasets: Mapping[str, xr.Dataset]) -> dict[str, Any]:
     """Every run of each group, "" being the first."""
     runs = {group or "runs": records(dataset) for group, dataset in datasets.items()}
-    found: dict[str, Any] = without_nan(runs)
-    return found
+    return dict(without_nan(runs))
 
 
 def write(
@@ -96,7 +91,6 @@ def _drawn(
         drawn={name: ALL[name] for name in drawn},
         rows=records(dataset),
         most=MOST_ROWS,
-        files=FILES,
         command=command,
         scenario=scenario,
     )

@@ -26,6 +26,7 @@ from cosim.studies import FIGURES
 
 from ..cases import SETTLING
 from ..motion import WINDOW
+from .models import SAID
 from .result import SummaryGap
 
 #: What is written as it stands in an answer.
@@ -40,26 +41,13 @@ def sentence(gap: SummaryGap) -> str:
     said = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS}
     groups = "; ".join(" or ".join(group) for group in gap.classes)
     named = "; ".join(f"{one}: {said[one]}" for one in gap.effects)
-    nearer = (
-        f"With {' and '.join(gap.effects)} the model comes nearer, but a disagreement is left "
-        "that no effect of the catalogue repairs."
-    )
-    nothing = "The plain model does not fit, and no effect of the catalogue repairs it."
-    return {
-        "none": "The plain model meets these figures.",
-        "class": f"{groups}: these figures cannot tell which.",
-        "named": f"{named}.",
-        "unknown": nearer if gap.effects else nothing,
-    }[gap.verdict]
+    told = "nearer" if gap.verdict == "unknown" and gap.effects else gap.verdict
+    return SAID[told].format(groups=groups, named=named, effects=" and ".join(gap.effects))
 
 
 def gap_line(gap: SummaryGap) -> str:
     """Before and after, in standard deviations of the observations."""
-    (fit, held), (fit_after, held_after) = gap.gap_before, gap.gap_after
-    return (
-        f"all figures fitted {digits(fit)} → {digits(fit_after)}, each predicted from the others "
-        f"{digits(held)} → {digits(held_after)} standard deviations"
-    )
+    return SAID["gap"].format(*map(digits, (*gap.gap_before, *gap.gap_after)))
 
 
 def quantities(gap: SummaryGap) -> list[Quantity]:
