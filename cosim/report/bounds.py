@@ -22,6 +22,7 @@ from .contents import mechanics_of
 from .quantities import TABLES
 
 Array = NDArray[np.float64]
+Numbers = dict[str, float | None]
 
 #: Attribute of a dataset: width of the belt (of a slab: of the track that is heated), m.
 WIDTH = "belt_width"
@@ -100,9 +101,7 @@ def spring_ends(parameters: Parameters) -> tuple[Array, Array]:
     return fixed, arms
 
 
-def _left_belt(
-    dataset: Data, parameters: Parameters, time: Array, y: Array
-) -> dict[str, float | None]:
+def _left_belt(dataset: Data, parameters: Parameters, time: Array, y: Array) -> Numbers:
     """When and where the block left the belt, and how far; {} where no edge is known."""
     width = dataset.attrs.get(WIDTH)
     heated = "heat_received" in dataset
@@ -123,7 +122,7 @@ def _left_belt(
     return left | ({"heat_as_in_the_middle_since": left["time"]} if heated else {})
 
 
-def _at_centre(parameters: Parameters, time: Array, x: Array, y: Array) -> dict[str, float | None]:
+def _at_centre(parameters: Parameters, time: Array, x: Array, y: Array) -> Numbers:
     """When a slab's centre came under the block; {} for a belt."""
     if not _turns(parameters):
         return {}
@@ -134,9 +133,7 @@ def _at_centre(parameters: Parameters, time: Array, x: Array, y: Array) -> dict[
     return at | {"least_distance": float(distance.min()), "allowed": allowed}
 
 
-def _overstretched(
-    parameters: Parameters, time: Array, x: Array, y: Array, phi: Array
-) -> dict[str, float | None]:
+def _overstretched(parameters: Parameters, time: Array, x: Array, y: Array, phi: Array) -> Numbers:
     longest = spring_lengths(parameters, x, y, phi).max(axis=0)
     allowed = LONGEST * parameters.rig.spring_length
     if curve := parameters.springs.force_curve_extension:
