@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 from cosim.report.page import PageResult
-from cosim.report.quantities import ROUNDING
+from cosim.report.quantities import ROUNDING, TABLES
 
 from .one_result import OneResult
 from .series import Apart, Series, apart, ends, matched
@@ -28,6 +28,7 @@ RESIDUALS = ("residual", "largest_difference", "relative_difference")
 #: Units whose zero is a convention: what is a part of such a value says nothing.
 NO_PARTS = ("degC",)
 SYSTEM = "system"
+REMARKS: dict[str, str] = TABLES["compare"]["remarks"]
 CASES = {SYSTEM: "any system", "coupled": "a coupled run", "mechanics": "the mechanics alone"}
 #: Outputs of a system's summary: they are compared as series, in one unit.
 OUTPUTS = "outputs"
@@ -146,20 +147,13 @@ class Comparison(PageResult):
         both = (self.a, self.b)
         cases = [str(one.numbers["case"]) for one in both if "case" in one.numbers]
         if len(set(cases)) > 1:
-            told = [CASES.get(case, case) for case in cases]
-            said.append(f"one is of {told[0]}, the other of {told[1]}: not all numbers are in both")
+            said.append(REMARKS["cases"].format(*(CASES.get(case, case) for case in cases)))
         ends = [float(one.dataset["time"][-1]) for one in both]
         if not math.isclose(*ends, rel_tol=SAME):
-            said.append(
-                f"one run is {ends[0]:g} s long, the other {ends[1]:g} s: totals are of each run's"
-                " own time"
-            )
+            said.append(REMARKS["ends"].format(*ends))
         steps = [one.output_step for one in both]
         if all(steps) and not math.isclose(*steps, rel_tol=AS_DENSE):
-            said.append(
-                f"the one's rows are {steps[0]:g} s apart, the other's {steps[1]:g} s: what is"
-                " found in rows, such as a largest value, may differ by what lies between"
-            )
+            said.append(REMARKS["steps"].format(*steps))
         return [*said, *self.not_compared]
 
     def summary(self) -> dict[str, Any]:

@@ -16,14 +16,12 @@ from cosim.result import Result
 
 from . import words
 from .features import ALL
-from .words import records, shown_features, still_sentence, unit_of
+from .words import records, shown_features, unit_of
 
 if TYPE_CHECKING:
     from cosim.report.page import Picture
 
 RESULT, FIGURE, TABLE, PAGE = "sweep.nc", "sweep.png", "sweep.csv", "report.html"
-#: Runs that the page lists; the rest is in the file.
-MOST_ROWS = 500
 
 
 class Sweep(xr.Dataset, Result):  # type: ignore[no-untyped-call]
@@ -86,11 +84,9 @@ def _drawn(
         dataset=dataset,
         dims=dims,
         coordinates=[dataset[dim] for dim in dims],
-        still=still_sentence(dataset, still),
+        still=still,
         picture=picture,
         drawn={name: ALL[name] for name in drawn},
-        rows=records(dataset),
-        most=MOST_ROWS,
         command=command,
         scenario=scenario,
     )
