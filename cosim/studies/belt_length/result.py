@@ -19,6 +19,8 @@ from .lengths import DriftMap, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
 
+#: What speaks; loaded when asked for.
+TEXT = f"{__package__}.show.text"
 #: Column of the table -> place in a case's JSON.
 _TABLE = packaged_tables(__package__, "columns.toml")
 _COLUMNS, PRINTED = _TABLE["columns"], _TABLE["printed"]
@@ -129,7 +131,7 @@ class Study(PageResult):
             **shared,
             "answers": [one.as_dict() for one in self.answers],
             "cases": self._cases(),
-            "verdict": import_module(self.SHOWN_BY).verdict(self),
+            "verdict": import_module(TEXT).verdict(self),
         }
         if self.grid is not None:
             # where a stopped map did not come is null

@@ -23,7 +23,6 @@ from . import text
 from .figures import draw_doubt, draw_drift, draw_map
 from .text import headline as headline
 from .text import tiles as tiles
-from .text import verdict as verdict
 
 RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
 CHANGES, DOUBT = "changes.csv", "doubt.csv"
