@@ -113,12 +113,12 @@ def test_a_point_that_fails_costs_one_point(tmp_path, capsys):
 
 def test_each_law_says_for_which_contact_it_holds():
     found = FrictionMap(CASE, 2.0, (point(1e-4), point(1.0)))
-    laws = {law.name: law for law in laws_of(found)}
+    laws = {law["name"]: law for law in laws_of(found)}
     assert list(laws) == ["asperity_melting", "melt_film"]
     # 6.57 N on 20 MPa, ice of 1.17e-6 m2/s over 1 cm
-    assert "N/H = 0.33 mm²" in laws["asperity_melting"].here
-    assert "above 1 from 0.00012 m/s on, 1 of 2 runs slower" in laws["asperity_melting"].here
-    assert all("assumed" in law.numbers for law in laws.values())
+    assert "N/H = 0.33 mm²" in laws["asperity_melting"]["here"]
+    assert "above 1 from 0.00012 m/s on, 1 of 2 runs slower" in laws["asperity_melting"]["here"]
+    assert all("assumed" in law["numbers"] for law in laws.values())
 
 
 def test_what_is_conducted_is_that_of_a_disc_on_two_half_spaces():
