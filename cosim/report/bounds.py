@@ -19,8 +19,10 @@ from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
 from cosim.report.columns import Data
 
 from .contents import mechanics_of
+from .quantities import TABLES
 
 Array = NDArray[np.float64]
+Numbers = dict[str, float | None]
 
 #: Attribute of a dataset: width of the belt (of a slab: of the track that is heated), m.
 WIDTH = "belt_width"
@@ -33,6 +35,9 @@ LONGEST = 2.0
 #: some 1e-11. Below so many joules there was no work to tell.
 LEDGER_LIMIT = 1e-2
 LEDGER_JOULES = 1e-6
+#: Sentences; what is added to that of a block that has left the belt, where there is any.
+SAID: dict[str, str] = TABLES["bounds"]
+FURTHER = ("centre_off_since", "heat_as_in_the_middle_since")
 
 
 def bounds_numbers(dataset: Data) -> dict[str, Any]:
@@ -96,9 +101,7 @@ def spring_ends(parameters: Parameters) -> tuple[Array, Array]:
     return fixed, arms
 
 
-def _left_belt(
-    dataset: Data, parameters: Parameters, time: Array, y: Array
-) -> dict[str, float | None]:
+def _left_belt(dataset: Data, parameters: Parameters, time: Array, y: Array) -> Numbers:
     """When and where the block left the belt, and how far; {} where no edge is known."""
     width = dataset.attrs.get(WIDTH)
     heated = "heat_received" in dataset
@@ -106,38 +109,36 @@ def _left_belt(
         return {}
     radius = parameters.rig.contact_radius
     allowed, aside = allowed_aside(radius, width), np.abs(y)
-    first, farthest = _first(aside > allowed), int(aside.argmax())
-    off = None if _turns(parameters) else _first(aside > 0.5 * width)
+    beyond, off = aside > allowed, (aside > 0.5 * width) & (not _turns(parameters))
+    farthest = int(aside.argmax())
     left = {
-        "time": _at(time, first),
-        "y": _at(y, first),
+        "time": _first(time, beyond),
+        "y": _first(y, beyond),
         "allowed": allowed,
         "farthest_y": float(y[farthest]),
         "least_contact_share": contact_share(aside[farthest], radius, width),
-        "centre_off_since": _at(time, off),
+        "centre_off_since": _first(time, off),
     }
     return left | ({"heat_as_in_the_middle_since": left["time"]} if heated else {})
 
 
-def _at_centre(parameters: Parameters, time: Array, x: Array, y: Array) -> dict[str, float | None]:
+def _at_centre(parameters: Parameters, time: Array, x: Array, y: Array) -> Numbers:
     """When a slab's centre came under the block; {} for a belt."""
     if not _turns(parameters):
         return {}
     centre = 1.0 / parameters.pack()[P_CURVATURE]
     distance = np.hypot(x, y - centre)
     allowed = parameters.rig.contact_radius
-    at = {name: _at(each, _first(distance < allowed)) for name, each in (("time", time), ("y", y))}
+    at = {name: _first(each, distance < allowed) for name, each in (("time", time), ("y", y))}
     return at | {"least_distance": float(distance.min()), "allowed": allowed}
 
 
-def _overstretched(
-    parameters: Parameters, time: Array, x: Array, y: Array, phi: Array
-) -> dict[str, float | None]:
+def _overstretched(parameters: Parameters, time: Array, x: Array, y: Array, phi: Array) -> Numbers:
     longest = spring_lengths(parameters, x, y, phi).max(axis=0)
     allowed = LONGEST * parameters.rig.spring_length
     if curve := parameters.springs.force_curve_extension:
         allowed = parameters.rig.spring_natural_length + curve[-1]
-    beyond = _at(time, _first(longest > allowed))
+    beyond = _first(time, longest > allowed)
     return {"time": beyond, "longest": float(longest.max()), "allowed": allowed}
 
 
@@ -145,41 +146,26 @@ def _turns(parameters: Parameters) -> bool:
     return bool(parameters.pack()[P_CURVATURE] != 0.0)
 
 
-def _first(beyond: NDArray[np.bool_]) -> int | None:
-    return int(beyond.argmax()) if beyond.any() else None
-
-
-def _at(values: Array, row: int | None) -> float | None:
-    return None if row is None else float(values[row])
+def _first(values: Array, rows: NDArray[np.bool_]) -> float | None:
+    """The value in the first of these rows, where there is one."""
+    return float(values[rows.argmax()]) if rows.any() else None
 
 
 def bounds_sentences(numbers: Mapping[str, Any]) -> list[str]:
     """What a run does that its rig could not, or its ledger does not hold, a sentence each."""
     told = []
-    left, centre, springs = (
-        found if (found := numbers.get(name, {})).get("time") is not None else None
-        for name in ("left_belt", "slab_centre", "overstretched")
-    )
-    if left:
-        told.append(_left_sentence(left, "slab_centre" in numbers))
-    if centre:
-        told.append(
-            f"the slab's centre comes under the block at t = {centre['time']:.4g} s "
-            f"(y = {_mm(centre['y'])}): it comes as near as {_mm(centre['least_distance'])}, "
-            f"allowed is {_mm(centre['allowed'])}"
-        )
-    if springs:
-        told.append(
-            f"a spring is longer than it can be from t = {springs['time']:.4g} s on: up to "
-            f"{_mm(springs['longest'])}, allowed is {_mm(springs['allowed'])}"
-        )
+    for name in ("left_belt", "slab_centre", "overstretched"):
+        found = numbers.get(name, {})
+        if found.get("time") is None:
+            continue
+        texts = [SAID[name], *(SAID[key] for key in FURTHER if found.get(key) is not None)]
+        mm = {key: 1e3 * value for key, value in found.items() if value is not None}
+        place = SAID["track" if "slab_centre" in numbers else "edge"]
+        percent = 100.0 * found.get("least_contact_share", 0.0)
+        told.append("".join(texts).format(**found, mm=mm, place=place, percent=percent))
     if not is_believed(numbers):
         part = numbers["ledger"]["mechanics"]["relative_residual"]
-        told.append(
-            f"the ledger of the mechanics is off by {part:.1e} of the work, allowed is "
-            f"{LEDGER_LIMIT:g}: no number of this run can be believed; look at the initial state, "
-            "mass and stiffness, and at solver.tolerance"
-        )
+        told.append(SAID["ledger"].format(part=part, limit=LEDGER_LIMIT))
     return told
 
 
@@ -188,28 +174,3 @@ def is_believed(numbers: Mapping[str, Any]) -> bool:
     mechanics = numbers.get("ledger", {}).get("mechanics", {})
     part, joules = mechanics.get("relative_residual"), mechanics.get("largest_residual", 0.0)
     return part is None or part <= LEDGER_LIMIT or joules <= LEDGER_JOULES
-
-
-def _left_sentence(left: Mapping[str, Any], slab: bool) -> str:
-    place = "track that the slab is heated on" if slab else "belt's edge"
-    text = (
-        f"the block goes beyond the {place} at t = {left['time']:.4g} s, y = {_mm(left['y'])} "
-        f"(allowed is {_mm(left['allowed'])} to either side); it comes to "
-        f"y = {_mm(left['farthest_y'])}, with {100.0 * left['least_contact_share']:.3g} % of the "
-        "contact left"
-    )
-    if left["centre_off_since"] is not None:
-        text += (
-            f", and from t = {left['centre_off_since']:.4g} s on its centre is beyond it, "
-            "where a block would tip"
-        )
-    if "heat_as_in_the_middle_since" in left:
-        text += (
-            f"; from t = {left['heat_as_in_the_middle_since']:.4g} s on the heat is that of a "
-            "block in the middle, not of this one"
-        )
-    return text
-
-
-def _mm(length: float) -> str:
-    return f"{1e3 * length:z.4g} mm"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel
 from stickslip import Parameters
 from stickslip.packing import GRAVITY
+from stickslip.quantity import details
 from stickslip.steady_motion import Assessment
 from stickslip.trajectory import counted_break_aways
 
@@ -31,33 +32,21 @@ ATTRIBUTE = "assessment"
 
 
 def tables_of(scenario: BaseModel) -> Tables:
-    """Table -> key -> value, unit and description, from a pydantic model.
+    """Table -> key -> value, unit and description, from a pydantic model made of tables.
 
-    A table is a model that holds numbers; models that only group tables are seen through, so
-    the tables are found at any depth. Numbers beside tables are left out, and so is a table that
-    another name has already.
+    What is no table is left out, and so is a table that another name has already.
     """
-    tables = {id(table): (name, table) for name, table in reversed([*_walk(scenario)])}
+    named = [(name, getattr(scenario, name)) for name in type(scenario).model_fields]
+    found = [(name, table) for name, table in named if isinstance(table, BaseModel)]
+    tables = {id(table): (name, table) for name, table in reversed(found)}
     return {name: _entries(table) for name, table in reversed(tables.values())}
-
-
-def _walk(model: BaseModel) -> Iterator[tuple[str, BaseModel]]:
-    for name in type(model).model_fields:
-        value = getattr(model, name)
-        if not isinstance(value, BaseModel):
-            continue
-        if any(isinstance(inner, BaseModel) for _, inner in value):
-            yield from _walk(value)
-        else:
-            yield name, value
 
 
 def _entries(table: BaseModel) -> dict[str, dict[str, Any]]:
     values = table.model_dump(mode="json")
     entries = {}
     for key, field in type(table).model_fields.items():
-        extra = field.json_schema_extra if isinstance(field.json_schema_extra, dict) else {}
-        unit = str(extra.get("unit", ""))
+        unit = str(details(field).get("unit", ""))
         description = (field.description or "").removesuffix(f"[{unit}]").strip()
         entries[key] = {"value": values[key], "unit": unit, "description": description}
     return entries
@@ -65,8 +54,7 @@ def _entries(table: BaseModel) -> dict[str, dict[str, Any]]:
 
 def stored_tables(dataset: Data) -> Tables:
     """The tables of parameters that a dataset carries."""
-    tables: Tables = json.loads(dataset.attrs["parameters"])
-    return tables
+    return dict(json.loads(dataset.attrs["parameters"]))
 
 
 def value_of(dataset: Data, table: str, key: str) -> Any:
@@ -215,7 +203,4 @@ def attach_assessment(dataset: Data, assessment: Assessment | None) -> None:
 
 def assessment_numbers(dataset: Data) -> dict[str, Any]:
     """Stability and regimes; nothing for a run that was not assessed."""
-    if ATTRIBUTE not in dataset.attrs:
-        return {}
-    found: dict[str, Any] = json.loads(dataset.attrs[ATTRIBUTE])
-    return found
+    return dict(json.loads(dataset.attrs.get(ATTRIBUTE, "{}")))

@@ -79,8 +79,7 @@ def attach_coupling(
 
 def coupling_numbers(dataset: Data) -> dict[str, Any]:
     """What `attach_coupling` gave; {} where a dataset has none of it."""
-    found: dict[str, Any] = json.loads(dataset.attrs.get(ATTRIBUTE, "{}"))
-    return found
+    return dict(json.loads(dataset.attrs.get(ATTRIBUTE, "{}")))
 
 
 def step_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
@@ -89,14 +88,6 @@ def step_rows(numbers: Mapping[str, Any]) -> list[tuple[str, ...]]:
         (words, _told(key, numbers[key]))
         for key, words in WORDS.items()
         if key in numbers and (key not in SELDOM or numbers[key] not in (None, []))
-    ]
-
-
-def effort_rows(participants: Mapping[str, Mapping[str, Any]]) -> list[tuple[str, ...]]:
-    """Participant, and its steps and seconds."""
-    return [
-        (name, f"{each['steps']} steps, {number(each['seconds'], 3)} s")
-        for name, each in participants.items()
     ]
 
 

@@ -155,12 +155,11 @@ def _described(
 ) -> dict[str, Any]:
     """What a dataset says of its run."""
     title = str(getattr(scenario, "name", "") or "stick-slip")
-    taken = json.dumps(dict(getattr(scenario, "taken", {})))
     found: dict[str, Any] = {
         "title": title,
         **outcome,
         "scenario": toml,
-        "defaults": taken,
+        "defaults": json.dumps(dict(getattr(scenario, "taken", {}))),
         **provenance(),
     }
     if (belt := getattr(scenario, "belt", None)) is not None:

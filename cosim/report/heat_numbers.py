@@ -189,19 +189,19 @@ THINNEST = 3e-10
 class Film(NamedTuple):
     """Water and friction over time, each (n,).
 
-    thickness: mean over the contact, m. friction: its stress, Pa. whole, water: shear of the film
-    if it covered the whole contact, and of the water as mixed_lubrication has it, Pa. flooded,
-    at_most: share of the contact that it floods there, and the most that friction allows. fed:
-    thickness that the melting of the moment alone would feed, m.
+    film_thickness: mean over the contact, m; film_fed_by_melting: what the melting of the moment
+    alone would feed. friction_stress, Pa. whole_film_shear, water_shear: of the film if it covered
+    the whole contact, and of the water as mixed_lubrication has it, Pa. largest_flooded_share,
+    flooded_share: of the contact, the most that friction allows and what is flooded there.
     """
 
-    thickness: Array
-    friction: Array
-    whole: Array
-    water: Array
-    flooded: Array
-    at_most: Array
-    fed: Array
+    film_thickness: Array
+    film_fed_by_melting: Array
+    friction_stress: Array
+    whole_film_shear: Array
+    largest_flooded_share: Array
+    flooded_share: Array
+    water_shear: Array
 
 
 def melts(dataset: Data) -> bool:
@@ -233,8 +233,7 @@ def film_of(dataset: Data) -> Film:
     couette = pressure * sheared * dataset["sliding_speed"].values / thickness
     flooded = p[P_MIXED_LUBRICATION_SHARE] * thickness / (thickness + roughness)
     at_most = np.minimum(1.0, np.sqrt(friction / couette))
-    water = flooded**2 * couette
-    return Film(thickness, friction, couette, water, flooded, at_most, _fed(dataset))
+    return Film(thickness, _fed(dataset), friction, couette, at_most, flooded, flooded**2 * couette)
 
 
 def _fed(dataset: Data) -> Array:
@@ -254,6 +253,7 @@ def melting(dataset: Data) -> dict[str, float | None]:
     begin, end = melting_begins(dataset), last(dataset, "time")
     melted = last(dataset, "melted_mass")
     before = dataset.sel(time=slice(begin - WINDOW, begin))
+    late = dataset.sel(time=slice(end - WINDOW, None))
     return {
         "onset": begin,
         "melted_mass": melted,
@@ -263,23 +263,10 @@ def melting(dataset: Data) -> dict[str, float | None]:
         "max_melt_rate": float(dataset["melt_rate"].max()),
         "melting_share": _share(dataset.sel(time=slice(begin, None))),
         "friction_before": mean_of(friction_coefficient(before)),
-        **_balance(dataset.sel(time=slice(end - WINDOW, None))),
+        "melting_share_end": _share(late),
+        "friction_end": mean_of(friction_coefficient(late)),
+        **{key: mean_of(each) for key, each in film_of(late)._asdict().items()},
     }
-
-
-def _balance(late: Data) -> dict[str, float | None]:
-    film = film_of(late)
-    means = {
-        "friction_end": friction_coefficient(late),
-        "film_thickness": film.thickness,
-        "film_fed_by_melting": film.fed,
-        "friction_stress": film.friction,
-        "whole_film_shear": film.whole,
-        "largest_flooded_share": film.at_most,
-        "flooded_share": film.flooded,
-        "water_shear": film.water,
-    }
-    return {"melting_share_end": _share(late)} | {key: mean_of(each) for key, each in means.items()}
 
 
 def extremes(values: Array) -> tuple[float, float] | tuple[None, None]:

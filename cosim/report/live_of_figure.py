@@ -39,9 +39,9 @@ def _figure(group: Sequence[Axes], labels: dict[str, str], rows: dict[float, str
     for axes in group:
         label = axes.get_ylabel() or rows[round(axes.get_position().y0, 6)]
         own = [_series(line, labels, label) for line in axes.lines if _is_curve(axes, line)]
-        panels.append((Panel(_with_brackets(label), [], levels=_levels(axes)), own))
+        panels.append((Panel(_with_brackets(label), [], levels=_straight(axes)), own))
     seen = panels_on_one_axis(panels, group[0].get_xlim())
-    return TimeFigure(*seen, marks=_marks(group[0])).live()
+    return TimeFigure(*seen, marks=_straight(group[0], upright=True)).live()
 
 
 def _is_curve(axes: Axes, line: Line2D) -> bool:
@@ -69,22 +69,11 @@ def _labels(figure: Figure) -> dict[str, str]:
     }
 
 
-def _levels(axes: Axes) -> list[tuple[float, str]]:
-    """Lines over the whole width; one that is unnamed has the name of another, or none."""
-    return [
-        (float(np.asarray(line.get_ydata())[0]), _named(line))
-        for line in axes.lines
-        if line.get_transform() == axes.get_yaxis_transform(which="grid")
-    ]
-
-
-def _marks(axes: Axes) -> list[tuple[float, str]]:
-    """Upright lines over the whole height."""
-    return [
-        (float(np.asarray(line.get_xdata())[0]), _named(line))
-        for line in axes.lines
-        if line.get_transform() == axes.get_xaxis_transform(which="grid")
-    ]
+def _straight(axes: Axes, upright: bool = False) -> list[tuple[float, str]]:
+    """Where lines over the whole width are, or over the whole height, and what they are called."""
+    across = axes.get_xaxis_transform if upright else axes.get_yaxis_transform
+    lines = [line for line in axes.lines if line.get_transform() == across(which="grid")]
+    return [(float(np.asarray(line.get_data()[not upright])[0]), _named(line)) for line in lines]
 
 
 def _named(line: Line2D) -> str:

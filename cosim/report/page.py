@@ -20,14 +20,15 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from importlib import resources
+from importlib import import_module, resources
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined, select_autoescape
 from markupsafe import Markup
 
-from cosim.files import write_bytes, write_text
+from cosim.files import writable, write_bytes, write_text
+from cosim.result import Result
 
 #: Pixels of an inch: on a page, and of the pictures.
 CSS_DPI, DPI = 96, 150
@@ -52,6 +53,12 @@ class Picture:
         """The file's content."""
         return self.drawing()
 
+    @property
+    def width(self) -> int:
+        """On the page, CSS pixels: type as large as its inches say."""
+        pixels = int.from_bytes(self.png[16:20], "big")  # behind signature and chunk name
+        return round(pixels * CSS_DPI / DPI)
+
 
 UPLOT, ITS_LICENCE = "uplot/uPlot.iife.min.js", "uplot/LICENSE"
 #: The only address in a page with it: where uPlot is from. A page names none.
@@ -73,14 +80,16 @@ def render(template: str, package: str, **values: Any) -> str:
     Raises jinja2.UndefinedError where one of them is missing.
     """
     kinds: set[str] = set()
+    environment = _environment(package)
+    parts: Any = environment.get_template("parts.html.j2").module
 
     def drawn(picture: Picture, alt: str = "") -> Markup:
         if picture.live is not None:
             kinds.add(picture.live["kind"])
-        return figure(picture, alt)
+        return Markup(parts.figure(picture, alt or picture.alt or picture.caption))
 
-    found = _environment(package).get_template(template)
-    return found.render(**values, figure=drawn, scripts=lambda: _scripts(kinds))
+    told = {"figure": drawn, "boxes": parts.boxes, "scripts": lambda: _scripts(kinds)}
+    return environment.get_template(template).render(**values, **told)
 
 
 def write_page(text: str, pictures: Iterable[Picture], folder: Path) -> None:
@@ -88,6 +97,33 @@ def write_page(text: str, pictures: Iterable[Picture], folder: Path) -> None:
     for picture in pictures:
         write_bytes(picture.png, folder / f"{picture.name}.png")
     write_text(text, folder / "report.html")
+
+
+class PageResult(Result):
+    """A result with figures, which a module shows: loaded when asked for, as it draws.
+
+    The module has `headline`, `tiles`, `page` (HTML and pictures of a result and a command line)
+    and `write_numbers` (whatever else the command leaves, into a folder).
+    """
+
+    __slots__ = ()
+    #: Name of the module.
+    SHOWN_BY: ClassVar[str]
+
+    def save(self, folder: str | Path, command: str = "") -> Path:
+        """As `Result.save`; command: the line that the page says it is made by."""
+        folder, shown_by = writable(Path(folder)), import_module(self.SHOWN_BY)
+        shown_by.write_numbers(self, folder)
+        html, pictures = shown_by.page(self, command)
+        write_page(html, pictures, folder)
+        return folder
+
+    def _page(self) -> str:
+        return str(import_module(self.SHOWN_BY).page(self)[0])
+
+    def _answer(self) -> tuple[str, list[tuple[str, str]]]:
+        shown_by = import_module(self.SHOWN_BY)
+        return shown_by.headline(self), shown_by.tiles(self)
 
 
 def texts(template: str, package: str, known: Mapping[str, Any]) -> Any:
@@ -137,31 +173,10 @@ def _environment(package: str) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters["number"] = number
-    environment.filters["unit"] = unit_text
-    environment.filters["g"] = "{:g}".format
+    own = {"number": number, "unit": unit_text, "g": "{:g}".format, "json": _json}
+    environment.filters |= own | {"base64": lambda data: base64.b64encode(data).decode("ascii")}
     environment.globals["asset"] = lambda file: Markup(asset(file))
-    parts: Any = environment.get_template("parts.html.j2").module
-    environment.globals["boxes"] = parts.boxes
     return environment
-
-
-def figure(picture: Picture, alt: str = "") -> Markup:
-    """A picture and its caption, as wide as its inches say; with the numbers of a live one."""
-    alt = alt or picture.alt or picture.caption
-    if picture.live is None:
-        encoded = base64.b64encode(picture.png).decode("ascii")
-        image = '<img width="{0}" style="--own: {0}px" src="data:image/png;base64,{1}" alt="{2}">'
-        kind, shown = "still", Markup(image).format(_width(picture.png), encoded, alt)
-    else:
-        sent = (
-            '<noscript><p class="warning">{}: this figure needs scripts.</p></noscript>\n'
-            '<script type="application/json">{}</script>'
-        )
-        kind, shown = "live", Markup(sent).format(alt, _json(picture.live))
-    return Markup(
-        '<figure class="{}" data-name="{}" data-alt="{}">{}\n<figcaption>{}</figcaption></figure>\n'
-    ).format(kind, picture.name, alt, shown, picture.caption)
 
 
 def _json(content: Mapping[str, Any]) -> Markup:
@@ -200,9 +215,3 @@ def number(
         return "0"
     # no power of ten where thousands are as short
     return f"{float(f'{value:.{digits}g}'):.{max(digits, 6)}g}".replace("-", "−")
-
-
-def _width(png: bytes) -> int:
-    """Width of a picture on the page, CSS pixels: type as large as its inches say."""
-    pixels = int.from_bytes(png[16:20], "big")  # of the header, after signature and chunk name
-    return round(pixels * CSS_DPI / DPI)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from stickslip.steady_motion.starts import STARTS
 
@@ -15,7 +15,7 @@ from cosim.scenario.keys import taken_line
 
 from .bounds import bounds_sentences
 from .contents import Views, material_of, stored_tables
-from .coupling import doubts, effort_rows, step_rows
+from .coupling import doubts, step_rows
 from .files import write_json
 from .heat_numbers import ambient_degC
 from .material import page_of_material
@@ -29,15 +29,7 @@ Progress = Callable[[str], None]
 
 ANIMATION = "temperature.gif"
 OWN_FILES: dict[str, str] = TABLES["files"]
-TITLES, STILL_AIR = TABLES["ledgers"], "still_air_heat_transfer"
 CASES = {"coupled": "mechanics coupled to belt and ice", "mechanics": "mechanics alone"}
-
-
-class Table(NamedTuple):
-    """A heading and rows of words and numbers."""
-
-    title: str
-    rows: list[tuple[str, ...]]
 
 
 def write_results(
@@ -120,85 +112,31 @@ def run_page(
     """HTML of a run: numbers of `summary`, its figures, the files beside it."""
     from .figures import plates_of
 
-    html = render(
-        "run.html.j2",
-        "cosim.report",
-        numbers=numbers,
-        created=datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z"),
-        case=CASES.get(numbers["case"], numbers["case"]),
-        headline=headline(numbers),
-        tiles=tiles(numbers),
-        simulated=_simulated(numbers),
-        ledgers=[
-            Table(TITLES[name], _rows(f"ledger.{name}", entries))
-            for name, entries in numbers.get("ledger", {}).items()
-        ],
-        tables=list(number_tables(numbers)),
-        beyond=beyond(numbers),
-        assessed=assessed(numbers),
-        figures=[plate.picture(dataset) for plate in plates_of(dataset)],
-        parameters=stored_tables(dataset),
-        defaults=taken_line(numbers["defaults"]),
-        files=files or {},
-        command=command,
-        coupled=numbers["case"] == "coupled",
-        starts=STARTS,
-        **{each.__name__: each for each in (worded, told, told_at, degrees, valued)},
-    )
+    values: dict[str, Any] = {
+        "numbers": numbers,
+        "files": files or {},
+        "command": command,
+        "starts": STARTS,
+    }
+    values |= {"headline": headline(numbers), "tiles": tiles(numbers), "step_rows": step_rows}
+    values |= {"parameters": stored_tables(dataset), "worded": worded, "told_at": told_at}
+    values |= {"defaults": taken_line(numbers["defaults"])}
+    values |= {"figures": [plate.picture(dataset) for plate in plates_of(dataset)]}
+    # the template calls what this module knows
+    html = render("run.html.j2", __package__ or "", **globals() | values)
     return page_of_material(html, material_of(dataset))
 
 
-def _simulated(numbers: Mapping[str, Any]) -> str:
+def made(numbers: Mapping[str, Any]) -> str:
+    """When the run was made."""
+    return datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z")
+
+
+def simulated(numbers: Mapping[str, Any]) -> str:
     """How long the run was, and how long it took: to two digits, for that is the machine's mood."""
     took = numbers.get("wall_time")
     computing = "" if took is None else f", computed in {told(float(f'{took:.2g}'), 's')}"
     return f"{told(numbers['time_reached'], 's')} of motion{computing}"
-
-
-def number_tables(numbers: Mapping[str, Any]) -> Iterator[Table]:
-    """Motion after the speed ramp and in all, shares of the heat, melting, how it was coupled."""
-    for name, title in TABLES["number_tables"].items():
-        entries = numbers.get(name)
-        if entries is None:
-            continue
-        if name == "in_the_end":
-            yield Table(title, ending_rows(entries))
-        elif name == "after_run_up" and not entries["duration"]:
-            never = "none: the run ends before the ramp does"
-            yield Table(title, [(never, told(entries["begin"], "s"))])
-        else:
-            yield Table(title, _rows(name, entries))
-    if "coupling" in numbers:
-        coupling = numbers["coupling"]
-        yield Table("How it was coupled", step_rows(coupling))
-        yield Table("Steps of each side, and time in them", effort_rows(coupling["participants"]))
-
-
-def ending_rows(ends: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    """Where the interface would end, or why there is no such place."""
-    if "reason" in ends:
-        return [("the contact's temperature for ever", ends["reason"])]
-    reached = ends["reached"]
-    taken, still = (
-        told(ends[key], "W/(m2.K)", count=2) for key in ("air_heat_transfer", STILL_AIR)
-    )
-    rows: list[tuple[str, ...]] = [
-        ("the contact's temperature for ever, mean of both faces", degrees(ends["interface_degC"])),
-        ("its rise over the air", told(ends["interface_rise"], "K")),
-        (
-            f"from then on within {100.0 * ends['within']:.0f} % of that rise",
-            "after 30 years not yet" if reached is None else told(reached, "s", count=2),
-        ),
-        ("heat transfer to the air, each face of the belt", taken),
-    ]
-    if ends[STILL_AIR] is not None and still != taken:
-        # why `stickslip belt-length` takes another
-        why = (
-            "that of still air, which `belt-length` takes unless belt.air_heat_transfer is given;"
-            f" belt.still_air_speed = {ends['speed']:g} makes this run take it, too"
-        )
-        rows.append((why, still))
-    return rows
 
 
 def beyond(numbers: Mapping[str, Any]) -> list[str]:
@@ -220,10 +158,6 @@ def valued(entry: Mapping[str, Any]) -> str:
     if isinstance(value, str):
         return digits(value)
     return with_unit(digits(value), spelled(entry["unit"]))
-
-
-def _rows(path: str, entries: Mapping[str, Any]) -> list[tuple[str, ...]]:
-    return [(worded(key), told_at(value, f"{path}.{key}")) for key, value in entries.items()]
 
 
 def degrees(value: float | None) -> str:

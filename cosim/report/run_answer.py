@@ -48,9 +48,8 @@ def tiles(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
     if moves is None:
         return []
     frequency = moves["frequency"]
-    often = "none" if frequency == 0.0 else told(frequency, "Hz")
     found = [
-        ("stick-slip frequency", often),
+        ("stick-slip frequency", "none" if frequency == 0.0 else told(frequency, "Hz")),
         ("of the time in slip", told(moves["slip_share"], "1", share=True)),
         ("mean x", told(moves["mean_x"], "m")),
     ]

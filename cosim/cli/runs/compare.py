@@ -13,7 +13,7 @@ from cosim.cli.runs.running import scenario_to_run
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.report import run_dataset, summary, trajectory_dataset
 from cosim.report.compare import Comparison, OneResult, compare, read_result
-from cosim.report.compare.page import cells, curve_cells, write
+from cosim.report.compare.page import cells, curve_cells
 from cosim.report.files import json_text
 from cosim.report.quantities import NONE, digits
 from cosim.scenario import Scenario
@@ -34,7 +34,7 @@ def execute(arguments: Namespace) -> int:
     folder = own_folder(place, (RESULT, PAGE), arguments.force)
     made = made_by(a=both.a.place, b=both.b.place)
     with results_in(folder, made, force=arguments.force) as results:
-        write(both, folder, made["command"])
+        both.save(folder, made["command"])
         results.complete = True
     for remark in both.remarks:
         print(f"warning: {remark}", file=sys.stderr)

@@ -14,7 +14,6 @@ from cosim.fmu.build import own_fmu
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.studies.friction_map import friction_map
 from cosim.studies.friction_map.measured import differences
-from cosim.studies.friction_map.page import write
 
 RESULT, PAGE = "friction_map.json", "report.html"
 TABLE, FIGURE = "friction_map.csv", "friction_map.png"
@@ -37,7 +36,7 @@ def execute(arguments: Namespace) -> int:
         )
     made = made_by(scenario=scenario.to_toml())
     with results_in(folder, made, force=arguments.force) as results:
-        write(found, folder, made["command"])
+        found.save(folder, made["command"])
         results.complete = True
     if asked.give(json.dumps(found.summary(), indent=1)):
         return DONE

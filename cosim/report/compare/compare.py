@@ -6,18 +6,14 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from importlib import import_module
-from pathlib import Path
 from typing import Any, NamedTuple
 
-from cosim.report.quantities import ROUNDING
-from cosim.result import Result
+from cosim.report.page import PageResult
+from cosim.report.quantities import ROUNDING, TABLES
 
 from .one_result import OneResult
 from .series import Apart, Series, apart, ends, matched
 
-#: What draws and writes; loaded when asked for.
-PAGE = "cosim.report.compare.page"
 #: What a summary has beside the numbers of the run itself, and how it was computed.
 NOT_NUMBERS = (
     *("units", "versions", "parameters", "name", "case", "status", "reason", "created"),
@@ -32,6 +28,7 @@ RESIDUALS = ("residual", "largest_difference", "relative_difference")
 #: Units whose zero is a convention: what is a part of such a value says nothing.
 NO_PARTS = ("degC",)
 SYSTEM = "system"
+REMARKS: dict[str, str] = TABLES["compare"]["remarks"]
 CASES = {SYSTEM: "any system", "coupled": "a coupled run", "mechanics": "the mechanics alone"}
 #: Outputs of a system's summary: they are compared as series, in one unit.
 OUTPUTS = "outputs"
@@ -82,8 +79,7 @@ class Difference(NamedTuple):
             return True
         if _is_residual(self.name) and max(abs(self.a), abs(self.b)) < RESIDUAL:
             return True
-        least = PART_OF_SIZE * self.size
-        return math.isclose(self.a, self.b, rel_tol=SAME, abs_tol=least)
+        return math.isclose(self.a, self.b, rel_tol=SAME, abs_tol=PART_OF_SIZE * self.size)
 
 
 def _rounding(unit: str, size: float) -> float:
@@ -96,7 +92,7 @@ def _is_residual(name: str) -> bool:
 
 
 @dataclass(frozen=True)
-class Comparison(Result):
+class Comparison(PageResult):
     """Two results beside each other.
 
     Attributes
@@ -108,6 +104,8 @@ class Comparison(Result):
     series : what both have over time, in one unit
     not_compared : what has one name and is not one quantity, a line each
     """
+
+    SHOWN_BY = f"{__package__}.page"
 
     a: OneResult
     b: OneResult
@@ -149,33 +147,14 @@ class Comparison(Result):
         both = (self.a, self.b)
         cases = [str(one.numbers["case"]) for one in both if "case" in one.numbers]
         if len(set(cases)) > 1:
-            told = [CASES.get(case, case) for case in cases]
-            said.append(f"one is of {told[0]}, the other of {told[1]}: not all numbers are in both")
+            said.append(REMARKS["cases"].format(*(CASES.get(case, case) for case in cases)))
         ends = [float(one.dataset["time"][-1]) for one in both]
         if not math.isclose(*ends, rel_tol=SAME):
-            said.append(
-                f"one run is {ends[0]:g} s long, the other {ends[1]:g} s: totals are of each run's"
-                " own time"
-            )
+            said.append(REMARKS["ends"].format(*ends))
         steps = [one.output_step for one in both]
         if all(steps) and not math.isclose(*steps, rel_tol=AS_DENSE):
-            said.append(
-                f"the one's rows are {steps[0]:g} s apart, the other's {steps[1]:g} s: what is"
-                " found in rows, such as a largest value, may differ by what lies between"
-            )
+            said.append(REMARKS["steps"].format(*steps))
         return [*said, *self.not_compared]
-
-    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        page = import_module(PAGE)
-        return page.sentence(self), page.tiles(self)
-
-    def _page(self) -> str:
-        page = import_module(PAGE)
-        text: str = page.page(self, page.pictures(self))
-        return text
-
-    def _write(self, folder: Path) -> None:
-        import_module(PAGE).write(self, folder)
 
     def summary(self) -> dict[str, Any]:
         """What `compare.json` holds: everything but the time series."""

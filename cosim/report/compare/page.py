@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from cosim.files import write_bytes, write_text
 from cosim.report import quantities
 from cosim.report.files import write_json
 from cosim.report.page import Picture, render
@@ -32,13 +31,9 @@ OF_DIFFERENCE = 2
 TITLES = quantities.TABLES["compared"]
 
 
-def write(both: Comparison, folder: Path, command: str = "") -> None:
-    """Numbers, figures and the page."""
+def write_numbers(both: Comparison, folder: Path) -> None:
+    """All numbers of both."""
     write_json(both.summary(), folder / RESULT)
-    drawn = pictures(both)
-    for one in drawn:
-        write_bytes(one.png, folder / f"{one.name}.png")
-    write_text(page(both, drawn, command), folder / PAGE)
 
 
 def pictures(both: Comparison) -> list[Picture]:
@@ -49,36 +44,21 @@ def pictures(both: Comparison) -> list[Picture]:
     return [*found, draw_phases(both)] if has_phases(both) else found
 
 
-def page(both: Comparison, pictures: Sequence[Picture], command: str = "") -> str:
-    """HTML of a comparison."""
-    return render(
-        "compare.html.j2",
-        "cosim.report.compare",
-        a=both.a,
-        b=both.b,
-        sentence=sentence(both),
-        tiles=tiles(both),
-        remarks=both.remarks,
-        keys=[(key, _key(left), _key(right)) for key, (left, right) in both.keys.items()],
-        alike=bool(both.a.scenario) is bool(both.b.scenario),
-        systems=not (both.a.scenario or both.b.scenario),
-        groups=groups(both.different),
-        of_one=[("A", _of_one(both, "a", 1)), ("B", _of_one(both, "b", 2))],
-        curves=[curve_cells(one) for one in both.curves],
-        same=_same(both),
-        different=len(both.different),
-        pictures=pictures,
-        command=command,
-    )
+def page(both: Comparison, command: str = "") -> tuple[str, list[Picture]]:
+    """HTML of a comparison, and its pictures."""
+    drawn = pictures(both)
+    # the template calls what this module knows
+    told = {"both": both, "pictures": drawn, "command": command}
+    return render("compare.html.j2", __package__ or "", **globals() | told), drawn
 
 
-def sentence(both: Comparison) -> str:
+def headline(both: Comparison) -> str:
     """Whether the two differ, and by how much, in one sentence."""
     names = f"{both.a.label} and {both.b.label}"
     different, curves = len(both.different), _felt(both)
     if not different and not both.curves:
         return f"{names} are equal within rounding, in all that both have."
-    told = f"{names} differ in {different} of {different + _same(both)} numbers"
+    told = f"{names} differ in {different} of {different + equal_count(both)} numbers"
     if curves:
         most, part = _at_top(curves[0]), curve_cells(curves[0])[-1]
         told += f"; {_plain(curves[0].name)} by up to {most}"
@@ -89,7 +69,7 @@ def sentence(both: Comparison) -> str:
 def tiles(both: Comparison) -> list[tuple[str, str]]:
     """Up to four figures: what differs in what made them, in the numbers, and how far in curves."""
     different = len(both.different)
-    found = [(f"of {different + _same(both)} numbers differ", str(different))]
+    found = [(f"of {different + equal_count(both)} numbers differ", str(different))]
     if bool(both.a.scenario) is bool(both.b.scenario):
         found.insert(0, ("different keys", str(len(both.keys))))
     curves = _felt(both)[:CURVES_AT_TOP]
@@ -113,11 +93,13 @@ def _plain(name: str) -> str:
     return name.replace("_", " ")
 
 
-def _same(both: Comparison) -> int:
+def equal_count(both: Comparison) -> int:
+    """Of the numbers, those that are the same."""
     return sum(one.same for one in both.numbers)
 
 
-def _key(value: Any) -> str:
+def keyed(value: Any) -> str:
+    """A key's value, where there is one."""
     return "(not there)" if value is None else digits(value) if value != [] else "[]"
 
 
@@ -131,7 +113,7 @@ def groups(numbers: Iterable[Difference]) -> list[tuple[str, list[tuple[str, ...
     return list(found.items())
 
 
-def _of_one(both: Comparison, side: str, column: int) -> list[tuple[str, list[tuple[str, str]]]]:
+def of_one(both: Comparison, side: str, column: int) -> list[tuple[str, list[tuple[str, str]]]]:
     """Title -> names and values of what only one of them has."""
     those = [one for one in both.of_one if getattr(one, side) is not None]
     return [(title, [(row[0], row[column]) for row in rows]) for title, rows in groups(those)]

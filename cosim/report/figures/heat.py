@@ -83,7 +83,7 @@ MASSES = (
 def melting(dataset: Data) -> TimeFigure:
     """Stresses in the contact, thickness of the film, melted and frozen mass."""
     film = film_of(dataset)
-    stress, thickness = readable(film.friction, "Pa"), readable(film.thickness, "m")
+    stress, thickness = readable(film.friction_stress, "Pa"), readable(film.film_thickness, "m")
     mass = readable(1e3 * dataset["melted_mass"].values, "g")
     masses = [
         Curve(label, mass(1e3 * dataset[name].values), colour)
@@ -91,8 +91,13 @@ def melting(dataset: Data) -> TimeFigure:
         if name != "wiped_ice_mass" or dataset[name].max() > 0.0
     ]
     water = [
-        Curve("film", thickness(film.thickness), ink.BLUE),
-        Curve("film that melting alone would feed", thickness(film.fed), ink.GREY, dash=True),
+        Curve("film", thickness(film.film_thickness), ink.BLUE),
+        Curve(
+            "film that melting alone would feed",
+            thickness(film.film_fed_by_melting),
+            ink.GREY,
+            dash=True,
+        ),
     ]
     stresses = _stresses(film, stress, feels_water(mechanics_of(dataset)))
     panels = [
@@ -108,13 +113,13 @@ def _stresses(film: Film, scaled: Scaled, parts: bool) -> list[Curve]:
 
     The latter has no bound as the film thins: it is cut where the axis of friction ends.
     """
-    curves = [Curve("friction", scaled(film.friction), ink.INK)]
+    curves = [Curve("friction", scaled(film.friction_stress), ink.INK)]
     if parts:
-        water = np.nan_to_num(film.water)
-        curves.append(Curve("dry part of it", scaled(film.friction - water), ink.ORANGE))
-        curves.append(Curve("shear of the water", scaled(film.water), ink.BLUE))
-    highest = 1.3 * scaled.factor * float(np.nanmax(film.friction, initial=0.0)) or 1.0
-    whole = scaled(film.whole)
+        water = np.nan_to_num(film.water_shear)
+        curves.append(Curve("dry part of it", scaled(film.friction_stress - water), ink.ORANGE))
+        curves.append(Curve("shear of the water", scaled(film.water_shear), ink.BLUE))
+    highest = 1.3 * scaled.factor * float(np.nanmax(film.friction_stress, initial=0.0)) or 1.0
+    whole = scaled(film.whole_film_shear)
     with np.errstate(invalid="ignore"):
         whole = np.where(whole <= highest, whole, np.nan)
     curves.append(Curve("shear of a film over the whole contact", whole, ink.LIGHT_BLUE, dash=True))

@@ -59,8 +59,7 @@ def extreme_poses(dataset: Data) -> list[tuple[str, Pose]]:
         if sizes.size and (turns or name == "x"):
             row = int(sizes.argmax())
             pose = Pose(*(float(known[each][row]) for each in Pose._fields))
-            time = float(known["time"][row])
-            found.append((f"{what}, t = {time:.2f} s\n{_told(pose)}", pose))
+            found.append((f"{what}, t = {float(known['time'][row]):.2f} s\n{_told(pose)}", pose))
     return found
 
 
@@ -130,7 +129,6 @@ def top_view_live(dataset: Data) -> Live:
     known = known_rows(dataset)
     every = max(-(-known.sizes["time"] // MOST_FRAMES), 1)
     rows = known.isel(time=slice(None, None, every))
-    curvature = parameters.pack()[P_CURVATURE]
     return {
         "kind": "top_view",
         "time": packed(rows["time"].values, "f8"),
@@ -143,7 +141,7 @@ def top_view_live(dataset: Data) -> Live:
         "width": belt_width(dataset),
         # of a slab, of which the contact warms a ring
         "ring": 2.0 * parameters.rig.contact_radius,
-        "curvature": float(curvature),
+        "curvature": float(parameters.pack()[P_CURVATURE]),
         "speed": parameters.surface.speed,
         "box": [float(edge) for edge in box_of(parameters, [pose for _, pose in poses])],
         "words": surface_words(dataset) + _compared(dataset),

@@ -138,8 +138,7 @@ def stick_slip_frequency(
 
 def friction_effect(case: Case, sensitivity: float | None = None) -> FrictionEffect:
     """Of the interface's rise over the runs; sensitivity: 1/K, linear to melting when left out."""
-    melting = case.rig.ice.melting_point_degC
-    linear = linear_sensitivity(case.ambient_degC, melting)
+    linear = linear_sensitivity(case.ambient_degC, case.rig.ice.melting_point_degC)
     lost = linear if sensitivity is None else sensitivity
     _, warm_belt = case.follow(case.sliding(lost))
     mu_change = -min(1.0, lost * warm_belt.mean_interface)

@@ -109,11 +109,10 @@ def shortest_belts(case: Case, limit: float) -> tuple[float | None, float | None
 
     limit in K. Beyond a belt that never comes round the interface is the same.
     """
-    endless = endless_belt(case).length
     return (
         shortest_belt(case, limit, run_drift),
         shortest_belt(case, limit, steady_drift),
-        shortest_belt(case, limit, interface_drift, min(LONGEST, endless)),
+        shortest_belt(case, limit, interface_drift, min(LONGEST, endless_belt(case).length)),
     )
 
 

@@ -123,7 +123,7 @@ class Answer(Result):
         return self._study._page()
 
     def _write(self, folder: Path) -> None:
-        self._study._write(folder)
+        self._study.save(folder)
 
     def as_dict(self) -> dict[str, Any]:
         """Everything but the rigs, for JSON."""

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from cosim.packaged import packaged_tables
 from cosim.report.files import without_nan
-from cosim.report.page import write_page
-from cosim.result import Result
+from cosim.report.page import PageResult
 
 from .case import Case
 from .changes import Change, FrictionEffect
@@ -22,8 +19,8 @@ from .lengths import DriftMap, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
 
-#: What speaks, draws and writes; loaded when asked for.
-TEXT, PAGE = f"{__package__}.show.text", f"{__package__}.show.page"
+#: What speaks; loaded when asked for.
+TEXT = f"{__package__}.show.text"
 #: Column of the table -> place in a case's JSON.
 _TABLE = packaged_tables(__package__, "columns.toml")
 _COLUMNS, PRINTED = _TABLE["columns"], _TABLE["printed"]
@@ -98,7 +95,7 @@ class Options:
 
 
 @dataclass
-class Study(Result):
+class Study(PageResult):
     """Rows so far; `complete` when none is missing.
 
     answers: of an own rig, one for each drive; scenario: its TOML, "" of the source study's rig;
@@ -112,6 +109,8 @@ class Study(Result):
     >>> study.save("results/belt").name
     'belt'
     """
+
+    SHOWN_BY = f"{__package__}.show.page"
 
     options: Options
     rows: list[Row] = field(default_factory=list)
@@ -139,19 +138,6 @@ class Study(Result):
             grid = vars(self.grid).items()
             numbers["map"] = {name: without_nan(values.tolist()) for name, values in grid}
         return numbers
-
-    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        text = import_module(TEXT)
-        return text.headline(self), text.tiles(self)
-
-    def _page(self) -> str:
-        return str(import_module(PAGE).page(self)[0])
-
-    def _write(self, folder: Path) -> None:
-        page = import_module(PAGE)
-        page.write_numbers(self, folder)
-        text, pictures = page.page(self)
-        write_page(text, pictures, folder)
 
     def table(self) -> pd.DataFrame:
         """One row a case; NaN where nothing is known."""

@@ -14,7 +14,7 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
-from cosim.names import nearest
+from cosim.names import unknown_name
 from cosim.scenario import Scenario
 from thermal.materials import GRAVITY
 
@@ -169,9 +169,7 @@ def _given(text: str) -> Range:
     key, _, said = text.partition("=")
     key = key.strip()
     if key not in unknowns:
-        near = nearest(key, unknowns)
-        known = f"nearest: {near}" if near else f"allowed: {', '.join(unknowns)}"
-        raise StudyError(f"--doubt {text}: no unknown is named {key}, {known}")
+        raise StudyError(f"--doubt {text}: {unknown_name('unknown', key, unknowns)}")
     unit, (least, most), ends = unknowns[key].unit, unknowns[key].allowed, []
     with suppress(ValueError):
         ends = [float(part) for part in said.split(",")]

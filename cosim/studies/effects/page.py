@@ -19,6 +19,7 @@ from cosim.report.live import Curve, Live, Panel, Series, TimeFigure, panels_on_
 from cosim.report.page import Picture, render, unit_text
 from cosim.report.palette import BLUE, GREY
 from cosim.report.style import panels, picture
+from cosim.studies import FIGURES
 from cosim.studies.effects import Entry, allowed, described
 
 INTERVAL = 0.005  # s
@@ -62,16 +63,10 @@ def sentence(rooms: Mapping[str, Sequence[Any]]) -> str:
     return f"{effects}: {told.replace('of the friction', 'of friction')}."
 
 
-@picture(
-    "overview",
-    "What each effect changes: without it (grey) and with it (blue). Where an effect is no law over"
-    " one number, the motion.",
-    alt="A small panel for each effect: its law, or the motion, without it and with it.",
-)
+@picture("overview", **FIGURES["overview"])
 def draw_overview(entries: Sequence[Entry]) -> Figure:
     """A small panel an effect."""
-    rows = math.ceil(len(entries) / ABREAST)
-    figure, axes = panels(rows, ABREAST, height=1.6, width=10.0)
+    figure, axes = panels(math.ceil(len(entries) / ABREAST), ABREAST, height=1.6, width=10.0)
     for ax, entry in zip_longest(axes.flat, entries):
         if entry is None:
             ax.set_visible(False)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from stickslip.effects.melting.asperity_melting import carrying_speed, conducting
 from stickslip.packing import GRAVITY
@@ -17,17 +17,8 @@ LEAST_PECLET = 1.0
 LAWS = packaged_tables(__package__, "laws.toml")
 
 
-class Law(NamedTuple):
-    """Of an effect, by its name: for which contact it holds, what that is here, its numbers."""
-
-    name: str
-    holds: str
-    here: str
-    numbers: str
-
-
-def laws_of(found: FrictionMap) -> list[Law]:
-    """Those of the scenario that are on."""
+def laws_of(found: FrictionMap) -> list[dict[str, str]]:
+    """Those of the scenario that are on, as `laws.toml` has them: name, holds, here, numbers."""
     of = {
         "temperature_dependence": _dry,
         "asperity_melting": _asperities,
@@ -35,7 +26,7 @@ def laws_of(found: FrictionMap) -> list[Law]:
         "mixed_lubrication": _flooded,
     }
     return [
-        Law(name, law["holds"], law["here"].format(**of[name](found)), law["numbers"])
+        law | {"name": name, "here": law["here"].format(**of[name](found))}
         for name, law in LAWS.items()
         if getattr(getattr(found.scenario.mechanics, name), law["on"]) != 0.0
     ]

@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from importlib import import_module
-from pathlib import Path
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -21,11 +21,9 @@ from stickslip import Parameters, friction_coefficient
 from stickslip.packing import GRAVITY
 
 from cosim.coupling.case import run_scenario
-from cosim.result import Result
+from cosim.report.page import PageResult
 from cosim.scenario import Scenario
 
-#: What shows a map; loaded when asked for.
-PAGE = "cosim.studies.friction_map.page"
 MEASURED = "cosim.studies.friction_map.measured"
 #: Damping over what the fall of friction with the speed drives.
 DAMPING = 3.0
@@ -141,18 +139,10 @@ SAME = 1e-3
 ROUNDING = 1e-2
 
 
-@dataclass(frozen=True)
-class DecadeSlope:
-    """d log(y) / d log(speed) by least squares over a decade of speed, from ``low`` to ``high``."""
-
-    slope: float
-    low: float
-    high: float
-
-
-def decade_slopes(speed: ArrayLike, value: ArrayLike) -> list[DecadeSlope]:
+def decade_slopes(speed: ArrayLike, value: ArrayLike) -> list[dict[str, float]]:
     """The slope over each decade of speed that begins at one of the speeds (n,), growing.
 
+    slope: d log(value) / d log(speed) by least squares from the speed ``low`` to ``high``.
     The window that begins at a speed holds all up to ten times that; windows of fewer than four
     points, or that reach less than a decade, are left out. Values (n,) must be positive.
     """
@@ -164,7 +154,7 @@ def decade_slopes(speed: ArrayLike, value: ArrayLike) -> list[DecadeSlope]:
         if inside.sum() < FEWEST or high < 10.0 * low * (1.0 - ROUNDING):
             continue
         slope = np.polyfit(np.log(speed[inside]), np.log(value[inside]), 1)[0]
-        slopes.append(DecadeSlope(float(slope), float(low), float(high)))
+        slopes.append({"slope": float(slope), "low": float(low), "high": float(high)})
     return slopes
 
 
@@ -183,14 +173,17 @@ def lowest_friction(speed: Array, value: Array) -> tuple[float, float] | None:
 
 
 MELTING_POINT = 0.0  # degC
+SLOPE = itemgetter("slope")
 
 
 @dataclass(frozen=True)
-class FrictionMap(Result):
+class FrictionMap(PageResult):
     """Points of all ambient temperatures (warmest last), each with the speeds growing.
 
     failed: a line for each point at which the block does not slide steadily, with the reason.
     """
+
+    SHOWN_BY = f"{__package__}.page"
 
     scenario: Scenario
     duration: float
@@ -234,9 +227,9 @@ class FrictionMap(Result):
         lowest = lowest_friction(speed, friction) if changes else None
         return {
             "ambient_degC": ambient_degC,
-            "steepest_fall": _extreme(slopes, min),
-            "steepest_rise": _extreme(slopes, max),
-            "steepest_fall_over_warming": _extreme(warmed, min),
+            "steepest_fall": min(slopes, key=SLOPE, default=None),
+            "steepest_rise": max(slopes, key=SLOPE, default=None),
+            "steepest_fall_over_warming": min(warmed, key=SLOPE, default=None),
             "minimum": lowest and {"speed": lowest[0], "friction": lowest[1]},
         }
 
@@ -244,17 +237,6 @@ class FrictionMap(Result):
         """How many points of which temperatures, in a line."""
         air = ", ".join(f"{ambient:g}" for ambient in self.ambients)
         return f"<FrictionMap of {self.scenario.name}: {len(self.points)} points, air {air} degC>"
-
-    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        page = import_module(PAGE)
-        return page.sentence(self), page.tiles(self)
-
-    def _page(self) -> str:
-        page = import_module(PAGE)
-        return str(page.page(self, page.draw_map(self), ""))
-
-    def _write(self, folder: Path) -> None:
-        import_module(PAGE).write(self, folder)
 
     def summary(self) -> dict[str, Any]:
         """What `friction_map.json` holds: everything as plain data."""
@@ -266,12 +248,6 @@ class FrictionMap(Result):
             "failed": list(self.failed),
             "measured": [asdict(each) for each in import_module(MEASURED).measured_beside(self)],
         }
-
-
-def _extreme(
-    slopes: list[DecadeSlope], choose: Callable[..., DecadeSlope]
-) -> dict[str, float] | None:
-    return asdict(choose(slopes, key=lambda entry: entry.slope)) if slopes else None
 
 
 def friction_map(

@@ -16,9 +16,10 @@ from stickslip import friction_coefficient
 
 from cosim.files import write_text
 from cosim.report.files import write_table
-from cosim.report.page import Picture, number, render, write_page
+from cosim.report.page import Picture, number, render
 from cosim.report.palette import GREY, INK, PALE_GREY, SERIES
 from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
+from cosim.studies import FIGURES
 
 from .laws import laws_of
 from .map import SAME, FrictionMap, SteadySliding, steady_scenario
@@ -34,11 +35,7 @@ AT_TOP = 3
 NAMED = 0.3
 
 
-@picture(
-    "friction_map",
-    "Friction over the speed of sliding. Lines: the law at the ambient temperature. Points: "
-    "coupled runs, whose interface is warmer.",
-)
+@picture("friction_map", **FIGURES["friction_map"])
 def draw_map(found: FrictionMap) -> Figure:
     """Lines: the law at the ambient temperature. Points: coupled runs, interface warmer."""
     figure, ((ax,),) = panels(1, 1, height=5.2, width=9.0)
@@ -81,8 +78,7 @@ def draw_map(found: FrictionMap) -> Figure:
 
 def _law(found: FrictionMap, ambient: float, speeds: np.ndarray) -> np.ndarray:
     """The law at an ambient temperature, degC, over speeds (n,): (n,)."""
-    first = found.at(ambient)[0].speed
-    case = steady_scenario(found.scenario, first, ambient, found.duration)
+    case = steady_scenario(found.scenario, found.at(ambient)[0].speed, ambient, found.duration)
     return friction_coefficient(case.mechanics, speeds, ambient)
 
 
@@ -163,7 +159,7 @@ def _mark_slopes(ax: Axes, speed: np.ndarray, law: np.ndarray) -> None:
         _say(ax, words, (speed[at], 0.75 * law[at]), (side, -6), color=GREY)
 
 
-def sentence(found: FrictionMap) -> str:
+def headline(found: FrictionMap) -> str:
     """How friction goes with the speed, of the coldest air."""
     ambient = found.ambients[0]
     points = found.at(ambient)
@@ -207,32 +203,21 @@ def tiles(found: FrictionMap) -> list[tuple[str, str]]:
     return [*told, ("warmest contact", f"{warmest:z.2f} °C".replace("-", "−"))]
 
 
-def regimes_of(found: FrictionMap) -> list[dict[str, Any]]:
-    """The regimes of each temperature, and what stands where there is none."""
-    ends = {True: "the same at all speeds", False: "at an end of the speeds"}
-    return [
-        found.regimes(one)
-        | {"no_slope": found.no_slope(one), "no_minimum": ends[found.is_flat(one)]}
-        for one in found.ambients
-    ]
-
-
 def slope_in_words(slope: float, digits: int = 3) -> str:
     """With its sign, unless it is 0."""
     told = f"{slope:+z.{digits}f}".replace("-", "−")
     return "0" if not told.strip("+0.") else told
 
 
-def write(found: FrictionMap, folder: Path, command: str = "") -> None:
-    """Numbers first, then the figure and the page."""
+def write_numbers(found: FrictionMap, folder: Path) -> None:
+    """The map as JSON, and its points as a table."""
     write_text(json.dumps(found.summary(), indent=1), folder / "friction_map.json")
     write_table(pd.DataFrame(found.points), folder / "friction_map.csv", index=False)
+
+
+def page(found: FrictionMap, command: str = "") -> tuple[str, list[Picture]]:
+    """HTML of a map, and its figure."""
     drawn = draw_map(found)
-    write_page(page(found, drawn, command), [drawn], folder)
-
-
-def page(found: FrictionMap, drawn: Picture, command: str) -> str:
-    """HTML of a map, its figure, and the command line that made it."""
     # the template calls what this module knows
     told = {"found": found, "drawn": drawn, "differences": differences(found), "command": command}
-    return render("friction_map.html.j2", "cosim.studies.friction_map", **globals() | told)
+    return render("friction_map.html.j2", __package__ or "", **globals() | told), [drawn]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass, field, replace
+from dataclasses import KW_ONLY, dataclass, field
 from itertools import combinations
 from typing import Any, NamedTuple
 
@@ -335,19 +335,13 @@ def judged(claim: str, judge: Judge) -> Claim:
     """A claim with its numbers, its checks and its texts."""
     written, found = WRITTEN[claim], Claim(claim)
     said = judge(found)
+    for name in ("title", "place", "rests", "first", "scope"):
+        setattr(found, name, written.get(name, "").format(**said))
     assumed = [WRITTEN["assumed"].get(one, one) for one in written.get("assumed", ())]
-    texts = {
-        name: written[name].format(**said)
-        for name in ("title", "place", "rests", "first", "scope")
-        if name in written
-    }
-    return replace(
-        found,
-        leading=written.get("leading", 0),
-        remarks=[text.format(**said) for text in written.get("remarks", ())],
-        assumed=[text.format(**said) for text in assumed],
-        **texts,
-    )
+    found.assumed = [text.format(**said) for text in assumed]
+    found.remarks = [text.format(**said) for text in written.get("remarks", ())]
+    found.leading = written.get("leading", 0)
+    return found
 
 
 def responsible(holds: Callable[[Faults], bool]) -> tuple[str, ...]:

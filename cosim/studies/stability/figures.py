@@ -12,6 +12,7 @@ from stickslip.steady_motion.starts import RAMP, REST, RIDING
 
 from cosim.report.palette import BLUE, INK, RED, SAND, SOFT_GREY
 from cosim.report.style import panels, picture
+from cosim.studies import FIGURES
 
 from .maps import MAPPED, Case, PretensionMap, RegimeMap
 
@@ -22,14 +23,7 @@ OTHER = SOFT_GREY
 LOW, HIGH = 0.5, 2.0
 
 
-@picture(
-    "pretension_map",
-    "Largest multiplier of a small disturbance to the side or in rotation "
-    "in one cycle, over pretension and speed of the surface: below 1 it dies out, above it "
-    "grows. Line: the border, between the points of the map. Rings: the block does not stick "
-    "there. Cross: the scenario. "
-    "Grey: no motion that can be followed.",
-)
+@picture("pretension_map", **FIGURES["pretension_map"])
 def draw_pretension_map(found: PretensionMap, case: Case) -> Figure:
     """Growth as colour, its border as a line."""
     figure, axes = panels(1, 1, height=4.2, width=7.2)
@@ -63,13 +57,7 @@ def _pretension(case: Case) -> float:
     return rig.spring_length - rig.spring_natural_length
 
 
-@picture(
-    "regime_map",
-    "Regime that the model comes to from three starts, over the surface's speed "
-    "and µ_s/µ_k at the scenario's µ_k. Where the panels differ, regimes exist side by side. "
-    "Dots: borders of the Coulomb oscillator in closed form, where the scenario is one. "
-    "Cross: the scenario.",
-)
+@picture("regime_map", **FIGURES["regime_map"])
 def draw_regime_map(found: RegimeMap, case: Case) -> Figure:
     """A panel for each start."""
     figure, axes = panels(1, len(MAPPED), height=3.6, width=11.0, sharey=True)

@@ -24,6 +24,9 @@ from stickslip.steady_motion.starts import RAMP, REST, RIDING, other_starts
 
 from cosim.scenario import Scenario
 
+Array = np.ndarray
+#: Called with 1 after each cell of a map.
+Done = Callable[[int], object]
 #: Length of a run after the surface has its speed, s, and in natural periods.
 SECONDS, PERIODS = 20.0, 40.0
 
@@ -89,23 +92,20 @@ class PretensionMap:
     followed.
     """
 
-    pretensions: np.ndarray
-    speeds: np.ndarray
-    growth: np.ndarray
-    sticks: np.ndarray
+    pretensions: Array
+    speeds: Array
+    growth: Array
+    sticks: Array
 
 
-def pretension_map(
-    case: Case, pretensions: np.ndarray, speeds: np.ndarray, done: Callable[[int], object]
-) -> PretensionMap:
+def pretension_map(case: Case, pretensions: Array, speeds: Array, done: Done) -> PretensionMap:
     """The map around a case; ``done`` is called with 1 after each cell."""
     growth = np.full((len(pretensions), len(speeds)), np.nan)
     sticks = growth.copy()
     for j, speed in enumerate(speeds):
         moving = at_speed(case.parameters, speed)
         for i, pretension in enumerate(pretensions):
-            parameters = with_pretension(moving, pretension)
-            growth[i, j], sticks[i, j] = _cell(parameters, case.interface)
+            growth[i, j], sticks[i, j] = _cell(with_pretension(moving, pretension), case.interface)
             done(1)
     return PretensionMap(np.asarray(pretensions), np.asarray(speeds), growth, sticks)
 
@@ -134,12 +134,12 @@ class RegimeMap:
     of that closed form, for each start (k, 2) of speed and ratio, far closer than the grid.
     """
 
-    ratios: np.ndarray
-    speeds: np.ndarray
-    simulated: np.ndarray
-    closed_form: np.ndarray | None
+    ratios: Array
+    speeds: Array
+    simulated: Array
+    closed_form: Array | None
     fastest_from_rest: float | None
-    borders: tuple[np.ndarray, ...] = ()
+    borders: tuple[Array, ...] = ()
 
     @property
     def wrong(self) -> int | None:
@@ -149,9 +149,7 @@ class RegimeMap:
         return int(np.sum((self.simulated != self.closed_form) & (self.simulated != "")))
 
 
-def regime_map(
-    case: Case, ratios: np.ndarray, speeds: np.ndarray, done: Callable[[int], object]
-) -> RegimeMap:
+def regime_map(case: Case, ratios: Array, speeds: Array, done: Done) -> RegimeMap:
     """The map around a case, whose mu_k is kept; ``done`` is called with 1 after each cell."""
     simulated = np.full((len(MAPPED), len(ratios), len(speeds)), "", dtype=object)
     closed = simulated.copy()
@@ -234,11 +232,11 @@ HALVINGS = 7
 
 
 def _borders(
-    parameters: Parameters, start: str, names: np.ndarray, ratios: np.ndarray, speeds: np.ndarray
-) -> np.ndarray:
+    parameters: Parameters, start: str, names: Array, ratios: Array, speeds: Array
+) -> Array:
     """Between neighbours of the grid whose ``names`` (n, m) differ, where: (k, 2) speed, ratio."""
 
-    def sticks(point: np.ndarray) -> bool:
+    def sticks(point: Array) -> bool:
         speed, ratio = point
         return STICKS[start](belt_start(with_ratio(at_speed(parameters, speed), ratio)))
 

@@ -13,6 +13,8 @@ from stickslip.steady_motion.starts import RAMP, REST, RIDING, disturbed, other_
 
 from .maps import MAPPED, Case, NotAMotion, run_length
 
+#: From one value to another; None is beyond what was searched.
+Window = tuple[float | None, float | None]
 #: What the command line calls the numbers of `numbers.numbers_of`.
 NUMBERS = {
     "speed": rig.SPEED,
@@ -59,9 +61,7 @@ def stick_slip_range(
     }
 
 
-def _windows(
-    lowest: str, borders: list[tuple[float, str]]
-) -> list[tuple[float | None, float | None]]:
+def _windows(lowest: str, borders: list[tuple[float, str]]) -> list[Window]:
     """Where the block sticks and slips: by its regime at the least value and above each border."""
     names = [lowest, *(name for _, name in borders)]
     between = zip(names, pairwise([None, *(value for value, _ in borders), None]), strict=True)
@@ -88,9 +88,7 @@ def range_sentence(found: dict[str, Any]) -> str:
     )
 
 
-def _range(
-    windows: list[tuple[float | None, float | None]], unit: str, least: str, most: str
-) -> str:
+def _range(windows: list[Window], unit: str, least: str, most: str) -> str:
     """In words; least, most: what was looked at, beyond which nothing is said."""
     if not windows:
         return f"nowhere from {least} to {most}{unit}"

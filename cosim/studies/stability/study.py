@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,8 +15,7 @@ from stickslip.steady_motion.starts import OWN, STARTS
 from cosim.files import write_text
 from cosim.report.files import without_nan
 from cosim.report.motion_text import border_sentence, regime_sentence, stability_sentence
-from cosim.report.page import Picture, number, render, write_page
-from cosim.result import Result
+from cosim.report.page import PageResult, Picture, number, render
 from cosim.scenario import Scenario
 
 from . import maps
@@ -30,7 +29,7 @@ SPEEDS, PRETENSIONS, RATIOS = (0.2, 4.0), (0.0, 0.2), (1.02, 2.0)
 
 
 @dataclass
-class Stability(Result):
+class Stability(PageResult):
     """The assessment of a scenario, and the maps and the range that were asked for.
 
     Attributes
@@ -39,6 +38,8 @@ class Stability(Result):
     pretension, regimes : the maps around it; None where they were not computed
     stick_slip : what `stick_slip_range` says; None where that was not asked
     """
+
+    SHOWN_BY = __name__
 
     case: Case
     pretension: PretensionMap | None = None
@@ -66,36 +67,36 @@ class Stability(Result):
         self.regimes = maps.regime_map(self.case, np.linspace(*RATIOS, grid), speeds, done)
 
     def summary(self) -> dict[str, Any]:
-        """What `stability.json` holds."""
-        numbers = as_json(self.case, self.pretension, self.regimes)
-        return numbers | {"stick_slip_range": self.stick_slip}
+        """What `stability.json` holds: plain numbers, SI; what was not computed is None."""
+        stretched, regimes = self.pretension, self.regimes
+        return {
+            "name": self.case.name,
+            **self.case.assessment.as_dict(),
+            "starts": STARTS,
+            "pretension_map": stretched
+            and {key: without_nan(values.tolist()) for key, values in vars(stretched).items()},
+            "regime_map": regimes
+            and {
+                "ratios": regimes.ratios.tolist(),
+                "speeds": regimes.speeds.tolist(),
+                "simulated": _by_start(regimes.simulated),
+                "closed_form": regimes.closed_form
+                if regimes.closed_form is None
+                else _by_start(regimes.closed_form),
+                "cells_that_differ": regimes.wrong,
+                "fastest_from_rest": regimes.fastest_from_rest,
+                "closed_form_borders": _by_start(regimes.borders),
+            },
+            "stick_slip_range": self.stick_slip,
+        }
 
     @property
     def sentences(self) -> list[str]:
         """What the numbers say, what was asked first."""
-        numbers = as_json(self.case, self.pretension, self.regimes)
+        numbers = self.summary()
         told = (stability_sentence, regime_sentence, border_sentence)
         first = [] if self.stick_slip is None else [range_sentence(self.stick_slip)]
         return [*first, *(speaks(numbers) for speaks in told)]
-
-    @property
-    def pictures(self) -> list[Picture]:
-        """Of the maps."""
-        from .figures import draw_pretension_map, draw_regime_map
-
-        pairs = ((draw_pretension_map, self.pretension), (draw_regime_map, self.regimes))
-        return [draw(found, self.case) for draw, found in pairs if found is not None]
-
-    def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        return self.sentences[0], tiles(self.summary())
-
-    def _page(self) -> str:
-        return page(self.summary(), self.sentences, self.pictures)
-
-    def _write(self, folder: Path) -> None:
-        pictures = self.pictures
-        write_text(json.dumps(self.summary(), indent=1), folder / RESULT)
-        write_page(page(self.summary(), self.sentences, pictures), pictures, folder)
 
 
 def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stability:
@@ -122,52 +123,41 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
     return found
 
 
-def as_json(
-    case: Case, stretched: PretensionMap | None, regimes: RegimeMap | None
-) -> dict[str, Any]:
-    """Case and maps with plain numbers, SI; what was not computed is None."""
-    return {
-        "name": case.name,
-        **case.assessment.as_dict(),
-        "starts": STARTS,
-        "pretension_map": stretched
-        and {key: without_nan(values.tolist()) for key, values in vars(stretched).items()},
-        "regime_map": regimes
-        and {
-            "ratios": regimes.ratios.tolist(),
-            "speeds": regimes.speeds.tolist(),
-            "simulated": _by_start(regimes.simulated),
-            "closed_form": None if regimes.closed_form is None else _by_start(regimes.closed_form),
-            "cells_that_differ": regimes.wrong,
-            "fastest_from_rest": regimes.fastest_from_rest,
-            "closed_form_borders": _by_start(regimes.borders),
-        },
-    }
-
-
 def _by_start(tables: Iterable[np.ndarray]) -> dict[str, Any]:
     return {start: table.tolist() for start, table in zip(MAPPED, tables, strict=False)}
 
 
-def page(numbers: dict[str, Any], sentences: Sequence[str], pictures: Sequence[Picture]) -> str:
-    """HTML of the numbers of `as_json`, what they say, the first of it first, and the maps."""
+def write_numbers(found: Stability, folder: Path) -> None:
+    """All numbers."""
+    write_text(json.dumps(found.summary(), indent=1), folder / RESULT)
+
+
+def headline(found: Stability) -> str:
+    """What was asked first."""
+    return found.sentences[0]
+
+
+def page(found: Stability, command: str = "") -> tuple[str, list[Picture]]:
+    """HTML of the numbers and what they say, the first of it first; and the maps."""
+    from .figures import draw_pretension_map, draw_regime_map
+
     # the heading is one sentence, and what it goes on with stands below
-    sentence, *rest = re.split(r"(?<=\.) (?=[A-Z])", sentences[0], maxsplit=1)
-    return render(
-        "stability.html.j2",
-        "cosim.studies.stability",
-        numbers=numbers,
-        sentence=sentence,
-        sentences=[*rest, *sentences[1:]],
-        tiles=tiles(numbers),
-        pictures=pictures,
-    )
+    first, *others = found.sentences
+    sentence, *rest = re.split(r"(?<=\.) (?=[A-Z])", first, maxsplit=1)
+    pairs = ((draw_pretension_map, found.pretension), (draw_regime_map, found.regimes))
+    pictures = [draw(drawn, found.case) for draw, drawn in pairs if drawn is not None]
+    html = render(
+        "stability.html.j2", __package__ or "", numbers=found.summary(), sentence=sentence,
+        sentences=[*rest, *others], tiles=tiles(found), pictures=pictures,
+    )  # fmt: skip
+    return html, pictures
 
 
-def tiles(numbers: dict[str, Any]) -> list[tuple[str, str]]:
+def tiles(found: Stability) -> list[tuple[str, str]]:
     """Four figures: how fast disturbances grow, what would help, and what the run does."""
-    found, own = numbers["stability"], numbers["regimes"][OWN]
-    growth, least = found.get("growth"), found.get("least_pretension")
+    numbers = found.summary()
+    stability, own = numbers["stability"], numbers["regimes"][OWN]
+    growth, least = stability.get("growth"), stability.get("least_pretension")
     there = [
         ("growth of a disturbance in a cycle", growth and f"{number(growth, 3)} times"),
         ("least pretension for stability", least and f"{number(1e3 * least, 3)} mm"),

@@ -84,8 +84,7 @@ def axis(keys: str | Sequence[str], values: Sequence[Any], kind: type[Scenario] 
     coordinates = {name: _coordinate(name, labels, "1", name)}  # of one key, its own values instead
     for (key, of), column in zip(fields.items(), zip(*rows, strict=True), strict=True):
         number = int if of.annotation is int else float
-        long_name = of.description or key
-        coordinates[key] = _coordinate(name, column, unit_of(of), long_name, number)
+        coordinates[key] = _coordinate(name, column, unit_of(of), of.description or key, number)
     return Axis(name, tuple(dict(zip(keys, row, strict=True)) for row in rows), coordinates)
 
 

@@ -118,8 +118,7 @@ def content_key(parameters: Parameters, run: Run) -> str:
     content: list[Any] = [model_version(parameters.catalogue), *times, tables]
     if run.coupled:
         content.append(heat_version())
-    text = json.dumps(content, sort_keys=True)
-    return hashlib.sha256(text.encode()).hexdigest()[:KEY_DIGITS]
+    return hashlib.sha256(json.dumps(content, sort_keys=True).encode()).hexdigest()[:KEY_DIGITS]
 
 
 def with_changes(base: Parameters, changes: Mapping[str, Any]) -> Parameters:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from cosim.report.palette import BLUE, FAINT_BLUE, INK, LIGHT_BLUE
 from cosim.report.style import at_least, picture
+from cosim.studies import FIGURES
 
 from .features import ALL
 from .words import shown_features, titled
@@ -36,12 +37,7 @@ SMALLEST_SPAN = 0.25
 SMALL: Any = {"fontsize": 7.5, "title_fontsize": 7.5}
 
 
-@picture(
-    "sweep",
-    "Features of the motion over the varied keys; what does not vary is left out, and so are runs"
-    " that failed. A cross at the foot of a frequency: the block does not stick and slip there."
-    " Where lines lie on each other, the thinner is on the wider.",
-)
+@picture("sweep", **FIGURES["sweep"])
 def draw_sweep(dataset: xr.Dataset, features: Sequence[str] = ()) -> Figure:
     """One row for each feature, one column for each varied dimension (three columns for one).
 

@@ -16,18 +16,12 @@ from cosim.result import Result
 
 from . import words
 from .features import ALL
-from .words import records, shown_features, still_sentence, unit_of
+from .words import records, shown_features, unit_of
 
 if TYPE_CHECKING:
     from cosim.report.page import Picture
 
 RESULT, FIGURE, TABLE, PAGE = "sweep.nc", "sweep.png", "sweep.csv", "report.html"
-#: Runs that the page lists; the rest is in the file.
-MOST_ROWS = 500
-FILES = {
-    RESULT: "all features of all runs, with units: netCDF 4, for xarray, Matlab",
-    TABLE: "the same as a table, a line for each run",
-}
 
 
 class Sweep(xr.Dataset, Result):  # type: ignore[no-untyped-call]
@@ -56,8 +50,7 @@ class Sweep(xr.Dataset, Result):  # type: ignore[no-untyped-call]
 def summary(datasets: Mapping[str, xr.Dataset]) -> dict[str, Any]:
     """Every run of each group, "" being the first."""
     runs = {group or "runs": records(dataset) for group, dataset in datasets.items()}
-    found: dict[str, Any] = without_nan(runs)
-    return found
+    return dict(without_nan(runs))
 
 
 def write(
@@ -91,12 +84,9 @@ def _drawn(
         dataset=dataset,
         dims=dims,
         coordinates=[dataset[dim] for dim in dims],
-        still=still_sentence(dataset, still),
+        still=still,
         picture=picture,
         drawn={name: ALL[name] for name in drawn},
-        rows=records(dataset),
-        most=MOST_ROWS,
-        files=FILES,
         command=command,
         scenario=scenario,
     )

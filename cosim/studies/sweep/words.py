@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from cosim.names import nearest
+from cosim.names import unknown_name
 from cosim.report.page import number, unit_text
 
 from .axis import SweepError
@@ -40,9 +40,7 @@ def check_shown(asked: Sequence[str], features: Collection[str]) -> None:
     known = [name for name in ALL if name in features]
     for name in asked:
         if name not in known:
-            near = nearest(name, known)
-            hint = f"nearest: {near}" if near else f"allowed: {', '.join(known)}"
-            raise SweepError(f"--show {name}: is no feature of this sweep, {hint}")
+            raise SweepError(f"--show: {unknown_name('feature of this sweep', name, known)}")
 
 
 def _known(values: xr.DataArray) -> Any:
@@ -129,8 +127,7 @@ def sentence(rows: Sequence[Record], dims: Mapping[str, str]) -> str:
 
 def _span(rows: Sequence[Record], key: str, digits: int) -> str:
     """From the first to the last of some numbers or names."""
-    ends = dict.fromkeys(number(row[key], digits) for row in (rows[0], rows[-1]))
-    return " to ".join(ends)
+    return " to ".join(dict.fromkeys(number(row[key], digits) for row in (rows[0], rows[-1])))
 
 
 def tiles(rows: Sequence[Record], dims: Mapping[str, str]) -> list[tuple[str, str]]:

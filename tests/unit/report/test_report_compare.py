@@ -11,7 +11,7 @@ from cosim.cli.runs import compare as compare_command
 from cosim.cli.runs import simulate as simulate_command
 from cosim.report.compare import Difference, compare, read_result
 from cosim.report.compare.figures import moving
-from cosim.report.compare.page import cells, curve_cells, sentence, tiles
+from cosim.report.compare.page import cells, curve_cells, headline, tiles
 from cosim.report.compare.series import Apart
 
 CASE = """
@@ -174,9 +174,9 @@ def test_what_no_rig_tells_from_nothing_is_not_at_the_top_and_no_part_of_anythin
     both = SimpleNamespace(curves=[y, x], different=[], numbers=[], keys={}, a=RUN, b=RUN)
     assert curve_cells(y)[-1] == "–" and curve_cells(x)[-1] == "140 %"
     assert tiles(both)[2:] == [("x, apart at most", "42 mm")]
-    assert "; x by up to 42 mm" in sentence(both)
+    assert "; x by up to 42 mm" in headline(both)
     both.curves = [y]
-    assert sentence(both) == "one and one differ in 0 of 0 numbers."
+    assert headline(both) == "one and one differ in 0 of 0 numbers."
 
 
 RUN = SimpleNamespace(label="one", scenario="")
@@ -184,7 +184,7 @@ RUN = SimpleNamespace(label="one", scenario="")
 
 def test_the_page_begins_with_whether_they_differ(place):
     one = read_result(place / "results")
-    assert sentence(compare(one, one)) == (
+    assert headline(compare(one, one)) == (
         "light (A) and light (B) are equal within rounding, in all that both have."
     )
     out = place / "first"

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from cosim.report.compare import OneResult, compare
-from cosim.report.compare.figures import has_phases, moving, overlay
+from cosim.report.compare.figures import has_phases, moving
 from cosim.report.compare.page import page
 from cosim.report.compare.series import apart, matched
 
@@ -67,7 +67,7 @@ def test_a_system_in_other_units_is_the_run_that_it_is():
     said = " ".join(both.remarks)
     assert "one is of a coupled run, the other of any system" in said
     assert "0.01 s apart, the other's 0.02 s" in said and "not compared" in said
-    text = page(both, [overlay(both)])
+    text = page(both)[0]
     assert "the other is a system of units" in text and "What only" not in text
 
 
@@ -99,7 +99,7 @@ def test_two_systems_are_compared_by_what_they_are_made_of():
         "units.block.mass": (1.0, 2.0),
     }
     assert not both.different and not both.curves and not both.remarks
-    assert "What differs in the systems" in page(both, [])
+    assert "What differs in the systems" in page(both)[0]
 
 
 def test_ports_that_two_units_have_are_not_guessed():
@@ -115,4 +115,4 @@ def test_a_temperature_in_celsius_is_no_part_of_another():
     both = compare(result("a", RUN), result("b", warm))
     (end,) = [one for one in both.different if one.name.endswith("temperature.end")]
     assert end.relative is None and end.difference == pytest.approx(0.02)
-    assert "20 mK" in page(both, [])
+    assert "20 mK" in page(both)[0]

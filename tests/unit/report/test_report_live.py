@@ -15,7 +15,7 @@ from cosim.report.figures.events import through_events
 from cosim.report.figures.phase_portrait import phase_portrait
 from cosim.report.heat_numbers import ambient_degC
 from cosim.report.live import MOST_ROWS, Curve, Panel, TimeFigure, packed, thinned
-from cosim.report.page import Picture, figure
+from cosim.report.page import Picture, texts
 
 SHOWN = {plate.name: plate.show for plate in PLATES if plate.show}
 
@@ -112,6 +112,7 @@ def test_the_map_has_no_spikes_and_is_warm_behind_the_block_only():
 def test_a_picture_cannot_end_its_script():
     panel = Panel("</script><b> [m]", [Curve("a", np.arange(3.0), "#000")])
     sent = TimeFigure(np.arange(3.0), [panel]).live()
-    html = str(figure(Picture("p", "c", bytes, live=sent)))
+    parts = texts("parts.html.j2", "cosim.report", {})
+    html = str(parts.figure(Picture("p", "c", bytes, live=sent), "c"))
     script = html.split('<script type="application/json">')[1].split("</script>")[0]
     assert json.loads(script)["panels"][0]["label"] == "</script><b> [m]"

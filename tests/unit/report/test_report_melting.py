@@ -101,8 +101,10 @@ def test_no_film_in_stick_and_none_without_water():
     dataset = melted()
     dataset["mode"][300:] = 0
     film = film_of(dataset)
-    assert not np.any(np.isfinite(film.thickness[:200])) and np.all(film.friction[:200] > 0.0)
-    assert not np.any(np.isfinite(film.friction[300:]))
+    assert not np.any(np.isfinite(film.film_thickness[:200])) and np.all(
+        film.friction_stress[:200] > 0.0
+    )
+    assert not np.any(np.isfinite(film.friction_stress[300:]))
     assert numbers(dataset)["friction_end"] is None
 
 

@@ -14,7 +14,7 @@ from cosim.report import write_results
 from cosim.report.figures import plates_of
 from cosim.report.page import number, sentences, tiles_of
 from cosim.report.quantities import told
-from cosim.report.results import ending_rows, number_tables
+from cosim.report.results import run_page
 from cosim.report.run_answer import headline, tiles
 from cosim.report.run_summary import summary
 
@@ -186,31 +186,35 @@ def test_rounding_beside_a_channels_own_size_or_its_nominal_is_nought(value, siz
 
 def test_a_run_that_ends_in_its_ramp_has_no_numbers_after_it():
     """A sentence in place of a column of dashes."""
-    numbers = {"after_run_up": {"begin": 10.0, "duration": 0.0, "frequency": None}}
-    (table,) = number_tables(numbers | {"units": {"after_run_up.begin": "s"}})
-    assert table.rows == [("none: the run ends before the ramp does", "10 s")]
+    dataset = coupled_dataset()
+    moves = {"begin": 10.0, "duration": 0.0, "break_aways": 0, "frequency": None}
+    numbers = summary(dataset) | {"after_run_up": moves | {"slip_share": None, "mean_x": None}}
+    row = "<tr><td>none: the run ends before the ramp does</td><td>10 s</td></tr>"
+    assert row in run_page(dataset, numbers)
 
 
 def test_the_page_says_how_warm_it_gets_in_the_end():
     dataset = coupled_dataset()
     ends = summary(dataset)["in_the_end"]
     assert ends["interface_rise"] > 0.0 and ends["reached"] > dataset["time"][-1] and ends["within"]
-    rows = [row for table in number_tables(summary(dataset)) for row in table.rows]
-    assert ("its rise over the air", told(ends["interface_rise"], "K")) in rows
-    assert any(words == "from then on within 5 % of that rise" for words, _ in rows)
+    page = run_page(dataset, summary(dataset))
+    rise = told(ends["interface_rise"], "K")
+    assert f"<tr><td>its rise over the air</td><td>{rise}</td></tr>" in page
+    assert "<td>from then on within 5 % of that rise</td>" in page
 
 
 def test_the_page_says_why_the_belt_length_takes_another_heat_transfer_to_the_air():
-    ends = summary(coupled_dataset())["in_the_end"]
-    same = ends | {"still_air_heat_transfer": ends["air_heat_transfer"]}
-    assert [value for _, value in ending_rows(same)[3:]] == [told_air(same["air_heat_transfer"])]
-    (_, taken), (why, still) = ending_rows(ends | {"still_air_heat_transfer": 5.4518})[3:]
-    assert (taken, still) == (told_air(ends["air_heat_transfer"]), "5.5 W/(m² K)")
-    assert f"belt.still_air_speed = {ends['speed']:g} makes this run take it" in why
-
-
-def told_air(film):
-    return told(film, "W/(m2.K)", count=2)
+    dataset = coupled_dataset()
+    numbers = summary(dataset)
+    ends = numbers["in_the_end"]
+    page, same = (
+        run_page(dataset, numbers | {"in_the_end": ends | {"still_air_heat_transfer": film}})
+        for film in (5.4518, ends["air_heat_transfer"])
+    )
+    taken, why = told(ends["air_heat_transfer"], "W/(m2.K)", count=2), "makes this run take it"
+    row = f"<td>heat transfer to the air, each face of the belt</td><td>{taken}</td>"
+    assert row in page and row in same and why not in same
+    assert f"belt.still_air_speed = {ends['speed']:g} {why}, too</td><td>5.5 W/(m² K)</td>" in page
 
 
 def test_every_page_has_the_dark_look_of_the_shared_style_and_none_of_its_own():

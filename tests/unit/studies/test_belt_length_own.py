@@ -180,7 +180,7 @@ def test_a_range_of_ones_own():
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("roller=0,1", "no unknown is named roller, nearest: "),
+        ("roller=0,1", "no unknown is named 'roller'; nearest: "),
         ("h", "--doubt h: allowed is h=LOW,HIGH or h=VALUE"),
         ("h=12,8", "allowed is h=LOW,HIGH"),
         ("h=nan", "allowed is h=LOW,HIGH"),

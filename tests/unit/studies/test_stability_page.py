@@ -64,14 +64,17 @@ def test_one_sentence_then_a_picture_then_four_figures():
         "starts": {"own": "as the scenario starts"},
     }
     low = PretensionMap(np.array([0.0]), np.array([0.1]), np.ones((1, 1)), np.ones((1, 1)))
-    drawn = draw_pretension_map(low, CASE)
-    page = study.page(numbers, ["It is unstable. It is stable from 8.32 mm on.", "More."], [drawn])
+    sentences = ["It is unstable. It is stable from 8.32 mm on.", "More."]
+    found = SimpleNamespace(
+        summary=lambda: numbers, sentences=sentences, pretension=low, regimes=None, case=CASE
+    )
+    page, _ = study.page(found)
     assert "<h1>It is unstable.</h1>" in page
     places = [
         page.index(each) for each in ("<h1>", "<figure", 'class="tiles"', "8.32 mm on", "<h2")
     ]
     assert places == sorted(places)
-    assert study.tiles(numbers)[0] == ("growth of a disturbance in a cycle", "1.42 times")
+    assert study.tiles(found)[0] == ("growth of a disturbance in a cycle", "1.42 times")
     assert '<td class="start">' in page and "td.start { min-width" in page
 
 

@@ -67,7 +67,7 @@ def test_what_does_not_vary_is_told_and_not_drawn(coupled):
     never = coupled[["frequency"]] * 0.0
     assert words.still_sentence(never, ["frequency"]) == "The same in all runs: no stick-slip."
     assert words.shown_features(coupled, ["x_mean", "heat"]) == (["x_mean", "heat"], [])
-    with pytest.raises(SweepError, match="--show x_men: is no feature .*nearest: x_mean"):
+    with pytest.raises(SweepError, match="--show: no feature .*'x_men'; nearest: 'x_mean'"):
         words.check_shown(["x_men"], coupled)
 
 

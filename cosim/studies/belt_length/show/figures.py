@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from cosim.report.palette import BLUE, GREY, INK, RED, SERIES
 from cosim.report.style import panels, picture
+from cosim.studies import FIGURES
 
 from ..case import Case
 from ..drift import endless_belt, followed, never_comes_round, steady_drift
@@ -48,16 +49,7 @@ def _title(cases: list[Case]) -> str:
     return said.replace("-", "−")
 
 
-@picture(
-    "drift_over_length",
-    "Left: rise of the belt where it enters the contact, over its "
-    "length: at the end of the runs and for ever; of the source study's rig its single pass, too. "
-    "A curve ends at a triangle: from that length on no place that was heated comes round again "
-    "before the runs are over, and the belt enters as cold as the air. The curves begin at the "
-    "shortest belt on which contact and rollers have room. Bars and bands: 5 to 95 % over "
-    "what is not known of the rig, which may act to one side of what is given: then a curve "
-    "lies outside its band. Right: what the interface warms by at constant speed.",
-)
+@picture("drift_over_length", **FIGURES["drift_over_length"])
 def draw_drift(study: Study) -> Figure:
     """Two panels side by side for the first choice of everything but length and speed."""
     speeds = sorted({row.case.speed for row in study.rows})
@@ -76,8 +68,7 @@ def draw_drift(study: Study) -> Figure:
     limit = study.options.limit
     for ax in axes[0]:
         ax.axhline(limit, color=INK, linewidth=1.0)
-        beside = ax.get_yaxis_transform()
-        ax.text(1.01, limit, f"limit\n{limit:g} K", va="center", transform=beside)
+        ax.text(1.01, limit, f"limit\n{limit:g} K", va="center", transform=ax.get_yaxis_transform())
         ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", xlim=(low, high))
         _plain_ticks(ax.xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50), low, high)
         for length in lengths if study.answers else ():
@@ -157,14 +148,7 @@ def _plain_ticks(axis: Axis, places: Sequence[float], low: float, high: float) -
     axis.set_ticks([], minor=True)
 
 
-@picture(
-    "doubt",
-    "What the doubt is made of, in the case that drifts most. Left: the drift with "
-    "one unknown at either end of its range, all else as the case is but for what stands in "
-    "brackets. Right: the total Sobol index of each unknown, the part of the drift's variance "
-    "that it has a hand in, alone or together with others, so that the parts add up to more "
-    "than 1; strokes: 95 % intervals. The largest index is on top.",
-)
+@picture("doubt", **FIGURES["doubt"])
 def draw_doubt(row: Row, doubt: Uncertainty) -> Figure:
     """Bars of single changes beside the indices, one line an unknown; of a row with its doubt."""
     height = 1.6 + 0.38 * len(doubt.single_changes)
@@ -206,10 +190,7 @@ def _span_of(one: SingleChange) -> str:
     return f"{one.low:g} to {one.high:g}{unit}{seen_in}".replace("W/m2K", "W/(m² K)")
 
 
-@picture(
-    "map",
-    "Rise of the belt where it enters the contact at the end of the runs, over length and speed.",
-)
+@picture("map", **FIGURES["map"])
 def draw_map(drift: DriftMap, case: Case, limit: float) -> Figure:
     """Colours in the logarithm, a line at the limit."""
     figure, axes = panels(1, 1, height=4.6, width=7.0)

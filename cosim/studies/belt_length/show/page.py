@@ -10,7 +10,6 @@ import re
 import tomllib
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from markupsafe import Markup, escape
 
@@ -18,19 +17,15 @@ from cosim.files import write_atomically, write_text
 from cosim.report.material import page_of_material
 from cosim.report.page import Picture, render
 
-from ..result import Row, Study
+from ..result import Study
 from ..unknowns import unknowns_of
 from . import text
 from .figures import draw_doubt, draw_drift, draw_map
+from .text import headline as headline
+from .text import tiles as tiles
 
 RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
 CHANGES, DOUBT = "changes.csv", "doubt.csv"
-FILES = {
-    RESULT: "everything on this page and more, numbers in full",
-    TABLE: "a line for each case: length, speed, rises, shortest belts",
-    CHANGES: "what each single change does, for each case",
-    DOUBT: "what is not known: range, what it does alone, Sobol indices",
-}
 #: Sentences that stand open; the rest is folded.
 MOST_SENTENCES = 6
 _MINUS = re.compile(r"(?<=[ (])-(?=\d)")
@@ -62,10 +57,9 @@ def page(study: Study, command: str = "") -> tuple[str, list[Picture]]:
         on_page=_on_page,
         most=MOST_SENTENCES,
         changes=[start, *sorted(rest, key=lambda one: abs(one.run))],
-        doubts=[] if doubted is None else _doubts(doubted),
+        unknowns_of=unknowns_of,
         pictures={one.name: one for one in pictures},
         command=command,
-        files=FILES,
     )
     return page_of_material(html, study.material), pictures
 
@@ -74,10 +68,3 @@ def _on_page(sentence: str) -> Markup:
     """A sentence of the terminal as a page has it: signs, units, what is typed."""
     text = str(escape(_MINUS.sub("−", sentence).replace("W/m2K", "W/(m² K)")))
     return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", text))
-
-
-def _doubts(row: Row) -> list[dict[str, Any]]:
-    """What is not known, the most important first; then what is."""
-    table = [] if row.uncertainty is None else row.uncertainty.table()
-    ranked = sorted(table, key=lambda one: -float(str(one["total"])))
-    return [*ranked, *(vars(one) for one in unknowns_of(row.case) if one.fixed)]

@@ -97,8 +97,7 @@ def judge_treatments(claim: Claim) -> dict[str, float]:
     scattered = treated(MENDED, scatter=0.2)
     claim.turn("scatter", _sides(scattered["updated"]), sound=_comes_back(scattered))
     add_picture(claim, "C5_spring_angles", _drawn(*schemes))
-    y = 100 * np.abs(loose.y).max()
-    return {"back": back.rotation, "loose": loose.rotation, "y": y}
+    return {"back": back.rotation, "loose": loose.rotation, "y": 100 * np.abs(loose.y).max()}
 
 
 def _drawn(*schemes: dict[str, Motion]) -> list[list[Panel]]:

@@ -87,8 +87,7 @@ def judge_no_stiffness(claim: Claim) -> dict[str, float]:
     claim.row("travel", ends, derived=0.5 * case.mu_k * GRAVITY * DURATION**2)
     claim.check("drifts", [_growth(run) for run in runs])
     claim.turn("sprung", _growth(_exact(case.changed(stiffness=WEAK_SPRING), DURATION)))
-    meets = case.speed / (case.mu_k * GRAVITY)
-    return {"meets": meets, "speed": case.speed, "ridden": ends[-1]}
+    return {"meets": case.speed / (case.mu_k * GRAVITY), "speed": case.speed, "ridden": ends[-1]}
 
 
 def judge_stiff(claim: Claim) -> dict[str, float]:

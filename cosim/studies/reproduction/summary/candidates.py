@@ -138,8 +138,7 @@ def not_felt(campaign: Campaign) -> dict[str, str]:
     if len({run.mass for run in campaign.runs if run.summary}) == 1:
         found["load_dependence"] = "all runs have one mass: the same as other coefficients"
     if campaign.scheme == "exact" and campaign.rig.degrees_of_freedom == ("x",):
-        guided = "the rig allows only x"
-        found |= dict.fromkeys(("lateral_friction", "turning_surface"), guided)
+        found |= dict.fromkeys(("lateral_friction", "turning_surface"), "the rig allows only x")
     return found
 
 

@@ -14,6 +14,7 @@ from cosim.gap.result import Ranked, Score
 from . import search
 from .candidates import extensions, plain_candidate
 from .draws import SEEDS, Array, Draws, Target, observations
+from .models import SAID
 from .result import SummaryGap
 from .search import Bench
 
@@ -86,15 +87,11 @@ def find_summary_gap(
         if not one.holds:
             break
         trial = one.best
-    free = _with_free_friction(bench, plain) if found else None
-    answer = _answer(bench, plain, free, found)
+    answer = _answer(bench, plain, _with_free_friction(bench, plain) if found else None, found)
     if bench.smooth or answer.extended is None:
         return answer
     share = _share_that_fits(bench, trial)
-    line = (
-        f"with the effect as found, {share:.0%} of draws of friction as it is known come within "
-        "twice the gap: the scheme is chaotic, and the fit hangs on the exact coefficients"
-    )
+    line = SAID["fragile"].format(share)
     return replace(answer, fits_share=share, remarks=(*answer.remarks, line))
 
 
@@ -239,13 +236,10 @@ def _answer(bench: Bench, plain: Draws, free: Draws | None, found: Sequence[Foun
 
 
 def _remarks(campaign: Campaign, found: Sequence[Found]) -> tuple[str, ...]:
-    scheme = "the source study's scheme as printed; 25 cycles, of which the last 60 % count"
-    lines = [f"model: {scheme}"] if campaign.scheme == "study" else []
+    lines = [SAID["model"]] if campaign.scheme == "study" else []
     for one in found:
-        lines.append(
-            f"{one.best.effect}: BIC lower by {one.gained:.1f}, chance {one.p:.3g}, "
-            f"lack of fit afterwards {one.best.lack_of_fit:.2g}"
-        )
+        said = {"effect": one.best.effect, "gained": one.gained, "misses": one.best.lack_of_fit}
+        lines.append(SAID["added"].format(p=one.p, **said))
     return tuple(lines)
 
 

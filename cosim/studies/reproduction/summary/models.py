@@ -28,6 +28,7 @@ from ..motion import figures as read_off
 Values = Mapping[str, float]  # block.parameter -> number
 
 CATALOGUE = packaged_tables(__package__, "catalogue.toml")
+SAID: dict[str, str] = CATALOGUE["said"]
 # half range below which nobody sees an oscillation in a plotted record, m
 VISIBLE = 5e-4
 # how far off its place a block is put down, standard deviation: m, rad

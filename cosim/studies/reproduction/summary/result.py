@@ -12,6 +12,7 @@ from cosim.gap.result import Ranked, Where
 
 from .candidates import not_felt
 from .draws import FittedSummary, Observation
+from .models import SAID
 
 # distance in standard deviations from which a figure is not met
 MET = 2.0
@@ -80,10 +81,9 @@ class SummaryGap:
         order = np.argsort(-np.abs(plain.residuals))
         off = [i for i in order if abs(plain.residuals[i]) > MET]
         if not off:
-            return Where("", "", (), "every figure is met within two standard deviations")
+            return Where("", "", (), SAID["met"])
         parts = [
-            f"{seen[i].figure} of {seen[i].name} {plain.shown[i]:.3g} instead of "
-            f"{seen[i].size:.3g} ± {seen[i].sd:.2g} ({plain.residuals[i]:+.1f} standard deviations)"
+            SAID["missed"].format(one=seen[i], shown=plain.shown[i], off=plain.residuals[i])
             for i in off
         ]
         runs = tuple(dict.fromkeys(seen[i].name for i in off))
@@ -95,14 +95,9 @@ class SummaryGap:
         found, after = {}, self.last
         for i, one in enumerate(self.observations):
             key = f"{one.figure} of {one.name}"
+            off = abs(after.residuals[i])
             if after.scatter[i] > one.sd:
-                found[key] = (
-                    f"the model's own scatter from seed to seed, {after.scatter[i]:.2g}, exceeds "
-                    f"the observation's {one.sd:.2g}"
-                )
-            elif abs(after.residuals[i]) > MET:
-                found[key] = (
-                    f"{after.shown[i]:.3g} instead of {one.size:.3g} ± {one.sd:.2g}: still "
-                    f"{abs(after.residuals[i]):.1f} standard deviations off"
-                )
+                found[key] = SAID["scattered"].format(one=one, scatter=after.scatter[i])
+            elif off > MET:
+                found[key] = SAID["still"].format(one=one, shown=after.shown[i], off=off)
         return found

@@ -105,8 +105,7 @@ def near(bench: Bench, good: Draws, count: int) -> Draws:
     """Draws about ``good`` ones, a seed each."""
     rng = np.random.default_rng(bench.seed + 1)
     centres = good.shares[np.arange(count) % len(good)]
-    shares = _inside(centres + STEP * rng.standard_normal(centres.shape))
-    return bench.draw(good.candidate, shares)
+    return bench.draw(good.candidate, _inside(centres + STEP * rng.standard_normal(centres.shape)))
 
 
 def _inside(shares: Array) -> Array:
@@ -162,6 +161,5 @@ def widened(bench: Bench, draws: Draws, count: int) -> Draws:
     draws = draws.with_own_scatter
     for _ in range(2):
         order = draws.ordered
-        good = order.take(order.misfit <= order.misfit[0] + WITHIN)
-        draws += near(bench, good, count // 2)
+        draws += near(bench, order.take(order.misfit <= order.misfit[0] + WITHIN), count // 2)
     return draws

@@ -22,9 +22,11 @@ from cosim.report.files import json_text
 from cosim.report.page import Picture, render
 from cosim.report.palette import BLUE, GREY, INK, PALE_GREY, RED
 from cosim.report.style import panels, picture
+from cosim.studies import FIGURES
 
 from ..cases import SETTLING
 from ..motion import WINDOW
+from .models import SAID
 from .result import SummaryGap
 
 #: What is written as it stands in an answer.
@@ -39,26 +41,13 @@ def sentence(gap: SummaryGap) -> str:
     said = {entry.id: entry.sentence.rstrip(".") for entry in EFFECTS}
     groups = "; ".join(" or ".join(group) for group in gap.classes)
     named = "; ".join(f"{one}: {said[one]}" for one in gap.effects)
-    nearer = (
-        f"With {' and '.join(gap.effects)} the model comes nearer, but a disagreement is left "
-        "that no effect of the catalogue repairs."
-    )
-    nothing = "The plain model does not fit, and no effect of the catalogue repairs it."
-    return {
-        "none": "The plain model meets these figures.",
-        "class": f"{groups}: these figures cannot tell which.",
-        "named": f"{named}.",
-        "unknown": nearer if gap.effects else nothing,
-    }[gap.verdict]
+    told = "nearer" if gap.verdict == "unknown" and gap.effects else gap.verdict
+    return SAID[told].format(groups=groups, named=named, effects=" and ".join(gap.effects))
 
 
 def gap_line(gap: SummaryGap) -> str:
     """Before and after, in standard deviations of the observations."""
-    (fit, held), (fit_after, held_after) = gap.gap_before, gap.gap_after
-    return (
-        f"all figures fitted {digits(fit)} → {digits(fit_after)}, each predicted from the others "
-        f"{digits(held)} → {digits(held_after)} standard deviations"
-    )
+    return SAID["gap"].format(*map(digits, (*gap.gap_before, *gap.gap_after)))
 
 
 def quantities(gap: SummaryGap) -> list[Quantity]:
@@ -66,8 +55,7 @@ def quantities(gap: SummaryGap) -> list[Quantity]:
     intervals = {key: (low, high) for key, (_, low, high) in gap.determined.items()}
     for row in gap.ranking:
         intervals |= row.intervals if row.effect in gap.found else {}
-    values = gap.last.values.items()
-    return [quantity(key, value, intervals.get(key)) for key, value in values]
+    return [quantity(key, value, intervals.get(key)) for key, value in gap.last.values.items()]
 
 
 def closing_lines(gap: SummaryGap) -> list[str]:
@@ -163,11 +151,7 @@ def drawers(gap: SummaryGap) -> dict[str, Callable[[], Picture]]:
     return {"observations": partial(draw_observations, gap)}
 
 
-@picture("observations", (
-    "How far each figure of the model is from the observed one, in the observation's standard "
-    "deviations: with the numbers as they are known (grey), the plain model refitted (blue), the "
-    "extended model (dark orange). Shaded: within two."
-))  # fmt: skip
+@picture("observations", **FIGURES["observations"])
 def draw_observations(gap: SummaryGap) -> Figure:
     """A row for each observation."""
     models = [("as known", GREY, gap.printed), ("plain model, refitted", BLUE, gap.plain)]
