@@ -116,7 +116,7 @@ class Fitting:
         def missed(form: Named) -> float:
             parts = [self.part(form, form.findings[0])]
             left = self.fitted(form, parts, is_shown=False, scatters=False).unscattered
-            return max(left.fit, judge.judged(left))
+            return left.worst
 
         chosen = min(forms, key=missed)
         rung = named.ladder.system.rung(chosen.findings[0].added)
@@ -179,13 +179,13 @@ class Fitting:
                 other = self.part(named, part.finding, law)
                 swapped = [other if one.finding is part.finding else one for one in parts]
                 others = self.fitted(named, swapped)
-                if judge.judged(others.ladder[-1].gap) < judge.judged(models.ladder[-1].gap):
+                if others.ladder[-1].gap.of_verdict < models.ladder[-1].gap.of_verdict:
                     parts, models = swapped, others
         if not judge.explains(models.ladder):  # a law may be near its curve, and not near enough
             points = [as_points(self.campaign, named.system, part) for part in parts]
             if points != parts:
                 others = self.fitted(named, points)
-                if judge.judged(others.ladder[-1].gap) < judge.judged(models.ladder[-1].gap):
+                if others.ladder[-1].gap.of_verdict < models.ladder[-1].gap.of_verdict:
                     return points, others
         return parts, models
 
@@ -220,7 +220,7 @@ class Fitting:
         if greatest is None or len(lesser) < 2 or any(p.finding.gain >= judge.SURE for p in lesser):
             return []
         alone = self.fitted(named, [greatest], is_shown=False, scatters=False)
-        if judge.judged(alone.unscattered) > judge.EXPLAINED:
+        if alone.unscattered.of_verdict > judge.EXPLAINED:
             return []
         alone.let_scatter()
         gained = [alone.gained(part) if part.in_kernel else None for part in lesser]
@@ -258,7 +258,7 @@ class Fitting:
         is_lesser = part.finding.gain < max(other.finding.gain for other in parts)
         gained = self._gained(part, without, named) if part.in_kernel else 0.0
         is_sure = max(part.finding.gain, gained) >= judge.SURE
-        if is_lesser and not is_sure and judge.judged(without.unscattered) <= judge.EXPLAINED:
+        if is_lesser and not is_sure and without.unscattered.of_verdict <= judge.EXPLAINED:
             return False
         if not part.in_kernel:
             return judge.leaves(
@@ -337,7 +337,7 @@ class Fitting:
             if more > judge.SURE:
                 in_place = [rival if part is lone else part for part in parts]
                 with_it, own = (self.fitted(named, some) for some in (in_place, parts))
-                is_better = judge.judged(with_it.ladder[-1].gap) < judge.judged(own.ladder[-1].gap)
+                is_better = with_it.ladder[-1].gap.of_verdict < own.ladder[-1].gap.of_verdict
                 bare = self._without(lone, parts, named).unscattered
                 stays = (lone.in_model and judge.explains(own.ladder)
                          and judge.halves(own.unscattered, bare))  # fmt: skip

@@ -90,7 +90,7 @@ def judge(
     rates : what this design would answer, were something else true
     without : what contact and scatter leave without any finding, where that is asked
     """
-    before, after = judged(ladder[0].gap), judged(ladder[-1].gap)
+    before, after = ladder[0].gap.of_verdict, ladder[-1].gap.of_verdict
     if not findings:
         told = not leaves(ladder[-1].gap) and ladder[-1].gap.held_out is not None
         return Verdict("none" if told else "unknown", (), ())
@@ -130,7 +130,7 @@ def is_beyond_all(findings: Sequence[Finding], left: float) -> bool:
 
 def explains(ladder: Sequence[Rung]) -> bool:
     """Whether the last model is near enough to the runs."""
-    return judged(ladder[-1].gap) <= EXPLAINED
+    return ladder[-1].gap.of_verdict <= EXPLAINED
 
 
 def findings_by_rounds() -> tuple[int, ...]:
@@ -169,13 +169,13 @@ def halves(left: Score, before: Score) -> bool:
 
     Of fitted runs and of those that judge. left, before : with the finding, and without
     """
-    pairs = ((left.fit, before.fit), (judged(left), judged(before)))
+    pairs = ((left.fit, before.fit), (left.of_verdict, before.of_verdict))
     return all(one**2 - 1.0 <= TAKEN * max(other**2 - 1.0, 0.0) for one, other in pairs)
 
 
 def leaves(score: Score, most: float = NOTHING_MISSING) -> bool:
     """Whether something is missing that the model does not hold: what has no law may be it."""
-    return max(score.fit, judged(score)) > most
+    return score.worst > most
 
 
 def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
@@ -216,8 +216,3 @@ def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:
             and finding.others[other] > (-NEARLY_ALIKE if other in confused else -ALIKE)
         ),
     )  # fmt: skip
-
-
-def judged(score: Score) -> float:
-    """Held-out runs; fitted ones where none was held out."""
-    return score.fit if score.held_out is None else score.held_out

@@ -18,7 +18,6 @@ from cosim.gap.extended import (
     scatter_numbers,
     started_from,
 )
-from cosim.gap.judge import judged
 from cosim.gap.report_of_findings import text_of
 from cosim.gap.result import Rung, Score
 from cosim.gap.scatter import Scatter, averaged_over, scatter_text
@@ -183,7 +182,7 @@ class Models:
     def is_lost_beside(self, other: Models) -> bool:
         """Whether it is much worse than another, in fitted runs or in those that judge."""
         here, there = self.unscattered, other.unscattered
-        return here.fit > LOST * there.fit or judged(here) > LOST * judged(there)
+        return here.fit > LOST * there.fit or here.of_verdict > LOST * there.of_verdict
 
     @property
     def is_felt(self) -> bool:
@@ -275,7 +274,7 @@ class Models:
     def _try(self, name: str, text: str, free: _Free, rows: Rows, scatter: float = 0.0) -> bool:
         """Add what is felt; where noise is all that is left nothing can be."""
         before = self.ladder[-1].gap
-        if max(before.fit, before.held_out or 0.0) < ONLY_NOISE:
+        if before.worst < ONLY_NOISE:
             return False
         fitted = self._fit(free, scatter, rows)
         after = score_of(fitted)

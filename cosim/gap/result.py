@@ -39,6 +39,16 @@ class Score:
     fit: float
     held_out: float | None
 
+    @property
+    def of_verdict(self) -> float:
+        """Of held-out runs; of fitted ones where none was held out."""
+        return self.fit if self.held_out is None else self.held_out
+
+    @property
+    def worst(self) -> float:
+        """Of either."""
+        return max(self.fit, self.of_verdict)
+
 
 @dataclass(frozen=True)
 class Rung:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -138,32 +138,27 @@ def with_rounding(campaign: Campaign) -> Campaign:
     something missing by itself. Noise that is stated is larger by it; what was estimated has it.
     A run of few levels alone does not show the step: its camera is the one of the others.
     """
-    tracks = [run.motion for run in campaign.runs if run.track is not None]
-    others = {
-        channel: max((lattice(track[channel])[0] for track in tracks if channel in track.channels),
-                     default=0.0)
-        for channel in ("x", "y")
-    }  # fmt: skip
-    return replace(campaign, runs=tuple(
-        run if run.track is None else _rounded(run, campaign.noise_estimated, others)
-        for run in campaign.runs
-    ))  # fmt: skip
+    steps: list[dict[str, float]] = [
+        {channel: lattice(run.motion[channel])[0]
+         for channel in ("x", "y") if channel in run.motion.channels}
+        if run.track is not None else {} for run in campaign.runs
+    ]  # fmt: skip
 
+    def rounded(run: MeasuredRun, own: Mapping[str, float]) -> MeasuredRun:
+        noise, rounding = dict(run.noise), dict[str, tuple[float, float]]()
+        for channel, found in own.items():
+            coarsest = max(others.get(channel, 0.0) for others in steps)
+            step = found or on_lattice(run.motion[channel], coarsest)
+            part = (step / run.noise[channel]) ** 2 / 12.0
+            if channel in campaign.noise_estimated:
+                if 1.0 / max(1.0 - part, 1e-9) > NOTHING_MISSING**2:
+                    rounding[channel] = (step, 1.0)
+            elif 1.0 + part > NOTHING_MISSING**2:
+                rounding[channel] = (step, math.sqrt(1.0 + part))
+                noise[channel] *= rounding[channel][1]
+        return replace(run, noise=noise, rounding=rounding)
 
-def _rounded(
-    run: MeasuredRun, estimated: Collection[str], others: Mapping[str, float]
-) -> MeasuredRun:
-    noise, rounding = dict(run.noise), {}
-    for channel in {"x", "y"} & set(run.motion.channels):
-        values = run.motion[channel]
-        step = lattice(values)[0] or on_lattice(values, others[channel])
-        part = (step / run.noise[channel]) ** 2 / 12.0
-        if channel in estimated and 1.0 / max(1.0 - part, 1e-9) > NOTHING_MISSING**2:
-            rounding[channel] = (step, 1.0)
-        elif channel not in estimated and 1.0 + part > NOTHING_MISSING**2:
-            rounding[channel] = (step, math.sqrt(1.0 + part))
-            noise[channel] *= rounding[channel][1]
-    return replace(run, noise=noise, rounding=rounding)
+    return replace(campaign, runs=tuple(map(rounded, campaign.runs, steps)))
 
 
 def digits_evidence(campaign: Campaign) -> float:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from cosim.gap import read_campaign
 from cosim.gap.extended import Part
 from cosim.gap.find import find_gap
-from cosim.gap.judge import judge, judged
+from cosim.gap.judge import judge
 from cosim.gap.laws import FreeCurve
 from cosim.gap.quantities import digits, fitted_quantities, percent
 from cosim.gap.rates import by_direction
@@ -92,7 +92,7 @@ def contradictions(gap):
         # of a partial answer others together may be more probable: it names the first alone
         yield "certain", members > 0.5 or gap.verdict == "partial"
         yield "most probable", first.probability == max(row.probability for row in gap.ranking)
-        yield "helps", judged(gap.after) < judged(gap.before)
+        yield "helps", gap.after.of_verdict < gap.before.of_verdict
     if gap.verdict == "none":
         yield "none is certain", all(row.probability < 0.5 for row in gap.ranking)
         yield "none is noise", "held-out runs is more" not in text.what_is_left(gap)

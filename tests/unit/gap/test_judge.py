@@ -21,7 +21,6 @@ from cosim.gap.judge import (
     rivals_of,
     with_steps,
 )
-from cosim.gap.judge import judged as judged_gap
 from cosim.gap.laws import Context, FreeCurve, laws_of
 from cosim.gap.models import Models
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
@@ -233,7 +232,7 @@ def test_parts_of_an_answer_cannot_contradict(names, gaps, share, gains, others)
         extended=SimpleNamespace(values={}),
     )  # fmt: skip
     headline = sentence_of(answer, parts)
-    before, after = (judged_gap(one.gap) for one in (ladder[0], ladder[-1]))
+    before, after = (one.gap.of_verdict for one in (ladder[0], ladder[-1]))
     assert verdict.verdict in VERDICTS
     assert bool(verdict.effects) == (verdict.verdict in ("named", "class", "partial"))
     assert set(verdict.effects) <= PHYSICS
