@@ -83,7 +83,8 @@ def worn(s):
     return 1.0 - 0.4 * (1.0 - np.exp(-((s[DISTANCE] / 0.15) ** 0.8)))
 
 
-LIGHT = (MASS * GRAVITY / 10.0) ** -0.4
+LIGHT, A_DECADE = (NORMAL / 10.0) ** -0.4, 1.0 - 0.4 * np.log10(NORMAL / 8.0)
+ADHERING = (NORMAL + 3.0) / NORMAL * 8.0 / (8.0 + 3.0)
 
 # effect -> (block and its parameters, the laws that the independent model gets)
 CASES = {
@@ -226,6 +227,20 @@ CASES = {
         {
             "kinetic": kinetic(lambda u, s: LIGHT),
             "static": lambda held, s: MU_S * NORMAL * LIGHT,
+        },
+    ),
+    "load_dependence, adhesion": (
+        {"load_dependence": {"adhesion": 3.0, "reference_force": 8.0}},
+        {
+            "kinetic": kinetic(lambda u, s: ADHERING),
+            "static": lambda held, s: MU_S * NORMAL * ADHERING,
+        },
+    ),
+    "load_dependence, so much a decade": (
+        {"load_dependence": {"logarithmic": 0.4, "reference_force": 8.0}},
+        {
+            "kinetic": kinetic(lambda u, s: A_DECADE),
+            "static": lambda held, s: MU_S * NORMAL * A_DECADE,
         },
     ),
     "stick_stiffness": ({"stick_stiffness": {"ratio": 0.4}}, {"judged": 0.4}),
