@@ -167,18 +167,6 @@ def test_an_array_is_one_variable(unit):
 # --- rates of outputs ---
 
 
-def test_derivatives_of_outputs_are_those_that_the_model_integrates(unit):
-    pairs = [("x", "vx"), ("y", "vy"), ("phi", "omega"), ("heat", "der(heat)")]
-    wanted = (c_uint * 4)(*(unit.references[name] for name, _ in pairs))
-    orders, rates = (ctypes.c_int32 * 4)(*[1] * 4), (c_double * 4)()
-    with unit.instance() as block:
-        block.begin(**PLANE_VALUES)
-        block.step(0.02)
-        assert block.get("mode") == 1
-        block.done("GetOutputDerivatives", wanted, 4, orders, rates, 4)
-        assert list(rates) == [block.get(rate) for _, rate in pairs] and all(rates)
-
-
 PLANE_VALUES = {"lateral_friction.ratio": 1.0, "initial.phi": 0.05, "surface_speed": 0.1}
 
 

@@ -51,15 +51,6 @@ def test_the_draws_are_those_of_python_s_generator():
     assert (layout.D_MASS, layout.D_START_ANGLE) == (0, 15)
 
 
-@pytest.mark.parametrize("effect", IDS)
-def test_machine_code_packs_the_very_same(effect):
-    """Bit for bit; of rigs with other seeds, one after the other."""
-    draw = random.Random(effect)
-    for seed in (3, 8):
-        values = draw_parameters((effect,), draw, imperfections={**ALL, "seed": seed}).flat()
-        np.testing.assert_array_equal(CATALOGUE.packed(values), pack(values))
-
-
 def test_a_departure_is_cut_at_three_deviations():
     values = Parameters(imperfections=ALL).flat()
     v, p = in_order(values), [0.0] * layout.P_SIZE
