@@ -44,7 +44,7 @@ def test_install(reader, browser):
     shutil.copytree(test_readme.ROOT, reader.folder, ignore=ignored, dirs_exist_ok=True)
     # what is found is to be what is installed there
     reader.environment["PYTHONPATH"] = ""
-    status, said = reader.shell.run(test_readme.SHELL[0])
+    status, said = reader.command(test_readme.SHELL[0])
     assert status == 0, "\n".join(said)
     assert any("results/reference/report.html" in line for line in said)
     reader.shows(browser, "results/reference/report.html", "reference")
