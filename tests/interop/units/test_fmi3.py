@@ -142,7 +142,7 @@ def test_tunable_parameters_change_in_event_mode(unit):
         block.begin().set("friction.mu_k", 0.2)
         block.done("EnterStepMode")
         block.step(0.01)
-        said = block.reason("SetFloat64", *block._values("friction.mu_k", [0.1])[1])
+        said = block.reason(*block.set_arguments("friction.mu_k", 0.1))
         assert said == "friction.mu_k cannot be set in step mode: enter event mode"
 
 
