@@ -15,7 +15,7 @@ TUTORIALS = sorted(file.stem for file in PAGES.glob("*.md") if file.stem != "ind
 LEFT = {
     "add_an_effect": {
         "found/model.toml": (),
-        "results/alone/report.html": ("case", "64.00 %", "Energy"),
+        "results/alone/report.html": ("case", "64.0 %", "Energy"),
         "results/flash_heating/effects.html": ("flash_heating.onset", FORMULA),
     },
     "belt_length": {"results/belt-length/report.html": ("1 m", "0.05 K")},
