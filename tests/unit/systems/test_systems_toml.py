@@ -201,19 +201,6 @@ def test_a_unit_that_fails_leaves_what_there_was(chain, tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    "setting, message",
-    [
-        ("run.stop", "allowed is KEY=VALUE"),
-        ("run.stop=soon", r'run.stop: not a number ("soon")'),
-        ("units.first.file=x", "no unit is named 'units'"),
-        ("run.stopp=1", "run.stopp: no such key, nearest known: run.stop"),
-    ],
-)
-def test_a_setting_that_cannot_be_is_refused(chain, capsys, setting, message):
-    assert message in refusal(capsys, "couple", chain(), "--set", setting)
-
-
-@pytest.mark.parametrize(
     "command, asked, said",
     [
         ("run", {"system": "chain.toml"}, "not created by `stickslip run`"),
