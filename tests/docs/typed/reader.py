@@ -1,7 +1,7 @@
 """Somebody who does a page as it is printed: types its cells and sessions, and compares.
 
 Cells go into IPython, which knows `%%bash` and `%%writefile`; lines with a `$` go into a shell
-beside it, in the same folder. Hidden cells, which only the build has, are not typed: a page that
+of their own, in the same folder. Hidden cells, which only the build has, are not typed: a page that
 needs one cannot be done. Its cells are also executed by `test_site.py`, with every run of the
 tests; pages are typed by `pytest -m slow`.
 
@@ -18,51 +18,42 @@ from pathlib import Path
 
 from notebooks import PAGES, Executed, source
 from sessions import fences, timeless, typed
-from terminal import IPython, Shell
+from terminal import IPython, type_command
 
 
 class Reader:
     """A page being done, in a folder.
 
-    server: a tmux. executed: what the cells of pages computed, when the site was built.
+    executed: what the cells of pages computed, when the site was built.
     """
 
-    def __init__(self, server, folder: Path, executed: Executed):
+    def __init__(self, folder: Path, executed: Executed):
         self.folder, self.executed = folder, executed
         tools = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-        self.environment = {
+        self.environment = os.environ | {
             "PATH": tools,
             # no window can be opened here, and what others have set is none of the page's
             "MPLBACKEND": "Agg",
             "DISPLAY": "",
             "IPYTHONDIR": str(folder.parent / "ipython"),
         }
-        self.server, self._python, self._shell = server, None, None
 
-    @property
-    def python(self) -> IPython:
-        """Where cells are typed."""
-        if self._python is None:
-            self._python = IPython(self.server, self.folder, self.environment)
-        return self._python
-
-    @property
-    def shell(self) -> Shell:
-        """Where sessions are typed."""
-        if self._shell is None:
-            self._shell = Shell(self.server, self.folder, self.environment)
-        return self._shell
+    def command(self, command: str) -> tuple[int, list[str]]:
+        """Exit status of a command, and what it said."""
+        return type_command(command, self.folder, self.environment)
 
     def do(self, name: str) -> None:
         """A page of the tutorials from its first line to its last."""
         page = PAGES / f"{name}.md"
         said: list[list[str]] = []
+        python = IPython(self.folder, self.environment)
         for cell in source(page).cells:
             if cell.cell_type == "code":
-                said.append([] if is_hidden(cell) else self.python.run(cell.source))
+                said.append([] if is_hidden(cell) else python.run(cell.source))
             else:
                 for fence in fences(cell.source):
                     self.session(fence.content)
+        python.end()
         # after the last of them: whoever builds the site at this time may have executed them
         shown = [cell for cell in self.executed(page).cells if cell.cell_type == "code"]
         for cell, lines in zip(shown, said, strict=True):
@@ -73,7 +64,7 @@ class Reader:
     def session(self, block: str) -> None:
         """The commands of a session, if a block is one."""
         for command, lines in typed(block):
-            status, said = self.shell.run(command)
+            status, said = self.command(command)
             assert status == 0, said
             rest = iter(timeless(said))
             # in this order, with others in between

@@ -15,7 +15,7 @@ TUTORIALS = sorted(file.stem for file in PAGES.glob("*.md") if file.stem != "ind
 LEFT = {
     "add_an_effect": {
         "found/model.toml": (),
-        "results/alone/report.html": ("case", "64.00 %", "Energy"),
+        "results/alone/report.html": ("case", "64.0 %", "Energy"),
         "results/flash_heating/effects.html": ("flash_heating.onset", FORMULA),
     },
     "belt_length": {"results/belt-length/report.html": ("1 m", "0.05 K")},
@@ -44,7 +44,7 @@ def test_install(reader, browser):
     shutil.copytree(test_readme.ROOT, reader.folder, ignore=ignored, dirs_exist_ok=True)
     # what is found is to be what is installed there
     reader.environment["PYTHONPATH"] = ""
-    status, said = reader.shell.run(test_readme.SHELL[0])
+    status, said = reader.command(test_readme.SHELL[0])
     assert status == 0, "\n".join(said)
     assert any("results/reference/report.html" in line for line in said)
     reader.shows(browser, "results/reference/report.html", "reference")

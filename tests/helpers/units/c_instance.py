@@ -8,9 +8,12 @@ from __future__ import annotations
 
 import ctypes
 import re
+import zipfile
+from collections.abc import Mapping
 from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_uint, c_void_p
+from pathlib import Path
 
-from cosim.fmu.native import native_folder
+from cosim.fmu.native import built_guid, native_folder
 
 OK, WARNING, DISCARD, ERROR = range(4)
 _KINDS = {
@@ -43,10 +46,36 @@ def declare(library: ctypes.CDLL, version: int) -> None:
             function.argtypes, function.restype = (c_void_p, *arguments), c_int
 
 
+def unpacked_library(fmu: Path, folder: Path, path: str) -> Path:
+    """A library of a unit, in a folder."""
+    with zipfile.ZipFile(fmu) as archive:
+        return Path(archive.extract(path, folder))
+
+
+class CUnit:
+    """A library. kinds: of variables that are not real; sizes: of arrays; both by their names."""
+
+    def __init__(
+        self,
+        fmu: Path,
+        library: Path,
+        version: int,
+        references: Mapping[str, int],
+        kinds: Mapping[str, tuple],
+        sizes: Mapping[str, int],
+    ) -> None:
+        self.guid = built_guid(fmu).encode()
+        self.library = ctypes.CDLL(str(library))
+        declare(self.library, version)
+        self.references, self.kinds, self.sizes = references, kinds, sizes
+
+
 class CInstance:
     """One instance, which is freed at the end of a context. What is logged is in `messages`."""
 
     version: int
+    #: How the version spells the functions of a number, what it is in C, and in Python.
+    REAL: tuple
     #: How the versions spell what has to do with states.
     STATE, DESERIALIZE = "FMUState", "DeserializeFMUState"
 
@@ -81,6 +110,32 @@ class CInstance:
         ((status, category, text),) = self.messages
         assert (status, category) == (ERROR, "logStatusError")
         return text
+
+    def _arguments(self, name: str, given=()) -> tuple:
+        """The kind of a variable, and arguments of the function that gets or sets it."""
+        size = self.unit.sizes.get(name, 1)
+        kind, made, exact = self.unit.kinds.get(name, self.REAL)
+        numbers = (made * size)(*map(exact, given))
+        further = (size,) if self.version == 3 else ()
+        return kind, byref(c_uint(self.unit.references[name])), 1, numbers, *further
+
+    def set_arguments(self, name: str, *values: float) -> tuple:
+        """Function and arguments that set a variable."""
+        kind, *arguments = self._arguments(name, values)
+        return f"Set{kind}", *arguments
+
+    def set(self, name: str, *values: float) -> None:
+        self.done(*self.set_arguments(name, *values))
+
+    def value(self, name: str):
+        """Of a variable, of an array all its values."""
+        kind, *arguments = self._arguments(name)
+        self.done(f"Get{kind}", *arguments)
+        values = list(arguments[2])
+        return values if len(values) > 1 else values[0]
+
+    def everything(self) -> list:
+        return [self.value(name) for name in self.unit.references]
 
     def save(self) -> c_void_p:
         state = c_void_p()

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import ctypes
-import zipfile
-from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_uint, c_void_p
+from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_void_p
 from pathlib import Path
 
-from c_instance import CInstance, declare
+from c_instance import CInstance, CUnit, unpacked_library
 from plain_start import PLAIN
 from stickslip.generation.platforms import this_platform
 
 from cosim.fmu.exchange import variables
-from cosim.fmu.native import NAME, built_guid
+from cosim.fmu.native import NAME
 from cosim.fmu.variables import by_array
 
 LOGGER = ctypes.CFUNCTYPE(None, c_void_p, c_int, c_char_p, c_char_p)
@@ -27,20 +26,17 @@ def references() -> dict[str, int]:
     return found | {"time": place}
 
 
-class Unit:
-    """A library; `instance` makes instances."""
+class Unit(CUnit):
+    """`instance` makes instances."""
 
     def __init__(self, fmu: Path, folder: Path) -> None:
         platform = this_platform()
         path = f"binaries/{platform.name}/{NAME}{platform.suffix}"
-        with zipfile.ZipFile(fmu) as archive:
-            self.library = ctypes.CDLL(archive.extract(path, folder))
-        self.token = built_guid(fmu).encode()
-        declare(self.library, 3)
-        self.references = references()
-        self.integers = {each.name for each in variables() if each.is_integer}
-        self.booleans = {each.name for each in variables() if each.is_boolean}
-        self.sizes = {e[0].array or e[0].name: len(e) for e in by_array(variables())}
+        kinds = {each.name: ("Int32", c_int32, int) for each in variables() if each.is_integer}
+        kinds |= {each.name: ("Boolean", c_bool, bool) for each in variables() if each.is_boolean}
+        sizes = {e[0].array or e[0].name: len(e) for e in by_array(variables())}
+        library = unpacked_library(fmu, folder, path)
+        super().__init__(fmu, library, 3, references(), kinds, sizes)
 
     def instance(self, **how) -> Instance:
         return Instance(self, **how)
@@ -48,6 +44,7 @@ class Unit:
 
 class Instance(CInstance):
     version = 3
+    REAL = "Float64", c_double, float
 
     def __init__(
         self,
@@ -62,7 +59,7 @@ class Instance(CInstance):
         super().__init__(unit)
         self.time = 0.0
         self._log = LOGGER(self._heard)
-        token = unit.token if token == b"" else token
+        token = unit.guid if token == b"" else token
         first = (name, token, None, c_bool(False), c_bool(False))
         if exchanges:
             make, given = unit.library.fmi3InstantiateModelExchange, (None, self._log)
@@ -75,28 +72,8 @@ class Instance(CInstance):
     def _heard(self, _environment, status, category, text) -> None:
         self.messages.append((status, category.decode(), text.decode()))
 
-    def _values(self, name: str, given=()):
-        size, (named, kind, exact) = self.unit.sizes.get(name, 1), ("Float64", c_double, float)
-        if name in self.unit.integers:
-            named, kind, exact = "Int32", c_int32, int
-        elif name in self.unit.booleans:
-            named, kind, exact = "Boolean", c_bool, bool
-        numbers = (kind * size)(*map(exact, given))
-        reference = c_uint(self.unit.references[name])
-        return named, (byref(reference), 1, numbers, size)
-
-    def set(self, name: str, *values: float) -> None:
-        kind, arguments = self._values(name, values)
-        self.done(f"Set{kind}", *arguments)
-
     def get(self, name: str):
-        kind, arguments = self._values(name)
-        self.done(f"Get{kind}", *arguments)
-        values = list(arguments[2])
-        return values if name in self.unit.sizes and len(values) > 1 else values[0]
-
-    def everything(self) -> list:
-        return [self.get(name) for name in self.unit.references]
+        return self.value(name)
 
     def begin(self, **values) -> Instance:
         for name, value in {"surface_speed": 0.15, **PLAIN, **values}.items():

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import ctypes
-import zipfile
 from collections.abc import Iterable, Sequence
-from ctypes import byref, c_char_p, c_double, c_int, c_uint, c_void_p
+from ctypes import byref, c_char_p, c_double, c_int, c_void_p
 from pathlib import Path
 
-from c_instance import CInstance, declare
+from c_instance import CInstance, CUnit, unpacked_library
 from stickslip.generation.platforms import this_platform
 
-from cosim.fmu.native import NAME, built_guid
+from cosim.fmu.native import NAME
 from cosim.fmu.variables import Variable, variables
 
 MODEL_EXCHANGE, CO_SIMULATION = 0, 1
@@ -46,8 +45,7 @@ def library_of(fmu: Path, folder: Path, name: str = NAME) -> Path:
     """The library for this machine, unpacked into a folder."""
     platform = this_platform()
     assert platform is not None
-    with zipfile.ZipFile(fmu) as archive:
-        return Path(archive.extract(f"binaries/{platform.fmi2}/{name}{platform.suffix}", folder))
+    return unpacked_library(fmu, folder, f"binaries/{platform.fmi2}/{name}{platform.suffix}")
 
 
 def references(declared: Sequence[Variable] | None = None) -> dict[str, int]:
@@ -56,8 +54,8 @@ def references(declared: Sequence[Variable] | None = None) -> dict[str, int]:
     return {variable.name: place for place, variable in enumerate(declared)}
 
 
-class Unit:
-    """A library; `instance` makes instances. name, declared: of another unit than the block's."""
+class Unit(CUnit):
+    """`instance` makes instances. name, declared: of another unit than the block's."""
 
     def __init__(
         self,
@@ -66,15 +64,11 @@ class Unit:
         name: str = NAME,
         declared: Sequence[Variable] | None = None,
     ) -> None:
-        guid = built_guid(fmu)
-        assert guid is not None
-        self.guid = guid.encode()
-        self.library = ctypes.CDLL(str(library_of(fmu, folder, name)))
-        self.library.fmi2Instantiate.restype = c_void_p
-        declare(self.library, 2)
         declared = variables() if declared is None else declared
-        self.references = references(declared)
-        self.integers = {variable.name for variable in declared if variable.is_integer}
+        whole = [variable.name for variable in declared if variable.is_integer]
+        kinds = dict.fromkeys(whole, ("Integer", c_int, int))
+        super().__init__(fmu, library_of(fmu, folder, name), 2, references(declared), kinds, {})
+        self.library.fmi2Instantiate.restype = c_void_p
 
     def instance(self, logging: bool = False, **changed) -> Instance:
         """A new one; changed: name, kind, guid or resources, to differ from what is right."""
@@ -83,6 +77,7 @@ class Unit:
 
 class Instance(CInstance):
     version, STATE, DESERIALIZE = 2, "FMUstate", "DeSerializeFMUstate"
+    REAL = "Real", c_double, float
 
     def __init__(
         self,
@@ -108,39 +103,8 @@ class Instance(CInstance):
     def _log(self, _environment, _name, status, category, text) -> None:
         self.messages.append((status, category.decode(), text.decode() % ()))
 
-    def set_arguments(self, name: str, value: float) -> tuple:
-        """Function and arguments that set a variable."""
-        whole = name in self.unit.integers
-        number = c_int(int(value)) if whole else c_double(value)
-        function = "SetInteger" if whole else "SetReal"
-        return function, byref(c_uint(self.unit.references[name])), 1, byref(number)
-
-    def set(self, name: str, value: float) -> None:
-        self.done(*self.set_arguments(name, value))
-
     def get(self, *names: str) -> list[float]:
-        return [self._get(name) for name in names]
-
-    def _get(self, name: str) -> float:
-        whole = name in self.unit.integers
-        number = c_int() if whole else c_double()
-        self.done(
-            "GetInteger" if whole else "GetReal",
-            byref(c_uint(self.unit.references[name])),
-            1,
-            byref(number),
-        )
-        return number.value
-
-    def everything(self) -> list[str]:
-        """Every variable, exact."""
-        places = self.unit.references
-        whole = [places[name] for name in places if name in self.unit.integers]
-        real = [places[name] for name in places if name not in self.unit.integers]
-        integers, numbers = (c_int * len(whole))(), (c_double * len(real))()
-        self.done("GetInteger", (c_uint * len(whole))(*whole), len(whole), integers)
-        self.done("GetReal", (c_uint * len(real))(*real), len(real), numbers)
-        return [*map(str, integers), *map(float.hex, numbers)]
+        return [self.value(name) for name in names]
 
     def begin(self, start: float = 0.0, **values: float) -> Instance:
         """As far as the first step."""

@@ -185,14 +185,6 @@ def wait_for(file, tries=100):
     raise AssertionError(f"{file} has not come; there are {list(file.parent.iterdir())}")
 
 
-def test_every_preset_comes_back_from_its_file(page, tmp_path):
-    for preset in ("reference", "study", "slab"):
-        page.ended(address_of(preset, {}))
-        (tmp_path / "back.toml").write_text(page.tell("return explorer.toml()"), encoding="utf-8")
-        back = read_scenario(tmp_path / "back.toml")
-        assert back.model_dump() == read_scenario(preset).model_dump()
-
-
 def test_what_is_copied_as_python_is_the_scenario_that_is_seen(page):
     changes = {"rig.mass": 1.2, "rig.degrees_of_freedom": ["x", "phi"], "surface.speed": 0.21}
     page.ended(address_of("slab", changes))

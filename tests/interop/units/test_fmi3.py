@@ -142,7 +142,7 @@ def test_tunable_parameters_change_in_event_mode(unit):
         block.begin().set("friction.mu_k", 0.2)
         block.done("EnterStepMode")
         block.step(0.01)
-        said = block.reason("SetFloat64", *block._values("friction.mu_k", [0.1])[1])
+        said = block.reason(*block.set_arguments("friction.mu_k", 0.1))
         assert said == "friction.mu_k cannot be set in step mode: enter event mode"
 
 
@@ -165,18 +165,6 @@ def test_an_array_is_one_variable(unit):
 
 
 # --- rates of outputs ---
-
-
-def test_derivatives_of_outputs_are_those_that_the_model_integrates(unit):
-    pairs = [("x", "vx"), ("y", "vy"), ("phi", "omega"), ("heat", "der(heat)")]
-    wanted = (c_uint * 4)(*(unit.references[name] for name, _ in pairs))
-    orders, rates = (ctypes.c_int32 * 4)(*[1] * 4), (c_double * 4)()
-    with unit.instance() as block:
-        block.begin(**PLANE_VALUES)
-        block.step(0.02)
-        assert block.get("mode") == 1
-        block.done("GetOutputDerivatives", wanted, 4, orders, rates, 4)
-        assert list(rates) == [block.get(rate) for _, rate in pairs] and all(rates)
 
 
 PLANE_VALUES = {"lateral_friction.ratio": 1.0, "initial.phi": 0.05, "surface_speed": 0.1}

@@ -105,13 +105,6 @@ def test_a_name_that_a_folder_has_taken_is_refused(capsys, tmp_path):
     assert refusal(capsys, "simulate", "-o", "out").startswith("out/result.nc: is a folder")
 
 
-def test_what_is_no_fmu_is_refused(capsys, tmp_path):
-    (tmp_path / "given.fmu").write_bytes(b"PK\x03\x04 and then nothing")
-    line = refusal(capsys, "run", "--fmu", "given.fmu")
-    assert line.startswith("given.fmu: not an FMU, or truncated")
-    assert refusal(capsys, "run", "--fmu", "nix.fmu").startswith("nix.fmu: no such file")
-
-
 def test_debug_shows_the_traceback_on_either_side_of_the_command(capsys):
     for argv in (["--debug", "run", "nix.toml"], ["run", "nix.toml", "--debug"]):
         assert main(argv) == 2

@@ -168,25 +168,6 @@ def test_after_four_rounds_rows_are_asked_for_one_finding_alone(monkeypatch):
     assert rows.asked[-1] == tuple(names)
 
 
-@pytest.mark.parametrize(
-    ("left", "gained", "named", "asked"),
-    [
-        (1.29, 15.0, 1, 2),  # both go at once
-        (1.31, 5.0, 1, 3),  # one by one
-        (1.29, 1.01 * SURE, 3, 1),  # simulated runs are sure of both
-    ],
-)
-def test_lesser_findings_go_at_once_where_the_greatest_explains_the_runs(
-    monkeypatch, left, gained, named, asked
-):
-    rows = Rows(finding("run_in", 2.0 * SURE), finding("film_drag", 20.0),
-                finding("surface_pattern", 80.0), most=3)  # fmt: skip
-    simulated = {"run_in": 1e3, "film_drag": gained, "surface_pattern": gained}
-    found, _ = agreed(monkeypatch, rows, simulated, halved=(left, 1.0))
-    assert found == ["run_in", "film_drag", "surface_pattern"][:named]
-    assert len(rows.asked) == asked
-
-
 def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monkeypatch):
     """With what it leaves gone the greatest is beyond doubt: no model is fitted without it."""
     rows = Rows(finding("run_in", 2.0 * SURE), finding("film_drag", 9.0 * SURE),

@@ -140,14 +140,6 @@ def test_a_scale_of_all_runs_is_one_doubt():
     assert doubt.text.startswith("all runs") and "1.08 times" in doubt.text and not doubt.severe
 
 
-@pytest.mark.parametrize("stated", [0.5, 0.8, 1.0, 1.25, 3.0])
-def test_the_surface_s_speed_is_read_off_sticks_whatever_is_stated(stated, sound):
-    for run in sound.runs[:2]:
-        found, error = in_motion.stick_speed(replace(run, surface_speed=stated * run.surface_speed))
-        assert abs(found - run.surface_speed) < 5.0 * error + 0.01 * run.surface_speed
-    assert in_motion.stick_speed(sound.runs[2]) is None  # it never sticks
-
-
 @pytest.mark.parametrize(("ripple", "severe"), [(0.0, True), (0.4, False)])
 def test_a_surface_that_is_now_slower_and_now_faster_has_no_other_set_point(ripple, severe):
     """A block that sticks at the crests of a ripple is carried faster than stated."""
@@ -275,13 +267,6 @@ def test_a_tracker_that_smooths_is_told_from_one_that_does_not(part):
     # what a filter takes of the noise is not stated, here
     doubts = tracker.doubts_of_noise(campaign_of(runs), runs)
     assert said(doubts, "smoothed") == (part > 1.0)
-
-
-def test_no_false_alarm_on_white_noise():
-    """Of stick-slip motion, slow and fast, dense and coarse."""
-    for number, (speed, interval) in enumerate([(0.01, 0.01), (0.1, 0.01), (0.05, 0.002)] * 4):
-        run = run_of(speed, number, interval=interval, duration=8.0)
-        assert tracker.doubts_of_noise(campaign_of([run]), [run]) == [], (speed, interval)
 
 
 @pytest.mark.parametrize("decimals", [1e-9, 1e-6])

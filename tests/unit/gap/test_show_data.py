@@ -12,7 +12,6 @@ from gap_campaigns import NOISE
 from stickslip import simulate
 
 from cosim import read_scenario
-from cosim.cli import main
 from cosim.gap import read_campaign
 from cosim.gap.data import Track
 from cosim.gap.quantities import digits, fitted_quantities, quantity, with_digits
@@ -82,13 +81,6 @@ def test_model_moves_as_the_fitted_one_did(gap, tmp_path):
     assert end > 20 and np.max(np.abs(off)) < 1e-2 * NOISE
 
 
-def test_stickslip_simulate_takes_the_model(gap, tmp_path):
-    (tmp_path / "model.toml").write_text(model_text(gap), encoding="utf-8")
-    assert main(["simulate", str(tmp_path / "model.toml"), "-o", str(tmp_path / "out")]) == 0
-    summary = json.loads((tmp_path / "out" / "summary.json").read_text(encoding="utf-8"))
-    assert summary["status"] == "complete"
-
-
 @pytest.mark.parametrize("verdict", answers.VERDICTS)
 def test_model_says_what_was_named_and_how_well(gap, verdict):
     gap = answers.other(gap, verdict)
@@ -156,28 +148,6 @@ def test_a_fault_is_undone_in_the_data():
     freed = camera.undone(Track(time=0.99 * time, x=seen_x, y=seen_y), values)
     for found, truth in ((freed.time, time), (freed.x, x), (freed.y, y)):
         assert found == pytest.approx(truth, abs=1e-12)
-
-
-def test_a_frame_that_is_read_out_late_and_a_filter_are_of_their_orders():
-    """x(t + c x / 0.1 m) to first order in c; a filter's gain at a frequency; runs without one."""
-    time = np.arange(0.0, 4.0, 0.001)
-    x = 0.02 * np.sin(6.0 * time)
-    places = np.column_stack([x, 0.0 * x, 0.0 * x])
-    inside = slice(200, -200)
-    late = camera.seen(places, time, {"measurement.latency": 0.01})[:, 0]
-    exact = 0.02 * np.sin(6.0 * (time + 0.01 * x / 0.1))
-    second = 0.5 * 0.02 * 6.0**2 * (0.01 * 0.02 / 0.1) ** 2  # x'' (c x / 0.1 m)^2 / 2
-    assert np.abs(late - exact)[inside].max() < 1.01 * second < 0.02 * np.abs(late - x).max()
-    gauss = camera.seen(places, time, {"measurement.smoothing": 0.03})[:, 0]
-    expected = np.exp(-0.5 * (6.0 * 0.03) ** 2) * x
-    np.testing.assert_allclose(gauss[inside], expected[inside], atol=1e-6)
-    past = {"measurement.smoothing": 0.03, "measurement.smoothing_kind": 1.0}
-    gain = 1.0 / (1.0 + 6.0j * 0.03)
-    expected = 0.02 * np.imag(gain * np.exp(6.0j * time))
-    found = camera.seen(places, time, past)[:, 0]
-    np.testing.assert_allclose(found[inside], expected[inside], atol=1e-4)
-    elsewhere = {"measurement.scale": 0.1, "measurement.scale_in": 0.0}
-    np.testing.assert_array_equal(camera.seen(places, time, elsewhere), places)
 
 
 def test_corrected_data_are_a_campaign(gap, tmp_path):

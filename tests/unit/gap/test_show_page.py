@@ -9,7 +9,7 @@ import pytest
 
 from cosim.gap.quantities import digits
 from cosim.gap.show import files
-from cosim.gap.show.text import closing_lines, what_is_left
+from cosim.gap.show.text import closing_lines
 from cosim.gap.show.tracks import worst
 
 JARGON = ("offset.", "rung 0", "nan", "None", "{")
@@ -41,25 +41,6 @@ def test_every_answer_has_a_page(gap, verdict, tmp_path):
     noise = "as large as the tracker's noise" in text
     assert noise == (max(gap.after.fit, gap.after.held_out or 0.0) <= 1.1)
     assert ("no run was held out" in text) == (gap.after.held_out is None)
-
-
-def test_no_number_has_two_values(gap, tmp_path):
-    """None is another one, less rounded."""
-    _, text = written(gap, tmp_path)
-    tokens = {t for t in re.findall(r"(?<![\w.])\d+\.\d+(?![\w.])", text)}
-    for short in tokens:
-        decimals = len(short.partition(".")[2])
-        for other in tokens:
-            if len(other.partition(".")[2]) > decimals and len(short.lstrip("0.")) > 2:
-                alike = round(float(other), decimals) == float(short) != float(other)
-                assert not alike, (short, other)
-    assert text.count(digits(gap.after.held_out)) >= 3
-
-
-def test_a_held_out_gap_above_noise_is_said(gap):
-    last = replace(gap.ladder[-1], gap=replace(gap.after, held_out=1.3))
-    left = what_is_left(replace(gap, ladder=(gap.ladder[0], last)))
-    assert left == "What is left in the held-out runs is more than the tracker's noise explains."
 
 
 def test_closing_lines(gap):
@@ -98,12 +79,3 @@ def test_a_run_shorter_than_its_cycles_is_shown_whole(gap):
     )
     _, _, begin, end = worst(replace(gap, campaign=replace(gap.campaign, runs=runs)))
     assert (begin, end) == pytest.approx((0.05, 6.05))
-
-
-def test_the_answer_as_a_dataset(gap):
-    data = gap.to_xarray()
-    assert data.sizes == {"sample": 3 * 601, "run": 3}
-    assert list(data.run.values) == ["run01", "run02", "run03"] and data.attrs["case"] == "gap"
-    left = data.x_left_extended[data.number == 2]
-    assert float((left**2).mean() ** 0.5) == pytest.approx(gap.extended.run("run03").gap)
-    assert "velocity_weakening" in repr(gap) and len(repr(gap)) < 120

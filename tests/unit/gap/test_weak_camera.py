@@ -12,7 +12,6 @@ from cosim.gap.naming import Naming
 from cosim.gap.show.files import write_corrected
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.camera_faults import (
-    COURSES,
     FILTERS,
     GAUSSIAN,
     PAST,
@@ -20,9 +19,8 @@ from cosim.gap.weak_form.camera_faults import (
     WINDOW,
     camera_faults,
     leaning,
-    smoothing,
 )
-from cosim.gap.weak_form.corners import CORNER, CornerRows, corner_contact, with_corners
+from cosim.gap.weak_form.corners import CORNER, corner_contact, with_corners
 from cosim.gap.weak_form.rows import rows_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth
@@ -208,28 +206,6 @@ def test_rows_of_corners_are_of_unit_noise_and_of_no_gap(tmp_path, breaks):
     assert rows.size > 40
     assert abs(rows.mean()) < 3.5 / np.sqrt(rows.size)
     assert np.std(rows) == pytest.approx(1.0, abs=0.2)
-
-
-@pytest.mark.parametrize("kind", [GAUSSIAN, WINDOW])
-def test_what_is_rounded_is_what_a_filter_leaves(tmp_path, kind):
-    """In a stick, the response's place is the filtered path less the straight one."""
-    width, fault = 0.03, FILTERED[FILTERS.index(kind)]
-    made = system(tmp_path, fault, width)
-    for number, run in enumerate(made.fitted):
-        assert isinstance(run, CornerRows)
-        response = smoothing(width, kind)(run)
-        t, x = path(*RUNS[number])
-        exact = (written(fault, width, t, x)[1] - x)[::EVERY]
-        for first, last in run.track.sticks:
-            if first > 0 and last < exact.size:
-                left = response.place[first:last, 0] - exact[first:last]
-                assert np.max(np.abs(left)) < 0.3 * np.max(np.abs(exact))
-
-
-@pytest.mark.parametrize("course", COURSES)
-def test_courses_begin_at_0_and_end_at_1(course):
-    ends = COURSES[course](np.array([0.0, 1.0]))
-    assert ends == pytest.approx([0.0, 1.0], abs=0.01)
 
 
 def test_a_long_delay_is_taken_whole(tmp_path):

@@ -53,11 +53,13 @@ def figure(name):
     return f'figure[data-name="{name}"]'
 
 
-def test_it_is_small_asks_for_nothing_and_draws_everything(browser, page):
-    browser.open(page)
+@pytest.mark.parametrize("width", [WIDE, PHONE])
+def test_it_is_small_asks_for_nothing_and_draws_everything_for_everybody(browser, page, width):
+    browser.open(page, width)
     assert page.stat().st_size < SMALL
     assert browser.outside() == [] and browser.errors() == []
     assert len(browser.all("figure.live.on .stage")) == LIVE
+    assert browser.overhang() <= 0 and browser.barriers() == []
 
 
 def test_pointing_tells_the_value(opened):
@@ -146,12 +148,6 @@ def test_the_belt_is_warmer_behind_the_block(opened):
     assert right > left + 20.0
 
 
-@pytest.mark.parametrize("width", [WIDE, PHONE])
-def test_it_never_scrolls_sideways(browser, page, width):
-    browser.open(page, width)
-    assert browser.overhang() <= 0
-
-
 def test_paper_has_what_the_scripts_draw_without_what_is_pressed(opened):
     opened.command("Emulation.setEmulatedMedia", media="print")
     shown = opened.js(
@@ -178,9 +174,3 @@ def test_the_answer_a_picture_and_four_figures_are_the_first_screen(opened):
     )
     assert [tag for tag, _ in first] == ["H1", "FIGURE", "DIV", "H2"]
     assert first[2][1] < 900 and len(opened.all(".tiles div")) == 4
-
-
-@pytest.mark.parametrize("width", [WIDE, PHONE])
-def test_nobody_is_kept_out(browser, page, width):
-    browser.open(page, width)
-    assert browser.barriers() == []

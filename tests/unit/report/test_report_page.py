@@ -12,7 +12,7 @@ from test_report_figures import cut_short, with_gaps
 from cosim.report import page as page_module
 from cosim.report import write_results
 from cosim.report.figures import plates_of
-from cosim.report.page import number, sentences, tiles_of
+from cosim.report.page import number
 from cosim.report.quantities import told
 from cosim.report.results import run_page
 from cosim.report.run_answer import headline, tiles
@@ -47,17 +47,6 @@ def read(path):
     references.feed(page)
     assert references.open == []
     return page, references
-
-
-def test_a_paragraph_of_a_text_is_a_line():
-    assert sentences("\n At 2\u00a0m\n it is   cold.\n  \n\nSo\n") == [
-        "At 2\u00a0m it is cold.",
-        "So",
-    ]
-    assert tiles_of("rise; for ever |\n2 K\n\nbelt | 1 m") == [
-        ("rise; for ever", "2 K"),
-        ("belt", "1 m"),
-    ]
 
 
 @pytest.fixture(scope="module")

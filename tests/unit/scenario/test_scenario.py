@@ -162,6 +162,10 @@ NUMBER = "allowed is a number greater than 0 kg"
         ("[rig]\ndegrees_of_freedom = ['z']", 'not known ("z"), allowed is a list of "x" or'),
         ("[rig]\ndegrees_of_freedom = []", 'rig.degrees_of_freedom: must contain "x"'),
         ("[rig]\nspring_natural_length = 0.5", "rig.spring_natural_length: 0.5 m is more than"),
+        (
+            "[rig]\nsurface = 'slab'\n[turning_surface]\ncurvature = 1.0",
+            'rig.surface: "slab" already sets turning_surface.curvature',
+        ),
         ("[rig]\ncontact_radius = 0.6", "must exceed 2 rig.contact_radius = 1.2 m"),
         ("[friction]\nmu_s = -1\nmu_k = -1\n[x]", "(-1), allowed is a number at least 0 (and 2 mo"),
         (
@@ -212,16 +216,6 @@ def test_kinetic_above_static_friction_is_allowed_with_a_warning(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         assert case.mechanics.friction.mu_k == 0.5
-
-
-def test_the_mechanical_checks_hold_for_the_whole(tmp_path):
-    """A check of the same name here would take the place of theirs."""
-    line = fault(tmp_path, "[rig]\nsurface = 'slab'\n[turning_surface]\ncurvature = 1.0")
-    assert line.startswith('rig.surface: "slab" already sets turning_surface.curvature')
-
-
-def test_a_belt_may_run_backwards(tmp_path):
-    assert read_scenario(written(tmp_path, "[surface]\nspeed = -0.15")).surface.speed == -0.15
 
 
 def test_an_output_interval_not_given_gives_way_to_the_macro_step():

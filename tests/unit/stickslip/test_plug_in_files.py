@@ -1,10 +1,8 @@
 """An effect from outside is a file: what is wrong with it is said in one line, with its place."""
 
-import os
 import sys
 
 import pytest
-from command_line import python
 from stickslip.generation.terms import terms_source
 from stickslip.plugins.errors import PluginError
 from stickslip.plugins.load import TABLES, effect_in, source_of
@@ -257,20 +255,3 @@ def catalogue_ids():
 def test_a_unit_that_no_unit_has(said):
     text = GOOD.replace('"m/s"', '"furlong"')
     assert "onset is in 'furlong'" in said(text) and "m/s2" in said(text)
-
-
-INSTALLED = """
-from cosim import read_scenario
-scenario = read_scenario("reference")
-print(scenario.catalogue.effects[-1].id, scenario.grease.fall)
-"""
-
-
-def test_scenarios_have_an_installed_one_by_themselves(tmp_path):
-    (tmp_path / "grease.py").write_text(text_of("grease"), encoding="utf-8")
-    info = tmp_path / "grease-1.0.dist-info"
-    info.mkdir()
-    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: grease\nVersion: 1.0\n")
-    (info / "entry_points.txt").write_text("[stickslip.effects]\ngrease = grease:EFFECT\n")
-    path = os.pathsep.join([str(tmp_path), os.environ.get("PYTHONPATH", "")])
-    assert python(INSTALLED, env=os.environ | {"PYTHONPATH": path}) == "grease 0.0\n"

@@ -63,6 +63,10 @@ def test_a_variable_of_a_unit_is_set_by_name(one, tmp_path, capsys):
         ("one.u=[1, 2]", "one.u: not possible ([1, 2]), allowed is a number, true, false"),
         ("one.u=nan", "one.u = nan: must be a finite number"),
         ("one=1", "one: no unit"),
+        ("run.stop", "allowed is KEY=VALUE"),
+        ("run.stop=soon", 'run.stop: not a number ("soon")'),
+        ("units.one.file=x", "no unit is named 'units'"),
+        ("run.stopp=1", "run.stopp: no such key, nearest known: run.stop"),
     ],
 )
 def test_what_cannot_be_set_is_refused_in_a_line(one, setting, said, tmp_path, capsys):

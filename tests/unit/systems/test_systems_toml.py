@@ -74,23 +74,14 @@ def test_a_chain_is_what_its_equations_say(chain):
     assert done.result.units["second.u"] == "mm"
 
 
-def test_factor_and_offset_come_after_the_conversion(chain):
-    values = result_of(chain("factor = 2.0\noffset = 5.0")).result.values
-    np.testing.assert_allclose(
-        values["second.u"][1:], 5.0 + 2000.0 * values["first.y"][1:], rtol=1e-13
-    )
-
-
-def test_a_conversion_can_be_left_out(chain):
-    done = result_of(chain("convert = false"))
-    np.testing.assert_array_equal(
-        done.result.values["second.u"][1:], done.result.values["first.y"][1:]
-    )
-
-
-def test_an_output_can_be_given_where_it_starts(chain):
-    path = chain(start=("part.gain = 2.0", "part.gain = 2.0\ny = 7.0"))
-    assert result_of(path).result.values["first.y"][0] == 7.0
+@pytest.mark.parametrize(
+    "said, factor, offset",
+    [("factor = 2.0\noffset = 5.0", 2000.0, 5.0), ("convert = false", 1.0, 0.0)],
+)
+def test_a_connection_scales_and_shifts_after_the_conversion(chain, said, factor, offset):
+    values = result_of(chain(said)).result.values
+    expected = offset + factor * values["first.y"][1:]
+    np.testing.assert_allclose(values["second.u"][1:], expected, rtol=1e-13)
 
 
 def test_rows_can_be_fewer_than_steps(chain):
@@ -174,6 +165,11 @@ def test_what_makes_no_sense_is_refused_in_one_line(chain, capsys, old, new, mes
     refusal(capsys, "couple", path, "-o", path.parent / "out")
 
 
+def test_a_file_that_is_not_there(tmp_path):
+    with pytest.raises(SystemFault, match="no such file, allowed is an SSP or a TOML file"):
+        read_system(tmp_path / "none.toml")
+
+
 def test_the_command_leaves_what_run_leaves(chain, tmp_path, capsys):
     folder = tmp_path / "out"
     assert (
@@ -195,11 +191,6 @@ def test_the_command_leaves_what_run_leaves(chain, tmp_path, capsys):
     assert "times 1000" in page and "first.y" in page
 
 
-def test_the_numbers_can_be_printed(chain, tmp_path, capsys):
-    assert main(["couple", str(chain()), "--json", "-o", str(tmp_path / "out")]) == 0
-    assert json.loads(capsys.readouterr().out)["time_reached"] == 1.0
-
-
 def test_a_unit_that_fails_leaves_what_there_was(chain, tmp_path, capsys):
     """A unit refuses a step that takes it above 1e6: after 6e5 the second does so in its second."""
     path = chain(grow=("part.gain = 2.0", "part.gain = 2e6"), rate=('"part.rate" = 0.5', ""))
@@ -207,19 +198,6 @@ def test_a_unit_that_fails_leaves_what_there_was(chain, tmp_path, capsys):
     assert "failed in the step from t = 0.01 s" in capsys.readouterr().err
     numbers = json.loads((tmp_path / "out" / "summary.json").read_text())
     assert numbers["status"] == "failed" and numbers["time_reached"] == pytest.approx(0.01)
-
-
-@pytest.mark.parametrize(
-    "setting, message",
-    [
-        ("run.stop", "allowed is KEY=VALUE"),
-        ("run.stop=soon", r'run.stop: not a number ("soon")'),
-        ("units.first.file=x", "no unit is named 'units'"),
-        ("run.stopp=1", "run.stopp: no such key, nearest known: run.stop"),
-    ],
-)
-def test_a_setting_that_cannot_be_is_refused(chain, capsys, setting, message):
-    assert message in refusal(capsys, "couple", chain(), "--set", setting)
 
 
 @pytest.mark.parametrize(
@@ -293,11 +271,6 @@ def test_a_power_is_said_as_both_integrals_and_how_far_they_go(chain, tmp_path, 
         )
         page = (tmp_path / "out" / "report.html").read_text()
         assert ("There are fewer rows than steps" in page) == sparse
-
-
-def test_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(SystemFault, match="no such file, allowed is an SSP or a TOML file"):
-        read_system(tmp_path / "none.toml")
 
 
 @pytest.mark.skipif(os.name == "nt", reason="what is left is not cleared there")

@@ -5,7 +5,6 @@ import pytest
 from c_units import made
 from lag_unit import lag_unit
 
-from cosim.coupling import FmuError
 from cosim.systems import SystemFault, read_system, run_system
 
 #: y1 = 6 t exactly, which a linear waveform is; y2' = y1 - 2 y2.
@@ -58,10 +57,6 @@ def test_substeps_follow_the_waveform_more_closely(lag):
     assert one / ten == pytest.approx(100.0, rel=0.05)
 
 
-def test_an_isolated_unit_makes_the_same_substeps(lag):
-    np.testing.assert_array_equal(lag("substeps = 10\nisolate = true")[0], lag("substeps = 10")[0])
-
-
 @pytest.mark.parametrize("value", ["0", "2.5", "true", '"ten"', "1e9", "2000000"])
 def test_substeps_that_cannot_be_are_refused(lag, value):
     with pytest.raises(SystemFault, match=r"ramp.toml: units.lag.substeps: "):
@@ -92,21 +87,3 @@ def test_elements_of_arrays_are_set_by_name(tmp_path, isolate):
     with read_system(tmp_path / "arrays.toml") as specification:
         result = run_system(specification).result
     assert (result["unit.y[1]"][0], result["unit.y[2]"][0]) == (70.0, 40.0)
-
-
-@pytest.mark.parametrize(
-    "old, new, message",
-    [
-        ("p[1,2]", "p[3,1]", r"no variable of unit is named 'p\[3,1\]'; nearest: 'p\[2,1\]"),
-        ("p[1,2]", "p", "no variable of unit is named 'p'"),
-        ('"p[1,2]" = 7.0', '"p[1,2]" = true', r"unit.p\[1,2\] = True: must be a finite number"),
-    ],
-)
-def test_elements_that_are_not_there_are_refused_by_name(tmp_path, old, new, message):
-    made("events", tmp_path)
-    (tmp_path / "arrays.toml").write_text(ARRAYS.replace(old, new))
-    with (
-        read_system(tmp_path / "arrays.toml") as specification,
-        pytest.raises((SystemFault, FmuError), match=message),
-    ):
-        run_system(specification)

@@ -1,10 +1,8 @@
 """Vapour over ice against tables, and the bounds of frost against a face's own heat balance."""
 
-import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from thermal.belt.air import convection, moving_belt, radiation
 from thermal.belt.frost import frost, saturation_over_ice
 
 
@@ -37,9 +35,3 @@ def test_dry_air_keeps_frost_colder():
     bound = frost(4.0, 4.0, -8.0)
     face = brentq(lambda t: balance(t, 0.8, 4.0, 4.0), -15.0, -8.0)
     assert 0.2 * bound.depression == pytest.approx(-8.0 - face, rel=0.15)
-
-
-def test_still_air_is_convection_and_radiation():
-    assert moving_belt(0.5, 0.5) == convection(0.5, 0.5) + radiation(-8.0)
-    assert radiation(-8.0) == pytest.approx(4 * 0.9 * 5.670374e-8 * 265.15**3)
-    assert np.isclose(convection(0.5, 0.5), 4.87, rtol=0.02)

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 from thermal import Belt, BeltIceModel, Contact, ThermalParameters
-from thermal import steady_sliding as module
 from thermal.steady_sliding import SteadySliding
 
 FORCE = 0.3 * 1.371 * 9.81
@@ -55,18 +54,6 @@ def test_ramp_and_run_against_small_steps(length, speed, h, published):
     )
     if published:
         assert state.entry == pytest.approx(published, rel=0.01)
-
-
-def test_finer_steps_of_a_ramp_converge(monkeypatch):
-    """Interface where the ramp ends; the steps of the fluxes are first order."""
-    given, errors = parameters(), []
-    for steps in (640, 40, 80, 160):
-        monkeypatch.setattr(module, "_FEWEST_RAMP_STEPS", steps)
-        sliding = SteadySliding(given, 0.5, FORCE, waves=150)
-        errors.append(sliding.ramp(RAMP).mean_interface)
-    off = np.abs(np.array(errors[1:]) / errors[0] - 1.0)
-    assert np.all(off[1:] < 0.75 * off[:-1])
-    assert off[0] < 1e-3
 
 
 def test_a_pause_with_the_ice_resting_against_small_steps():

@@ -6,12 +6,9 @@ the block, grows by e in tau = m v_s / (N (mu_s - mu_k)), and ends where it come
 
 import numpy as np
 import pytest
-from disc_integral import law_over_disc
 from line_rig import GRAVITY, MASS, MU_K, MU_S, STIFFNESS, line
 from scipy.integrate import solve_ivp
 from stickslip import Parameters, friction_coefficient, simulate
-from stickslip.kernel.friction.force import friction_in_slip
-from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
 
 SPEED, NORMAL = 0.05, MASS * GRAVITY
 
@@ -110,19 +107,6 @@ def test_the_excess_is_on_top_of_what_mu_k_meets():
     with pytest.warns(UserWarning, match="exceeds"):
         stronger = Parameters(friction=law | {"mu_s": 0.1})  # nothing to fall from
     np.testing.assert_allclose(friction_coefficient(stronger, speeds), MU_K, rtol=1e-15)
-
-
-def test_over_the_disc_it_is_the_local_speed_that_counts():
-    v, radius = 0.1, 0.04
-    law = {"mu_s": MU_S, "mu_k": MU_K, "transition_speed": v}
-    p = Parameters(friction=law, lateral_friction={"ratio": 1.0}).pack()
-    u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
-    u[U_TEMPERATURE] = -8.0
-    for motion in ((0.3, 0.1), (0.25, 0.3), (0.0, 0.2)):
-        friction_in_slip(p, u, w, motion[0], 0.0, motion[1])
-        found = -w[W_FRICTION] / NORMAL, -w[W_FRICTION + 2] / (NORMAL * radius)
-        exact = law_over_disc(lambda s: MU_K + (MU_S - MU_K) * np.exp(-s / v), *motion, 1e-7)
-        np.testing.assert_allclose(found, exact, rtol=0, atol=1e-4 * MU_K)
 
 
 AGEING = {"saturating": 0.1, "saturation_time": 0.05}  # at 0.2 s of rest it has all of it

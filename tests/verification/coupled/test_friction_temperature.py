@@ -108,31 +108,12 @@ def test_the_flash_temperature_of_an_asperity_is_the_melting_point(peclet, withi
     assert COLD + flash == pytest.approx(0.0, abs=within * -COLD)
 
 
-@pytest.mark.parametrize("constant", [0.886, 1.128, 1.329])
-@pytest.mark.parametrize("temperature", [-20.0, -8.0, -0.5])
-def test_asperities_melt_in_passing(temperature, constant):
-    found = law(temperature, asperity_melting=ASPERITY | {"constant": constant})
-    boundary = asperity(SPEEDS, temperature, constant)
-    np.testing.assert_allclose(found**-2, DRY**-2 + boundary**-2, rtol=1e-12)
-    assert np.all(found < np.minimum(DRY, boundary))
-    assert law(temperature, [1e-9], asperity_melting=ASPERITY) == pytest.approx(DRY, rel=1e-3)
-    assert found[-1] == pytest.approx(boundary[-1], rel=1e-3)
-
-
 def test_a_film_of_melt_is_sheared():
     """At the melting point nothing else is left of friction."""
     found = law(0.0, melt_film=FILM, asperity_melting=ASPERITY)
     for at in range(0, len(SPEEDS), 8):
         # the film begins at 1e-8 of its thickness
         assert found[at] == pytest.approx(film(SPEEDS[at]), rel=1e-6)
-
-
-def test_the_regimes_add_up_along_the_path():
-    both = law(melt_film=FILM, asperity_melting=ASPERITY)
-    boundary = law(asperity_melting=ASPERITY)
-    wet = law(0.0, melt_film=FILM, asperity_melting=ASPERITY)
-    np.testing.assert_allclose(both**2, boundary**2 + wet**2, rtol=1e-12)
-    np.testing.assert_allclose(law(melt_film=FILM) ** 2, DRY**2 + wet**2, rtol=1e-12)
 
 
 def test_slopes_and_minimum_of_the_law():
@@ -160,37 +141,6 @@ def test_the_limit_of_no_speed_is_dry_and_what_is_at_rest_holds(temperature):
     assert holding_coefficient(p, u, w) == pytest.approx(DRY, rel=1e-15)
     for speed in SPEEDS:
         assert np.isfinite(local_coefficient(p, u, w, DRY, speed))
-
-
-def conduction(speed, temperature=COLD, conductivity=2.7):
-    """A disc of the diameter l at the melting point on half-spaces: 4 k a per kelvin, over N v."""
-    radius = 0.5 * ASPERITY["length"]
-    contact = MASS * 9.81 / ASPERITY["hardness"]
-    discs = contact / (pi * radius**2)
-    return discs * 4.0 * conductivity * radius * -temperature / (MASS * 9.81 * speed)
-
-
-@pytest.mark.parametrize("temperature", [-20.0, -8.0, -0.5])
-def test_both_bodies_conduct_from_the_contact(temperature):
-    """Slower than a Peclet number of 1 it is all that is left, with the slope -1."""
-    found = law(temperature, asperity_melting=ASPERITY | {"conductivity": 2.7})
-    boundary = asperity(SPEEDS, temperature) + conduction(SPEEDS, temperature)
-    np.testing.assert_allclose(found**-2, DRY**-2 + boundary**-2, rtol=1e-12)
-    undry = np.array([1e-6, 1e-5])  # Peclet numbers of 0.003 and 0.03; dry friction bears all
-    (slow, fast) = asperity(undry, temperature) + conduction(undry, temperature)
-    assert np.log10(fast / slow) == pytest.approx(-1.0, abs=0.05)
-
-
-@pytest.mark.parametrize("temperature", [-20.0, -8.0, -0.5, 0.0])
-def test_melt_carries_where_it_is_thicker_than_the_contact_is_rough(temperature):
-    """exp(-(h / s)^2) of the load is on asperities, h = sqrt(2 eta l v / (rho L)) after l."""
-    rough = 1e-7
-    found = law(temperature, asperity_melting=ASPERITY | {"roughness": rough})
-    melted = law(temperature, asperity_melting=ASPERITY) if temperature < 0.0 else 0.0 * SPEEDS
-    thickness = np.sqrt(2.0 * 1.79e-3 * ASPERITY["length"] * SPEEDS / 3.06e8)
-    solid = np.exp(-((thickness / rough) ** 2))
-    np.testing.assert_allclose(found, solid * DRY + (1.0 - solid) * melted, rtol=1e-11, atol=1e-300)
-    assert found[0] == pytest.approx(DRY, rel=1e-2)
 
 
 @pytest.mark.parametrize("temperature", [-1e-11, 0.0, 2.0])

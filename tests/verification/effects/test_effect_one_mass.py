@@ -28,8 +28,29 @@ def model(**changes) -> OneMass:
 
 
 def kinetic(law):
-    """Friction force from a factor on mu_k that depends on sliding speed and state."""
-    return lambda sliding, s: MU_K * NORMAL * law(sliding, s)
+    """mu_k times what depends on sliding speed and state."""
+    return {"kinetic": lambda sliding, s: MU_K * NORMAL * law(sliding, s)}
+
+
+def drag(force):
+    """A force of the sliding speed beside mu_k, N."""
+    return {"kinetic": lambda sliding, s: MU_K * NORMAL + force(sliding)}
+
+
+def held(more):
+    """What mu_s has gained after so long at rest."""
+    return {"static": lambda time, s: NORMAL * (MU_S + more(max(time, 0.0)))}
+
+
+def both(law):
+    """A factor of the state on mu_k and mu_s."""
+    return kinetic(lambda u, s: law(s)) | {"static": lambda time, s: MU_S * NORMAL * law(s)}
+
+
+def by_as_much(law):
+    """A factor of the state on mu_k; mu_s changes by as much."""
+    static = {"static": lambda time, s: NORMAL * (MU_S - MU_K * (1.0 - law(s)))}
+    return kinetic(lambda u, s: law(s)) | static
 
 
 def ripple(t):
@@ -83,164 +104,88 @@ def worn(s):
     return 1.0 - 0.4 * (1.0 - np.exp(-((s[DISTANCE] / 0.15) ** 0.8)))
 
 
-LIGHT = (MASS * GRAVITY / 10.0) ** -0.4
+LIGHT, A_DECADE = (NORMAL / 10.0) ** -0.4, 1.0 - 0.4 * np.log10(NORMAL / 8.0)
+ADHERING = (NORMAL + 3.0) / NORMAL * 8.0 / (8.0 + 3.0)
+HEATED, FADES = {"per_joule": 0.8, "relaxation_time": 0.6}, {"relaxation": 0.6}
+WORN = {"change": -0.4, "distance": 0.15, "stretching": 0.8}
+RIPPLED = {"amplitude": 0.2, "frequency": 1.3, "phase_deg": 40.0}
+PATTERNED = {"amplitude": 0.2, "wavelength": 0.07, "phase_deg": 30.0}
 
-# effect -> (block and its parameters, the laws that the independent model gets)
+# effect, which of its laws -> its parameters, the laws that the independent model gets
 CASES = {
     "plain": ({}, {}),
     "static_strengthening": (
-        {"static_strengthening": {"rate": 0.05, "hold_time": 0.004}},
-        {"static": lambda held, s: NORMAL * (MU_S + 0.05 * np.log10(1.0 + max(held, 0) / 0.004))},
-    ),
+        {"rate": 0.05, "hold_time": 0.004}, held(lambda t: 0.05 * np.log10(1.0 + t / 0.004))),
     "static_strengthening, saturating": (
-        {"static_strengthening": {"saturating": 0.08, "saturation_time": 0.05}},
-        {"static": lambda held, s: NORMAL * (MU_S + 0.08 * (1 - np.exp(-max(held, 0) / 0.05)))},
-    ),
+        {"saturating": 0.08, "saturation_time": 0.05}, held(lambda t: 0.08 * -np.expm1(-t / 0.05))),
     "static_strengthening, power": (
-        {"static_strengthening": {"power": 0.08, "exponent": 0.4}},
-        {"static": lambda held, s: NORMAL * (MU_S + 0.08 * max(held, 0) ** 0.4)},
-    ),
+        {"power": 0.08, "exponent": 0.4}, held(lambda t: 0.08 * t**0.4)),
     "velocity_weakening, power": (
-        {"velocity_weakening": {"power": 0.2, "exponent": 1.6, "power_speed": 0.1}},
-        {"kinetic": kinetic(lambda u, s: 1.0 / (1.0 + 0.2 * (u / 0.1) ** 1.6))},
-    ),
+        {"power": 0.2, "exponent": 1.6, "power_speed": 0.1},
+        kinetic(lambda u, s: 1.0 / (1.0 + 0.2 * (u / 0.1) ** 1.6))),
     "velocity_weakening, logarithmic": (
-        {"velocity_weakening": {"logarithmic": 0.15, "logarithm_speed": 0.02}},
-        {"kinetic": kinetic(lambda u, s: 1.0 - 0.15 * np.log10(1.0 + u / 0.02))},
-    ),
-    "velocity_weakening, linear": (
-        {"velocity_weakening": {"linear": 0.8}},
-        {"kinetic": kinetic(lambda u, s: max(0.0, 1.0 - 0.8 * u))},
-    ),
+        {"logarithmic": 0.15, "logarithm_speed": 0.02},
+        kinetic(lambda u, s: 1.0 - 0.15 * np.log10(1.0 + u / 0.02))),
+    "velocity_weakening, linear": ({"linear": 0.8}, kinetic(lambda u, s: max(0.0, 1.0 - 0.8 * u))),
     "velocity_weakening, hyperbolic": (
-        {"velocity_weakening": {"hyperbolic": 2.0}},
-        {"kinetic": kinetic(lambda u, s: 1.0 / (1.0 + 2.0 * u))},
-    ),
+        {"hyperbolic": 2.0}, kinetic(lambda u, s: 1.0 / (1.0 + 2.0 * u))),
     "velocity_weakening, inverse root": (
-        {"velocity_weakening": {"inverse_root": 20.0}},
-        {"kinetic": kinetic(lambda u, s: (1.0 + 20.0 * u) ** -0.5)},
-    ),
+        {"inverse_root": 20.0}, kinetic(lambda u, s: (1.0 + 20.0 * u) ** -0.5)),
     "velocity_weakening, Stribeck": (
-        {"velocity_weakening": {"stribeck": 0.3, "stribeck_speed": 0.06}},
-        {"kinetic": kinetic(lambda u, s: 1.0 + 0.3 * np.exp(-u / 0.06))},
-    ),
-    "film_drag, linear": (
-        {"film_drag": {"coefficient": 0.08}},
-        {"kinetic": lambda u, s: MU_K * NORMAL + 0.08 * u},
-    ),
-    "film_drag, root": (
-        {"film_drag": {"root_coefficient": 0.1}},
-        {"kinetic": lambda u, s: MU_K * NORMAL + 0.1 * np.sqrt(u)},
-    ),
+        {"stribeck": 0.3, "stribeck_speed": 0.06},
+        kinetic(lambda u, s: 1 + 0.3 * np.exp(-u / 0.06))),
+    "film_drag, linear": ({"coefficient": 0.08}, drag(lambda u: 0.08 * u)),
+    "film_drag, root": ({"root_coefficient": 0.1}, drag(lambda u: 0.1 * np.sqrt(u))),
     "film_drag, power": (
-        {"film_drag": {"power": 0.015, "exponent": 1.7, "power_speed": 0.2}},
-        {"kinetic": lambda u, s: MU_K * NORMAL + 0.015 * (u / 0.2) ** 1.7},
-    ),
+        {"power": 0.015, "exponent": 1.7, "power_speed": 0.2},
+        drag(lambda u: 0.015 * (u / 0.2) ** 1.7)),
     "film_drag, saturating": (
-        {"film_drag": {"saturating": 0.03, "saturation_speed": 0.1}},
-        {"kinetic": lambda u, s: MU_K * NORMAL + 0.03 * u / (u + 0.1)},
-    ),
+        {"saturating": 0.03, "saturation_speed": 0.1}, drag(lambda u: 0.03 * u / (u + 0.1))),
     "thermal_weakening, mu_s in proportion": (
-        {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6, "static_relative": 1.0}},
-        {
-            "kinetic": kinetic(lambda u, s: warm(s)),
-            "static": lambda held, s: MU_S * NORMAL * warm(s),
-            "relaxation": 0.6,
-        },
-    ),
+        HEATED | {"static_relative": 1.0}, both(warm) | FADES),
     "thermal_weakening, mu_s by as much": (
-        {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6, "static_absolute": 1.0}},
-        {
-            "kinetic": kinetic(lambda u, s: warm(s)),
-            "static": lambda held, s: NORMAL * (MU_S - MU_K * (1.0 - warm(s))),
-            "relaxation": 0.6,
-        },
-    ),
-    "run_in, stretched, mu_s in proportion": (
-        {"run_in": {"change": -0.4, "distance": 0.15, "stretching": 0.8, "static_relative": 1.0}},
-        {
-            "kinetic": kinetic(lambda u, s: worn(s)),
-            "static": lambda held, s: MU_S * NORMAL * worn(s),
-        },
-    ),
-    "run_in, stretched, mu_s by as much": (
-        {"run_in": {"change": -0.4, "distance": 0.15, "stretching": 0.8, "static_absolute": 1.0}},
-        {
-            "kinetic": kinetic(lambda u, s: worn(s)),
-            "static": lambda held, s: NORMAL * (MU_S - MU_K * (1.0 - worn(s))),
-        },
-    ),
-    "thermal_weakening": (
-        {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6}},
-        {"kinetic": kinetic(lambda u, s: max(0.0, 1.0 - 0.8 * s[RECENT_HEAT])), "relaxation": 0.6},
-    ),
+        HEATED | {"static_absolute": 1.0}, by_as_much(warm) | FADES),
+    "thermal_weakening": (HEATED, kinetic(lambda u, s: max(0.0, warm(s))) | FADES),
     "thermal_weakening, exponential": (
-        {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6, "curvature": 0.0}},
-        {"kinetic": kinetic(lambda u, s: np.exp(-0.8 * s[RECENT_HEAT])), "relaxation": 0.6},
-    ),
+        HEATED | {"curvature": 0.0}, kinetic(lambda u, s: np.exp(-0.8 * s[RECENT_HEAT])) | FADES),
     "thermal_weakening, hyperbolic": (
-        {"thermal_weakening": {"per_joule": 0.8, "relaxation_time": 0.6, "curvature": 1.0}},
-        {"kinetic": kinetic(lambda u, s: 1.0 / (1.0 + 0.8 * s[RECENT_HEAT])), "relaxation": 0.6},
-    ),
+        HEATED | {"curvature": 1.0},
+        kinetic(lambda u, s: 1.0 / (1.0 + 0.8 * s[RECENT_HEAT])) | FADES),
+    "run_in, stretched, mu_s in proportion": (WORN | {"static_relative": 1.0}, both(worn)),
+    "run_in, stretched, mu_s by as much": (WORN | {"static_absolute": 1.0}, by_as_much(worn)),
     "run_in": (
-        {"run_in": {"change": -0.4, "distance": 0.15}},
-        {"kinetic": kinetic(lambda u, s: 1.0 - 0.4 * (1.0 - np.exp(-s[DISTANCE] / 0.15)))},
-    ),
-    "spring_hardening": (
-        {"spring_hardening": {"cubic": 2e4}},
-        {"pull": lambda x: -STIFFNESS * x - 8e4 * x**3},
-    ),
+        {"change": -0.4, "distance": 0.15},
+        kinetic(lambda u, s: 1.0 - 0.4 * (1.0 - np.exp(-s[DISTANCE] / 0.15)))),
+    "spring_hardening": ({"cubic": 2e4}, {"pull": lambda x: -STIFFNESS * x - 8e4 * x**3}),
     "spring_hardening, about another extension": (
-        {"spring_hardening": {"cubic": 2e4, "neutral_extension": 0.01}},
-        {"pull": lambda x: -STIFFNESS * x - 4e4 * ((x + 0.01) ** 3 + (x - 0.01) ** 3)},
-    ),
+        {"cubic": 2e4, "neutral_extension": 0.01},
+        {"pull": lambda x: -STIFFNESS * x - 4e4 * ((x + 0.01) ** 3 + (x - 0.01) ** 3)}),
     "spring_hardening, quintic": (
-        {"spring_hardening": {"quintic": 2e7}},
-        {"pull": lambda x: -STIFFNESS * x - 8e7 * x**5},
-    ),
-    "structural_damping": ({"structural_damping": {"coefficient": 0.08}}, {"damping": 0.08}),
-    "speed_ripple": (
-        {"speed_ripple": {"amplitude": 0.2, "frequency": 1.3, "phase_deg": 40.0}},
-        {"speed": ripple, "acceleration": ripple_rate},
-    ),
-    "surface_pattern": (
-        {"surface_pattern": {"amplitude": 0.2, "wavelength": 0.07, "phase_deg": 30.0}},
-        {
-            "kinetic": kinetic(lambda u, s: pattern(s)),
-            "static": lambda held, s: MU_S * NORMAL * pattern(s),
-        },
-    ),
+        {"quintic": 2e7}, {"pull": lambda x: -STIFFNESS * x - 8e7 * x**5}),
+    "structural_damping": ({"coefficient": 0.08}, {"damping": 0.08}),
+    "speed_ripple": (RIPPLED, {"speed": ripple, "acceleration": ripple_rate}),
+    "surface_pattern": (PATTERNED, both(pattern)),
     "speed_ripple, four harmonics": (
-        {"speed_ripple": {"amplitude": 0.2, "frequency": 1.3, "phase_deg": 40.0} | HIGHER},
-        {"speed": harmonic_ripple, "acceleration": harmonic_ripple_rate},
-    ),
-    "surface_pattern, four harmonics": (
-        {"surface_pattern": {"amplitude": 0.2, "wavelength": 0.07, "phase_deg": 30.0} | HIGHER},
-        {
-            "kinetic": kinetic(lambda u, s: harmonic_pattern(s)),
-            "static": lambda held, s: MU_S * NORMAL * harmonic_pattern(s),
-        },
-    ),
-    "load_dependence": (
-        {"load_dependence": {"exponent": 0.4, "reference_force": 10.0}},
-        {
-            "kinetic": kinetic(lambda u, s: LIGHT),
-            "static": lambda held, s: MU_S * NORMAL * LIGHT,
-        },
-    ),
-    "stick_stiffness": ({"stick_stiffness": {"ratio": 0.4}}, {"judged": 0.4}),
-}
+        RIPPLED | HIGHER, {"speed": harmonic_ripple, "acceleration": harmonic_ripple_rate}),
+    "surface_pattern, four harmonics": (PATTERNED | HIGHER, both(harmonic_pattern)),
+    "load_dependence": ({"exponent": 0.4, "reference_force": 10.0}, both(lambda s: LIGHT)),
+    "load_dependence, adhesion": (
+        {"adhesion": 3.0, "reference_force": 8.0}, both(lambda s: ADHERING)),
+    "load_dependence, so much a decade": (
+        {"logarithmic": 0.4, "reference_force": 8.0}, both(lambda s: A_DECADE)),
+    "stick_stiffness": ({"ratio": 0.4}, {"judged": 0.4}),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_cycles(case):
-    blocks, laws = CASES[case]
+    effect, laws = CASES[case]
     parameters = Parameters(
         rig=RIG,
         springs=Springs(stiffness=STIFFNESS / 4.0),
         solver=Solver(tolerance=1e-13),
         initial={"vx": float(laws["speed"](0.0)) if "speed" in laws else SPEED},
-        **blocks,
+        **({case.partition(",")[0]: effect} if effect else {}),
     )
     run = simulate(parameters, TIMES[-1], TIMES[1])
     samples, events = model(**laws).run(TIMES)

@@ -23,47 +23,35 @@ def turned_anchors(angle_deg: float, offset: float, diagonal: float = 0.0) -> np
     )
 
 
-# case -> (parameters, the other model's laws)
+# effect, which of its laws -> its parameters, the other model's laws
 CASES = {
     "plain": ({}, {}),
-    "friction along x alone": ({"lateral_friction": {"ratio": 0.0}}, {"ratio": 0.0}),
-    "lateral_friction": ({"lateral_friction": {"ratio": 0.4}}, {"ratio": 0.4}),
-    "turning_surface": ({"turning_surface": {"curvature": -2.5}}, {"curvature": -2.5}),
-    "film_drag": ({"film_drag": {"coefficient": 1.5}}, {"film": 1.5}),
+    "lateral_friction, along x alone": ({"ratio": 0.0}, {"ratio": 0.0}),
+    "lateral_friction": ({"ratio": 0.4}, {"ratio": 0.4}),
+    "turning_surface": ({"curvature": -2.5}, {"curvature": -2.5}),
+    "film_drag": ({"coefficient": 1.5}, {"film": 1.5}),
     "structural_damping": (
-        {"structural_damping": {"coefficient": 1.5, "rotational": 2e-3}},
-        {"damping": 1.5, "damping_rotation": 2e-3},
-    ),
+        {"coefficient": 1.5, "rotational": 2e-3}, {"damping": 1.5, "damping_rotation": 2e-3}),
     "spring_hardening": (
-        {"spring_hardening": {"cubic": 8e3}},
-        {"spring_energy": lambda e: 0.5 * 20.17 * e**2 + 2e3 * e**4},
-    ),
+        {"cubic": 8e3}, {"spring_energy": lambda e: 0.5 * 20.17 * e**2 + 2e3 * e**4}),
     "spring_hardening, about another extension": (
-        {"spring_hardening": {"cubic": 8e3, "neutral_extension": 0.015}},
-        {"spring_energy": lambda e: 0.5 * 20.17 * e**2 + 2e3 * (e - 0.015) ** 4},
-    ),
+        {"cubic": 8e3, "neutral_extension": 0.015},
+        {"spring_energy": lambda e: 0.5 * 20.17 * e**2 + 2e3 * (e - 0.015) ** 4}),
     "spring_misalignment": (
-        {
-            "spring_misalignment": {
-                "angle_deg": 8.0,
-                "lateral_offset": 0.02,
-                "diagonal_offset": 0.01,
-            }
-        },
-        {"anchors": turned_anchors(8.0, 0.02, 0.01)},
-    ),
+        {"angle_deg": 8.0, "lateral_offset": 0.02, "diagonal_offset": 0.01},
+        {"anchors": turned_anchors(8.0, 0.02, 0.01)}),
     # laws of the local speed go through the kernel's quadrature, 8 x 4 points over the contact,
     # which is that exact where the speed varies little over it (see test_effect_local_law)
     "velocity_weakening, Stribeck": (
-        {"velocity_weakening": {"stribeck": 0.5, "stribeck_speed": 0.1}},
-        {"law": lambda u: MU_K * (1.0 + 0.5 * np.exp(-u / 0.1))},
-    ),
-}
+        {"stribeck": 0.5, "stribeck_speed": 0.1},
+        {"law": lambda u: MU_K * (1.0 + 0.5 * np.exp(-u / 0.1))}),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_slip_in_the_plane(case):
-    blocks, laws = CASES[case]
+    effect, laws = CASES[case]
+    blocks = {case.partition(",")[0]: effect} if effect else {}
     run = simulate(
         Parameters(
             rig={"spring_natural_length": 0.17},

@@ -44,22 +44,3 @@ def test_healing_at_rest():
     t = run.slip_starts[0]
     held = MU_K + 0.01 * np.log(1e-6 / 1e-4) + 0.02 * np.log(1e-4 * (5.0 + t) / DISTANCE)
     assert 2000.0 * 1e-4 * t / NORMAL == pytest.approx(held, rel=1e-9)
-
-
-@pytest.mark.parametrize("ratio", [0.0, 0.2, 1.0])
-def test_a_slip_that_gathers_slowly(ratio):
-    """Loaded to just its limit the contact creeps, for milliseconds, about as fast as v_c."""
-    law = {"direct": 0.0074, "evolution": 0.016, "distance": 1e-5, "reference_speed": 3e-4}
-    run = simulate(
-        Parameters(
-            rig={"spring_natural_length": 0.17},
-            springs={"stiffness": 97.0},
-            surface={"speed": 0.011},
-            lateral_friction={"ratio": ratio},
-            initial={"y": 0.005, "phi": 0.1},
-            rate_and_state=law | {"creep_speed": 1e-6},
-        ),
-        3.0,
-    )
-    assert run.complete and len(run.slip_starts) >= 2
-    assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]

@@ -5,18 +5,13 @@ import warnings
 
 import numpy as np
 import pytest
-from disc_integral import law_over_disc
-from hypothesis import given
-from hypothesis import strategies as st
 from kernel_steps import largest_step_difference, memory_of
 from scipy.interpolate import PchipInterpolator
 from stickslip import Parameters, simulate
 from stickslip.catalogue import CATALOGUE
-from stickslip.kernel.friction.force import friction_in_slip
-from stickslip.kernel.friction.table import table_coefficient
-from stickslip.kernel.layout import P_MU_K, U_SIZE, W_FRICTION, W_SIZE
+from stickslip.kernel.layout import P_MU_K
 
-RADIUS, NORMAL = 0.04, 0.67 * 9.81
+NORMAL = 0.67 * 9.81
 #: Falls, is flat, has a peak, and falls to nothing.
 SPEED = (0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.6)
 MU = (0.25, 0.2, 0.2, 0.16, 0.22, 0.12, 0.0)
@@ -29,18 +24,6 @@ PLANAR = {
 
 def table(speed=SPEED, mu=MU, **more) -> dict:
     return {"friction": {"table_speed": tuple(speed), "table_mu": tuple(mu), "mu_s": 0.5, **more}}
-
-
-spans = st.lists(st.floats(1e-3, 0.3), min_size=1, max_size=15)
-
-
-@given(spans, st.floats(0.0, 0.1), st.randoms(use_true_random=False))
-def test_between_its_points_it_is_scipys_pchip(spans, first, draw):
-    speed = np.cumsum([first, *spans])
-    mu = [draw.choice([0.0, 0.2, draw.uniform(0.0, 0.5)]) for _ in speed]
-    p, peer = Parameters(**table(speed, mu)).pack(), PchipInterpolator(speed, mu)
-    for at in [*speed, *(draw.uniform(speed[0], speed[-1]) for _ in range(20))]:
-        assert table_coefficient(p, at, -8.0) == pytest.approx(float(peer(at)), abs=1e-14)
 
 
 def test_at_rest_the_contact_holds_the_larger_of_mu_s_and_the_first_point():
@@ -58,22 +41,6 @@ def test_at_rest_the_contact_holds_the_larger_of_mu_s_and_the_first_point():
         assert parameters.pack()[P_MU_K] == MU[0]
         run = simulate(parameters, 3.0)
         assert 4.0 * 20.17 * run.events[0, 2] == pytest.approx(held * NORMAL, rel=1e-9)
-
-
-# sliding and spinning (rim) speed, m/s
-MOTIONS = ((0.3, 0.0), (0.3, 0.1), (0.3, 0.3), (0.25, 0.3), (0.1, 0.3), (0.0, 0.3))
-
-
-def test_over_the_disc():
-    """Relative to mu at rest; the quadrature pays for a law that goes up and down."""
-    p = Parameters(lateral_friction={"ratio": 1.0}, **table()).pack()
-    law = PchipInterpolator(SPEED, MU)
-    for sliding, spinning in MOTIONS:
-        u, w = [0.0] * U_SIZE, [0.0] * W_SIZE
-        friction_in_slip(p, u, w, sliding, 0.0, spinning)
-        found = -w[W_FRICTION] / NORMAL, -w[W_FRICTION + 2] / (NORMAL * RADIUS)
-        there = law_over_disc(lambda v: float(law(v)), sliding, spinning, 1e-5)
-        assert np.max(np.abs(np.subtract(found, there))) < 1.6e-2 * MU[0]
 
 
 def test_what_else_acts_on_mu_k_multiplies_it():

@@ -4,13 +4,10 @@ from math import exp, log10
 
 import numpy as np
 import pytest
-from disc_integral import law_over_disc
 from stickslip import EFFECTS, Parameters, friction_coefficient
 from stickslip.effects.candidate import Scales
-from stickslip.kernel.friction.force import friction_in_slip
-from stickslip.kernel.layout import P_NORMAL_FORCE, U_SIZE, W_FRICTION, W_SIZE
 
-MU, RADIUS = 0.2, 0.04
+MU = 0.2
 BELL = {"height": 0.8, "peak_speed": 0.1, "narrowness": 0.7}
 RIG = Parameters(friction={"mu_k": MU}, lateral_friction={"ratio": 1.0}, viscoelastic_peak=BELL)
 
@@ -29,15 +26,6 @@ def test_the_formula_and_its_landmarks():
     assert found[3] == pytest.approx(1.8 * MU, rel=1e-13)
     assert found[[1, 4]] == pytest.approx(MU * (1.0 + 0.8 / np.e), rel=1e-13)
     assert found[[0, 5]] == pytest.approx(MU, rel=1e-12)
-
-
-@pytest.mark.parametrize("motion", [(0.3, 0.0), (0.3, 0.1), (0.3, 0.25), (0.1, 0.3), (0.0, 0.3)])
-def test_over_the_disc(motion):
-    """The kernel's quadrature of a law that varies over the contact, against an adaptive one."""
-    p, u, w = RIG.pack(), [0.0] * U_SIZE, [0.0] * W_SIZE
-    friction_in_slip(p, u, w, motion[0], 0.0, motion[1])
-    found = -w[W_FRICTION] / p[P_NORMAL_FORCE], -w[W_FRICTION + 2] / (p[P_NORMAL_FORCE] * RADIUS)
-    assert found == pytest.approx(law_over_disc(law, *motion, 1e-6 * MU), abs=2e-3 * MU)
 
 
 def test_the_catalogue_does_not_offer_it():

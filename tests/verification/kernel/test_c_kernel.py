@@ -10,7 +10,6 @@ import random
 import numpy as np
 import pytest
 from effect_cases import (
-    BESIDE_CREEP,
     IDS,
     any_rig,
     creeping,
@@ -19,7 +18,6 @@ from effect_cases import (
     sheared,
 )
 from kernel_steps import largest_step_difference, memory_of
-from stickslip import Initial, LateralFriction, Parameters, Rig, Surface, simulate
 from stickslip.catalogue import CATALOGUE
 from stickslip.compiled import Library
 
@@ -61,33 +59,3 @@ def test_the_comparison_sees_a_difference():
     memory = memory_of(draw_parameters((), random.Random(1)))
     other = np.array(memory.p) * (1.0 + 1e-9)
     assert largest_step_difference(CATALOGUE.compiled, memory, STEPS, other_p=other) > 1e-11
-
-
-PLANAR = LateralFriction(ratio=1.0)
-SLAB = Rig(surface="slab", spring_natural_length=0.17, slab_radius=-0.4)
-OFF_CENTRE = Initial(y=0.01, phi=0.2)
-#: Parameters, and the fewest events (break-away, re-stick) that the motion has to compare.
-RUNS = {
-    "along x": (Parameters(), 7),
-    "planar, speed ramp": (Parameters(lateral_friction=PLANAR, surface=Surface(run_up_time=2)), 1),
-    "slab, sliding": (Parameters(rig=SLAB, lateral_friction=PLANAR, initial=OFF_CENTRE), 0),
-    "slab, sticking and slipping": (
-        Parameters(
-            rig=SLAB, lateral_friction=PLANAR, initial=OFF_CENTRE, surface=Surface(speed=0.05)
-        ),
-        5,
-    ),
-    # a random rig that breaks away and sticks again several times
-    "drawn": (draw_parameters(BESIDE_CREEP, random.Random(29)), 4),
-}
-
-
-@pytest.mark.parametrize("run", RUNS)
-def test_whole_runs(run):
-    parameters, events = RUNS[run]
-    compiled = simulate(parameters, 2.0, film_thickness=FILM)
-    interpreted = simulate(parameters, 2.0, film_thickness=FILM, interpreted=True)
-    assert len(compiled.events) >= events
-    np.testing.assert_array_equal(interpreted.events, compiled.events)
-    for name in ("x", "y", "phi", "vx", "vy", "omega", "friction_force_x", "heat"):
-        np.testing.assert_array_equal(interpreted[name], compiled[name], err_msg=name)

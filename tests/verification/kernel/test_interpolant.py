@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from effect_cases import IDS, draw_parameters
 from kernel_steps import memory_of
-from stickslip import Parameters, Solver, simulate
+from stickslip import Parameters, simulate
 from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import advance, layout, outputs
 from stickslip.kernel.interpolant import copy_instant
@@ -114,16 +114,6 @@ def test_a_state_taken_inside_a_step_continues_bit_for_bit():
         outputs.show(p, u, other, scratch, row, 0)
         kept = list(kept)
     assert shown[0] == shown[1]
-
-
-def test_whoever_looks_when_sees_the_same():
-    """A moment shows the same, whatever was shown before; what only grows does so at all times."""
-    parameters = Parameters(**PLANAR, solver=Solver(tolerance=1e-8))
-    fine, coarse = simulate(parameters, 3.0, 2.0**-11), simulate(parameters, 3.0, 2.0**-5)
-    for name in ("x", "phi", "omega", "heat", "slip_time"):
-        np.testing.assert_array_equal(fine[name][::64], coarse[name])
-    for name in ("heat", "sliding_distance", "slip_time", "surface_travel"):
-        assert np.min(np.diff(fine[name])) >= -1e-15 * fine[name][-1]
 
 
 def test_slip_time_is_the_time_between_events():

@@ -32,46 +32,26 @@ def answer():
         yield find_summary_gap(read_campaign(STUDY), seed=0, jobs=2)
 
 
-def test_the_one_spring_fault_is_named(answer):
-    assert answer.verdict == "named"
-    assert answer.effects == ("stick_stiffness",)
+def test_the_one_spring_fault_is_named_and_shrinks_the_gap(answer):
+    """By far more than any other effect, and than the study's own repair: other friction."""
+    assert answer.verdict == "named" and answer.effects == ("stick_stiffness",)
     assert answer.chance["p"] <= 0.05
-
-
-def test_it_counts_nearly_all_springs_instead_of_one(answer):
     assert answer.plain.values["stick_stiffness.ratio"] == 0.25
-    assert answer.extended.values["stick_stiffness.ratio"] > 0.75
-
-
-def test_the_gap_shrinks_by_far_more_than_with_any_other_effect(answer):
-    assert answer.gap_before[0] > 12.0
-    assert answer.gap_after[0] < 3.0
+    assert answer.extended.values["stick_stiffness.ratio"] > 0.75  # nearly all springs, not one
+    before, after = answer.gap_before[0], answer.gap_after[0]
+    assert before > 12.0 and after < 3.0
     assert answer.gap_after[1] < 4.0  # each figure predicted by the others
-    assert all(row.gap.fit > 3.0 * answer.gap_after[0] for row in answer.ranking[1:])
+    assert all(row.gap.fit > 3.0 * after for row in answer.ranking[1:])
+    assert answer.free_friction.gap > 2.0 * after
+    assert len(answer.observations) == 5
+    for found, gap in ((answer.plain, before), (answer.extended, after)):
+        assert np.sqrt(np.mean(found.residuals**2)) == pytest.approx(gap)
 
 
-def test_other_friction_is_no_way_out(answer):
-    """The study's own repair: coefficients of about a quarter, and still far from the figures."""
-    assert answer.free_friction.gap > 2.0 * answer.gap_after[0]
-
-
-def test_friction_stays_as_it_is_known(answer):
+def test_friction_stays_as_it_is_known_and_what_stays_open_is_said(answer):
+    """The printed scheme stays chaotic with all springs counted: most of the known range fails."""
     for name, (value, sd) in answer.campaign.friction.items():
         assert abs(answer.extended.values[f"friction.{name}"] - value) < 3.0 * sd
-
-
-def test_how_much_hangs_on_the_exact_coefficients_is_said(answer):
-    """The printed scheme stays chaotic with all springs counted: most of the known range fails."""
     assert 0.0 < answer.fits_share < 0.5
-
-
-def test_five_figures_before_and_after(answer):
-    assert len(answer.observations) == 5
-    before, after = answer.plain.residuals, answer.extended.residuals
-    assert np.sqrt(np.mean(before**2)) == pytest.approx(answer.gap_before[0])
-    assert np.sqrt(np.mean(after**2)) == pytest.approx(answer.gap_after[0])
-
-
-def test_what_stays_open_is_said(answer):
     assert any("mean_y" in figure for figure in answer.open_figures)
     assert "load_dependence" in answer.not_felt

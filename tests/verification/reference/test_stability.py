@@ -159,17 +159,6 @@ def test_where_small_and_smaller_disturbances_fare_otherwise_nothing_is_said():
     assert min(found.growth, *found.others) < 0.9 < 1.02 < max(found.growth, *found.others)
 
 
-def test_ten_rigs_of_falling_friction_fare_as_their_multipliers_say():
-    """`falling_friction_multipliers` is the same with 40."""
-    draw, asked = np.random.default_rng(0), 0
-    while asked < 10:
-        answer = falling_friction.compared(falling_friction.drawn_rig(draw))
-        if answer is None:
-            continue
-        asked += 1
-        assert falling_friction.agrees(*answer)
-
-
 def test_the_least_pretension_is_the_border_of_the_runs():
     parameters = rig()
     borders = pretension_borders(parameters)

@@ -1,7 +1,7 @@
 """The table of what was verified, from what the tests measured.
 
-`pytest tests/verification --figures FILE` writes the file that is read here: every assertion that
-compares a number with what is allowed, as it came out (tests/verification/conftest.py).
+`python tests/docs/measure.py` writes the file that is read here: of every test the assertion that
+comes nearest to what is allowed, as it came out.
 """
 
 import ast

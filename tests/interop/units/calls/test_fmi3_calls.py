@@ -10,7 +10,7 @@ from fmi3_unit import references
 def test_scheduled_execution_is_refused(unit3):
     make = unit3.library.fmi3InstantiateScheduledExecution
     make.restype = c_void_p
-    assert make(b"a", unit3.token, None, False, False, None, None, None, None, None) is None
+    assert make(b"a", unit3.guid, None, False, False, None, None, None, None, None) is None
 
 
 def one_float(place, count=1):

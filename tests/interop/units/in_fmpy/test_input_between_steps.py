@@ -196,23 +196,16 @@ def assert_same(early, plain, case):
 
 
 @pytest.mark.parametrize("case", CASES)
-@pytest.mark.parametrize("host", HOSTS)
-def test_inputs_that_go_on_are_the_same_with_and_without_early_return(unit, plain, case, host):
+@pytest.mark.parametrize(("host", "hold"), [*((host, 1) for host in HOSTS), ("steps", 0)])
+def test_inputs_are_the_same_with_and_without_early_return(unit, plain, case, host, hold):
+    """Held ones also not on the way to where the surface's speed gets under a block that sticks."""
     found = 0
     for seed in range(4):
-        early = motion(unit, *drives(seed), 6.0, host, **CASES[case], **{"input.hold": 1})
-        assert_same(early, plain(case, 1, seed), case)
+        early = motion(unit, *drives(seed), 6.0, host, **CASES[case], **{"input.hold": hold})
+        assert_same(early, plain(case, hold, seed), case)
         assert len(set(early[2])) == len(early[2])
         found += len(early[2])
     assert found > 20
-
-
-@pytest.mark.parametrize("case", CASES)
-def test_inputs_that_are_held_are_not_taken_for_others_at_an_event(unit, plain, case):
-    """Also not on its way to where the surface's speed gets under a block that sticks."""
-    for seed in range(4):
-        early = motion(unit, *drives(seed), 6.0, "steps", **CASES[case])
-        assert_same(early, plain(case, 0, seed), case)
 
 
 @pytest.mark.parametrize("hold", [0, 1])
