@@ -12,11 +12,11 @@ from pathlib import Path
 
 from stickslip.generation.platforms import PLATFORMS, Platform, this_machine
 
+from cosim.cores import CORES as CORES
 from cosim.names import unknown_name
 
 #: As a FILE of --json: standard output.
 STDOUT = "-"
-CORES = os.cpu_count() or 1
 UNITS = (
     *("StickSlip3DOF.fmu", "StickSlip3DOF-fmi3.fmu", "StickSlip3DOF-python.fmu"),
     *("BeltIceThermal.fmu", "BeltIceThermal-fmi3.fmu", "BeltIceThermal-python.fmu"),
