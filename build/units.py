@@ -12,7 +12,8 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE.parent), str(HERE.parent / "fmu_src")]
 
-from cosim.fmu.build import UNITS, build_fmu  # noqa: E402  (found by the path set above)
+from cosim.fmu.build import build_fmu  # noqa: E402  (found by the path set above)
+from cosim.fmu.unit_files import UNITS  # noqa: E402
 
 if __name__ == "__main__":
     for name in UNITS:

@@ -23,18 +23,16 @@ REQUESTS: tuple[signal.Signals, ...] = tuple(
 SAME_WISH = 1.0
 
 
-def _arrive_here() -> bool:
-    return threading.current_thread() is threading.main_thread()
-
-
 @contextmanager
 def _handling(
     handlers: Mapping[signal.Signals, Handler], afterwards: Installed = None
 ) -> Iterator[None]:
-    """Install handlers for the block.
+    """Install handlers for the block; none outside the main thread.
 
     afterwards: what takes their place; left out, what was there before.
     """
+    if threading.current_thread() is not threading.main_thread():
+        handlers = {}
     before: dict[signal.Signals, Installed] = {
         number: signal.getsignal(number) for number in handlers
     }
@@ -55,9 +53,6 @@ def held_interrupts() -> Iterator[None]:
     Other people's code (an import, the start of processes) does not survive a KeyboardInterrupt
     at any of its lines.
     """
-    if not _arrive_here():
-        yield
-        return
     came: list[int] = []
 
     def keep(number: int, frame: FrameType | None) -> None:
@@ -103,9 +98,6 @@ def deferred_interrupt() -> Iterator[Interrupt]:
     Python, say): an exception in the middle of its step would leave it, or the process, in pieces.
     """
     interrupt = Interrupt()
-    if not _arrive_here():
-        yield interrupt
-        return
 
     def request(number: int, frame: FrameType | None) -> None:
         interrupt.requested = True
@@ -150,9 +142,6 @@ def patient_interrupts() -> Iterator[Patience]:
     """Let Ctrl-C wait for what it would destroy."""
     previous = signal.getsignal(signal.SIGINT)
     patience = Patience(previous if callable(previous) else signal.default_int_handler)
-    if not _arrive_here():
-        yield patience
-        return
     with _handling({signal.SIGINT: patience.handle}):
         yield patience
 
@@ -164,9 +153,6 @@ def interruptible(*, ending: bool) -> Iterator[None]:
     ending: the process ends with this block, and what is asked for meanwhile says nothing more;
     else all is as it was before.
     """
-    if not _arrive_here():
-        yield
-        return
     raising, passing = _Once(signal.default_int_handler), _Once(_pass_on)
     handlers: dict[signal.Signals, Handler] = {
         number: raising if number == signal.SIGINT else passing

@@ -23,11 +23,12 @@ COMPLETE, INCOMPLETE = "complete", "incomplete"
 class ResultFolder:
     """Files of one run as they are written; those of an earlier one that are left go at the end.
 
-    complete: whether the run came to its end, for whoever reads the manifest; set by who writes.
+    complete: whether the run came to its end, for whoever reads the manifest; where it did not, who
+    writes says so, or raises.
     """
 
     def __init__(self, folder: Path, made_by: Mapping[str, Any], force: bool):
-        self.folder, self.complete = folder, False
+        self.folder, self.complete = folder, True
         self._made_by, self._force = dict(made_by), force
         self._earlier, self._written = files_of_earlier(folder), set[str]()
 
@@ -65,8 +66,7 @@ class ResultFolder:
             return ""
 
     def _say(self, status: str, files: Iterable[str]) -> None:
-        content = self._made_by | {"status": status, "files": sorted(files)}
-        write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", self.folder / MANIFEST)
+        _write(self.folder, self._made_by | {"status": status, "files": sorted(files)})
 
 
 def command_line() -> str:
@@ -103,16 +103,16 @@ def results_in(
     try:
         with watched(results.about_to_write):
             yield results
+    except BaseException:
+        results.complete = False
+        raise
     finally:
         results.close()
 
 
 def other_command(folder: Path) -> str:
     """The command line of an earlier result in a folder, if it is of another command; else ""."""
-    try:
-        line = str(json.loads((folder / MANIFEST).read_text(encoding="utf-8"))["command"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return ""
+    line = str(_earlier(folder).get("command", ""))
     return line if line.split()[1:2] != sys.argv[1:2] else ""
 
 
@@ -157,26 +157,33 @@ def claim(folder: Path, files: Iterable[str]) -> None:
     ours = files_of_earlier(folder)
     there = {name for name in files if (folder / name).is_file()}
     if there - ours:
-        content = {"status": INCOMPLETE, "files": sorted(ours | there)}
-        write_text(json.dumps(content, indent=1) + "\n", folder / MANIFEST)
+        _write(folder, {"status": INCOMPLETE, "files": sorted(ours | there)})
 
 
 def list_further(folder: Path, files: Iterable[str]) -> None:
     """List files that were added to a complete result, which is otherwise as it was."""
-    file = folder / MANIFEST
-    content = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else made_by()
-    content["files"] = sorted({*content.get("files", ()), *files})
-    write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", file)
+    content = _earlier(folder) or made_by()
+    _write(folder, content | {"files": sorted({*content.get("files", ()), *files})})
 
 
 def files_of_earlier(folder: Path) -> set[str]:
     """What the last run here has listed, as names inside the folder; none where there was none."""
+    listed = _earlier(folder).get("files", ())
+    names = listed if isinstance(listed, list) else ()
+    return {name for name in names if isinstance(name, str) and _is_inside(name)}
+
+
+def _earlier(folder: Path) -> dict[str, Any]:
+    """What the manifest in a folder says; nothing where there is none, or it is damaged."""
     try:
         content = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
-        listed = list(content["files"])
-    except (OSError, ValueError, KeyError, TypeError):
-        return set()
-    return {name for name in listed if isinstance(name, str) and _is_inside(name)}
+    except (OSError, ValueError):
+        return {}
+    return content if isinstance(content, dict) else {}
+
+
+def _write(folder: Path, content: Mapping[str, Any]) -> None:
+    write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", folder / MANIFEST)
 
 
 def _is_inside(name: str) -> bool:

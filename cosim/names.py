@@ -7,6 +7,8 @@ from collections.abc import Iterable
 SIMILARITY = 0.6
 #: So many known names are told where none is near; more would not be read.
 MOST_NAMES = 12
+#: So many of a list are told, of more how many there are.
+MOST_LISTED = 4
 
 
 def nearest(name: str, known: Iterable[str], similarity: float = SIMILARITY) -> str | None:
@@ -37,16 +39,16 @@ def nearest_key(key: str, keys: Iterable[str]) -> str | None:
     return near or ends.get(nearest(entry, ends) or "")
 
 
-def listed(names: Iterable[str], most: int = 4) -> str:
+def listed(names: Iterable[str]) -> str:
     """Names in a line, of many the first and how many more.
 
     >>> listed("abcdefg")
     'a, b, c, d and 3 more'
     """
     names = list(names)
-    if len(names) <= most + 1:
+    if len(names) <= MOST_LISTED + 1:
         return ", ".join(names)
-    return f"{', '.join(names[:most])} and {len(names) - most} more"
+    return f"{', '.join(names[:MOST_LISTED])} and {len(names) - MOST_LISTED} more"
 
 
 def unknown_name(kind: str, name: str, known: Iterable[str]) -> str:

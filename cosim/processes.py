@@ -21,8 +21,7 @@ from typing import Any, TypeVar
 
 from cosim.interrupts import REQUESTS, held_interrupts, unheard_by_children
 
-__all__ = ["BrokenProcessPool", "Map", "apart", "as_finished", "cores", "pool", "processes",
-           "stop_if_told"]  # fmt: skip
+__all__ = ["BrokenProcessPool", "Map", "apart", "as_finished", "pool", "processes", "stop_if_told"]
 
 #: A process that has not stopped after this time (s) is killed; one that was just started imports.
 STOP_SECONDS = 10.0
@@ -40,11 +39,6 @@ ONE_THREAD = dict.fromkeys(
 Result = TypeVar("Result")
 #: Every call's result, in the order of the arguments.
 Map = Callable[[Callable[..., Any], Iterable[tuple[Any, ...]]], Iterator[Any]]
-
-
-def cores() -> int:
-    """Those that this process may use."""
-    return len(os.sched_getaffinity(0)) if sys.platform == "linux" else os.cpu_count() or 1
 
 
 @contextmanager

@@ -12,16 +12,12 @@ from pathlib import Path
 
 from stickslip.generation.platforms import PLATFORMS, Platform, this_machine
 
+from cosim.cores import CORES as CORES
+from cosim.fmu.unit_files import UNITS
 from cosim.names import unknown_name
 
 #: As a FILE of --json: standard output.
 STDOUT = "-"
-CORES = os.cpu_count() or 1
-UNITS = (
-    *("StickSlip3DOF.fmu", "StickSlip3DOF-fmi3.fmu", "StickSlip3DOF-python.fmu"),
-    *("BeltIceThermal.fmu", "BeltIceThermal-fmi3.fmu", "BeltIceThermal-python.fmu"),
-    "StickSlipThermal.ssp",
-)
 UNIT_NAMES = ", ".join(UNITS)
 PLATFORM_NAMES = ", ".join(each.name for each in PLATFORMS)
 #: As `platforms` of each name that is given.

@@ -27,10 +27,6 @@ class Numbers:
         return self.prints
 
 
-#: Of a command that was not asked for JSON.
-NOT_ASKED = Numbers(False, None)
-
-
 def numbers_asked(arguments: Namespace, keys: Collection[str]) -> Numbers:
     """What `--json` says; asked before anything is computed.
 
@@ -38,10 +34,8 @@ def numbers_asked(arguments: Namespace, keys: Collection[str]) -> Numbers:
     be written, or is there and no such result.
     """
     given = arguments.json
-    if given is None:
-        return NOT_ASKED
-    if given == STDOUT:
-        return Numbers(True, None)
+    if given in (None, STDOUT):
+        return Numbers(given == STDOUT, None)
     file = Path(given)
     writable(file.parent, (file.name,))
     require_json(file, keys, arguments.force)

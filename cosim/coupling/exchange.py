@@ -3,11 +3,11 @@
 import math
 import sys
 from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from time import perf_counter
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -100,15 +100,17 @@ def held(ports: Mapping[str, Port], waves: Mapping[str, Waveform]) -> dict[str, 
     }
 
 
-@dataclass(frozen=True)
-class Mark:
-    """Where a coupled system stood: states of the participants, values, time."""
+class Stand(NamedTuple):
+    """What an exchange knew at a communication point."""
 
-    states: Mapping[str, Any]
+    time: float | None
     outputs: Mapping[str, dict[str, float]]
     inputs: Mapping[str, dict[str, float]]
-    time: float | None
-    history: tuple[Point, ...]
+    history: Sequence[Point]
+
+
+#: Where a coupled system stood: states of the participants, and the exchange.
+Mark = tuple[Mapping[str, Any], Stand]
 
 
 class Exchange:
@@ -238,20 +240,29 @@ class Exchange:
 
     def back(self, mark: Mark) -> None:
         """Go back to a mark, which stays good."""
+        states, stand = mark
         for name, participant in self._participants.items():
-            self.asked(name, participant.set_state, mark.states[name])
-        self.outputs, self.inputs = dict(mark.outputs), dict(mark.inputs)
-        self.time = mark.time
-        self.history.points = deque(mark.history, maxlen=MOST_POINTS)
+            self.asked(name, participant.set_state, states[name])
+        self.go_on(stand)
+
+    @property
+    def stand(self) -> Stand:
+        """What it knows now."""
+        points = [*self.history.points]
+        return Stand(self.time, dict(self.outputs), dict(self.inputs), points)
+
+    def go_on(self, stand: Stand) -> None:
+        """From what it knew at another time."""
+        self.time, self.outputs, self.inputs = stand.time, dict(stand.outputs), dict(stand.inputs)
+        self.history.points = deque(stand.history, maxlen=MOST_POINTS)
 
     @contextmanager
     def marked(self) -> Iterator[Mark]:
         """Remember where everything stands, to go back there; asks every participant for its state,
         and lets go of it behind the block."""
         states = {n: self.asked(n, each.get_state) for n, each in self._participants.items()}
-        past = tuple(self.history.points)
         try:
-            yield Mark(states, dict(self.outputs), dict(self.inputs), self.time, past)
+            yield states, self.stand
         finally:
             for name, participant in self._participants.items():
                 self.asked(name, participant.free_state, states[name])

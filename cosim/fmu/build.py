@@ -15,16 +15,12 @@ from stickslip.scratch import scratch_folder
 from cosim.files import clear_partial
 from cosim.fmu import libraries, native, python_unit
 from cosim.fmu.libraries import runs_here
-from cosim.fmu.thermal import native_unit, variables
+from cosim.fmu.thermal import native_unit
+from cosim.fmu.unit_files import FMI3, NATIVE, PYTHON, SYSTEM, THERMAL, THERMAL_FMI3, THERMAL_PYTHON
 from cosim.processes import apart
 
 #: Folder of a checkout in which its units stand, beside the recipes.
 BUILD_FOLDER = Path("build")
-NATIVE, FMI3, PYTHON = native.FILES[libraries.FMI2], native.FILES[libraries.FMI3], python_unit.FMU
-THERMAL, THERMAL_PYTHON = native_unit.FMU, f"{variables.NAME}-python.fmu"
-THERMAL_FMI3 = native_unit.FILES[libraries.FMI3]
-SYSTEM = "StickSlipThermal.ssp"
-UNITS = (NATIVE, FMI3, PYTHON, THERMAL, THERMAL_FMI3, THERMAL_PYTHON, SYSTEM)
 #: Units of pythonfmu.
 MADE_APART = (PYTHON, THERMAL_PYTHON)
 

@@ -18,6 +18,8 @@ from cosim.coupling import (
     IsolatedParticipant,
     Participant,
     Port,
+    Scheme,
+    StepControl,
     Subcycled,
     UnitDefinition,
 )
@@ -47,7 +49,8 @@ class Assembly:
     """
 
     system: CoupledSystem
-    order: tuple[str, ...]
+    scheme: Scheme
+    control: StepControl
     macro_step: float
     remarks: tuple[str, ...]
 
@@ -94,9 +97,8 @@ def assemble(specification: SystemSpecification, debug: bool = False) -> Assembl
         together = [*participants.values()]
         system = CoupledSystem(together, connections, specification.residuals, receipts=False)
     step, remark = _step(specification, descriptions)
-    order = specification.coupling.order or tuple(participants)
-    _check_coupling(specification, system, order, step)
-    return Assembly(system, order, step, (*remarks, *filter(None, [remark])))
+    scheme, control = _methods(specification, system, step)
+    return Assembly(system, scheme, control, step, (*remarks, *filter(None, [remark])))
 
 
 def _faults(specification: SystemSpecification) -> list[str]:
@@ -286,14 +288,13 @@ def record_every(specification: SystemSpecification, macro_step: float) -> int:
     return round(ratio)
 
 
-def _check_coupling(
-    specification: SystemSpecification,
-    system: CoupledSystem,
-    order: tuple[str, ...],
-    macro_step: float,
-) -> None:
-    """Refuse an order, a tolerance, a bond or a step that cannot be; macro_step: s."""
+def _methods(
+    specification: SystemSpecification, system: CoupledSystem, macro_step: float
+) -> tuple[Scheme, StepControl]:
+    """Scheme and step control; an order, a tolerance, a bond or a step (s) that cannot be is
+    refused."""
     source, settings, run = specification.source, specification.coupling, specification.run
+    order = settings.order or tuple(system.participants)
     with naming(source, "coupling.order"):
         system.check_order(order)
     with naming(source, "coupling.absolute_tolerances"):
@@ -306,3 +307,4 @@ def _check_coupling(
         control = control_of(settings, macro_step, settings.power_bonds)
         control.begin(run.start, run.stop, scheme)
         control.check(system)
+    return scheme, control

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cosim.coupling import CoupledResult, Message, run
-from cosim.coupling.methods import control_of, scheme_of, smallest_step
+from cosim.coupling.methods import smallest_step
 from cosim.coupling.record import Keep, RunFolder
 from cosim.names import unknown_name
 from cosim.result import RunResult
@@ -104,11 +104,8 @@ def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> S
     for key, value in (changes or {}).items():
         (of_tables if key.partition(".")[0] in TABLES else of_units)[key] = value
     specification = (read_ssp if archive else read_toml)(path, of_tables)
-    try:
+    with specification.closed_if_refused():
         return _set(specification, of_units)
-    except BaseException:
-        specification.close()
-        raise
 
 
 def _set(specification: SystemSpecification, changes: Mapping[str, Any]) -> SystemSpecification:
@@ -156,10 +153,10 @@ def run_system(
         with naming(specification.source):
             result = run(
                 system,
-                scheme_of(settings, assembly.order),
+                assembly.scheme,
                 start=specification.run.start,
                 stop=specification.run.stop,
-                control=control_of(settings, assembly.macro_step, settings.power_bonds),
+                control=assembly.control,
                 on_divergence=settings.on_divergence,
                 smallest_step=smallest_step(settings, assembly.macro_step),
                 record_every=record_every(specification, assembly.macro_step),

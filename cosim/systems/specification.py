@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from contextlib import ExitStack
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from cosim.coupling import Affine, Curve, UnitDefinition
+from cosim.coupling.participant import Closing
 from cosim.systems.settings import NOT_GIVEN, Coupling, Run
 
 #: What a variable of a unit can be set to.
@@ -83,7 +84,7 @@ class Link:
 
 
 @dataclass(frozen=True)
-class SystemSpecification:
+class SystemSpecification(Closing):
     """A system and how it is to be run.
 
     text: of the file, as it was read. remarks: what the user should know of how it was read, a
@@ -106,8 +107,11 @@ class SystemSpecification:
         """Remove what was unpacked."""
         self._held.close()
 
-    def __enter__(self) -> SystemSpecification:
-        return self
-
-    def __exit__(self, *exception: object) -> None:
-        self.close()
+    @contextmanager
+    def closed_if_refused(self) -> Iterator[None]:
+        """Where nothing comes of the system, what was unpacked of it goes."""
+        try:
+            yield
+        except BaseException:
+            self.close()
+            raise

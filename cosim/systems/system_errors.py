@@ -47,8 +47,9 @@ def naming(source: str, key: str = "") -> Iterator[None]:
     """Let a fault of a system say file and key, where it does not yet."""
     try:
         yield
-    except (SystemFault, CouplingError, FmuError) as fault:
+    except (SystemFault, ScenarioError, CouplingError, FmuError) as fault:
         said = str(fault)
+        kind = SystemFault if isinstance(fault, ScenarioError) else type(fault)
         if said.startswith(source):
-            raise
-        raise type(fault)(f"{source}: {key}: {said}" if key else f"{source}: {said}") from None
+            raise kind(said) from None
+        raise kind(f"{source}: {key}: {said}" if key else f"{source}: {said}") from None

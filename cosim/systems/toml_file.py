@@ -14,11 +14,11 @@ from stickslip.quantity import Table, quantity
 from cosim.coupling import Affine
 from cosim.names import unknown_name
 from cosim.scenario.toml_file import parsed, text_of
-from cosim.scenario.validation import ScenarioError, checked
+from cosim.scenario.validation import checked
 from cosim.systems.input_table import read_input_table
 from cosim.systems.settings import NOT_GIVEN, Coupling, Run
 from cosim.systems.specification import Hop, Link, Start, SystemSpecification, UnitEntry
-from cosim.systems.system_errors import SystemFault, changed
+from cosim.systems.system_errors import SystemFault, changed, naming
 
 #: A name of a participant: part of `unit.port`, of the columns of a table and of file names.
 NAME = re.compile(r"[^\s.\"'/\\\x00-\x1f][^.\"'/\\\x00-\x1f]*")
@@ -91,32 +91,23 @@ def read_toml(path: Path, changes: Mapping[str, Any]) -> SystemSpecification:
 
     Raises SystemFault in one line: file, key, what is wrong, what is allowed.
     """
-    try:
+    with naming(str(path)):
         text = text_of(path)
-        tables = parsed(text, path)
-    except ScenarioError as fault:
-        raise SystemFault(str(fault)) from None
-    try:
-        return _specified(path, text, changed(tables, changes))
-    except (ScenarioError, SystemFault) as fault:
-        raise SystemFault(f"{path}: {fault}") from None
-
-
-def _specified(path: Path, text: str, tables: Mapping[str, Any]) -> SystemSpecification:
-    found = checked(System, {"name": path.stem, **tables})
-    return SystemSpecification(
-        name=found.name,
-        source=str(path),
-        units=[_unit(name, unit, path.parent) for name, unit in found.units.items()],
-        links=[
-            _link(f"connections[{number}]", each.model_dump(), found.units)
-            for number, each in enumerate(found.connections, 1)
-        ],
-        coupling=found.coupling,
-        run=found.run,
-        residuals=found.residuals,
-        text=text,
-    )
+        tables = changed(parsed(text, path), changes)
+        found = checked(System, {"name": path.stem, **tables})
+        return SystemSpecification(
+            name=found.name,
+            source=str(path),
+            units=[_unit(name, unit, path.parent) for name, unit in found.units.items()],
+            links=[
+                _link(f"connections[{number}]", each.model_dump(), found.units)
+                for number, each in enumerate(found.connections, 1)
+            ],
+            coupling=found.coupling,
+            run=found.run,
+            residuals=found.residuals,
+            text=text,
+        )
 
 
 def _unit(name: str, unit: Unit, folder: Path) -> UnitEntry:
@@ -151,7 +142,11 @@ def _values(entries: Mapping[str, Any], place: str) -> dict[str, Start]:
         if isinstance(value, Mapping):
             inner = _values(value, f"{place}.{key}")
             found |= {f"{key}.{name}": start for name, start in inner.items()}
-        elif _is_possible(value):
+        elif (
+            isinstance(value, str)
+            or (isinstance(value, int) and abs(value) <= LARGEST)
+            or (isinstance(value, float) and math.isfinite(value))
+        ):
             found[key] = Start(value)
         else:
             raise SystemFault(
@@ -161,25 +156,17 @@ def _values(entries: Mapping[str, Any], place: str) -> dict[str, Start]:
     return found
 
 
-def _is_possible(value: Any) -> bool:
-    if isinstance(value, int):
-        return abs(value) <= LARGEST
-    return isinstance(value, str) or isinstance(value, float) and math.isfinite(value)
-
-
 def _link(place: str, table: Mapping[str, Any], units: Collection[str]) -> Link:
     for key in ("from", "to"):
-        _check_end(f"{place}.{key}", table[key], units)
+        unit, _, port = table[key].partition(".")
+        if not (unit and port):
+            raise SystemFault(
+                f'{place}.{key}: not a port ("{table[key]}"), allowed is a text as unit.port'
+            )
+        if unit not in units:
+            raise SystemFault(f"{place}.{key}: {unknown_name('unit', unit, units)}")
     transformation = Affine(table["factor"], table["offset"])
     if transformation.factor == 0.0:
         raise SystemFault(f"{place}.factor: 0 would carry nothing, allowed is another number")
     hop = Hop(transformation, table["convert"])
     return Link(table["from"], table["to"], (hop,), table["taken"] or None, place)
-
-
-def _check_end(key: str, end: str, units: Collection[str]) -> None:
-    unit, dot, port = end.partition(".")
-    if not (unit and dot and port):
-        raise SystemFault(f'{key}: not a port ("{end}"), allowed is a text as unit.port')
-    if unit not in units:
-        raise SystemFault(f"{key}: {unknown_name('unit', unit, units)}")

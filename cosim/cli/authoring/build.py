@@ -6,10 +6,10 @@ from pathlib import Path
 from stickslip.catalogue import default_catalogue
 
 from cosim.cli import DONE
-from cosim.cli.argument_types import UNITS
 from cosim.files import writable
 from cosim.fmu.build import build_fmu, own_folder, require_way
 from cosim.fmu.libraries import platforms_of
+from cosim.fmu.unit_files import UNITS
 
 
 def execute(arguments: Namespace) -> int:

@@ -47,13 +47,12 @@ def execute(arguments: Namespace) -> int:
     with Bar(unit="step") as bar:
         gap = _find(campaign, arguments.seed, arguments.jobs, bar)
     made = made_by(campaign=str(source.resolve()))
-    with results_in(folder, made, force=arguments.force) as results:
+    with results_in(folder, made, force=arguments.force):
         with held_interrupts():
             text = files.write_data(gap, folder / RESULT, folder / MODEL)
             corrected = files.write_corrected(gap, folder)
         asked.give(text)
         _show(files, gap, folder, corrected, arguments)
-        results.complete = True
     return DONE
 
 

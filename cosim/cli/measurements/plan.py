@@ -43,12 +43,11 @@ def execute(arguments: Namespace) -> int:
         answer = make_plan(planned, wanted=arguments.power, seed=arguments.seed, progress=bar.reach)
     text = json_text(as_data(answer))
     made = made_by(campaign=str(Path(arguments.campaign).resolve()))
-    with results_in(folder, made, force=arguments.force) as results:
+    with results_in(folder, made, force=arguments.force):
         with held_interrupts():
             write_text(text, folder / RESULT)
         asked.give(text)
         _show(answer, closing_lines(answer), folder, arguments)
-        results.complete = True
     return DONE
 
 

@@ -33,9 +33,8 @@ def execute(arguments: Namespace) -> int:
     place = arguments.output or Path(RESULTS) / _named(both)
     folder = own_folder(place, (RESULT, PAGE), arguments.force)
     made = made_by(a=both.a.place, b=both.b.place)
-    with results_in(folder, made, force=arguments.force) as results:
+    with results_in(folder, made, force=arguments.force):
         both.save(folder, made["command"])
-        results.complete = True
     for remark in both.remarks:
         print(f"warning: {remark}", file=sys.stderr)
     if not numbers.give(json_text(both.summary())):

@@ -73,7 +73,7 @@ def _begun(arguments: Namespace) -> tuple[SystemSpecification, Job]:
     specification = read_system(arguments.system, changes)
     results = Path(arguments.output or Path(RESULTS) / _folder_name(specification.name))
     of = {"system": str(Path(arguments.system).resolve())}
-    with closed_if_refused(specification):
+    with specification.closed_if_refused():
         check_system(specification)  # before what an earlier run left in the folder is gone
         run_io.own_folder(results, FILES, arguments.force)
         wanted, resume = of | {"changes": changes}, _resume(of["system"], results)
@@ -118,16 +118,6 @@ def units_speak_aside() -> Iterator[None]:
         sys.stdout.flush()
         os.dup2(ours, 1)
         os.close(ours)
-
-
-@contextmanager
-def closed_if_refused(specification: SystemSpecification) -> Iterator[None]:
-    """Where nothing comes of a system, what was unpacked of it goes."""
-    try:
-        yield
-    except BaseException:
-        specification.close()
-        raise
 
 
 def _folder_name(name: str) -> str:

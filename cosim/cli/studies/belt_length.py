@@ -69,10 +69,10 @@ def execute(arguments: Namespace) -> int:
         status = FAILED
     made = made_by(scenario=study.scenario or None)
     with results_in(folder, made, force=arguments.force) as results:
+        results.complete = status == DONE
         page.write_numbers(study, folder)
-        if status == DONE:
+        if results.complete:
             write_page(*page.page(study, made["command"]), folder)
-            results.complete = True
     _print(study, numbers, folder, time.perf_counter() - began)
     return status
 

@@ -26,9 +26,8 @@ def execute(arguments: Namespace) -> int:
         folder = Path(arguments.output)
         names = (RESULT, PAGE, *(f"{entry['id']}.png" for entry in entries))
         writable(folder, names)
-        with results_in(folder, made_by(), names, arguments.force) as results:
+        with results_in(folder, made_by(), names, arguments.force):
             _write(entries, told, folder)
-            results.complete = True
     if not asked.give(json.dumps(entries, indent=1)):
         for entry in entries:
             _print(entry)

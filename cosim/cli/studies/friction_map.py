@@ -35,9 +35,8 @@ def execute(arguments: Namespace) -> int:
             scenario, arguments.speed, arguments.ambient, arguments.duration, bar.update
         )
     made = made_by(scenario=scenario.to_toml())
-    with results_in(folder, made, force=arguments.force) as results:
+    with results_in(folder, made, force=arguments.force):
         found.save(folder, made["command"])
-        results.complete = True
     if asked.give(json.dumps(found.summary(), indent=1)):
         return DONE
     for ambient in found.ambients:

@@ -30,14 +30,14 @@ def execute(arguments: Namespace) -> int:
         for one in Bar(wanted, unit="claim"):
             claims += reproduce([one])
         found = claims.datasets
-        with results_in(folder, made, force=arguments.force) as results:
+        with results_in(folder, made, force=arguments.force):
             claims.wall_time = time.perf_counter() - began
             claims.save(folder)
-            results.complete = True
     except KeyboardInterrupt:
         if not claims:
             raise
-        with held_interrupts(), results_in(folder, made, force=arguments.force):
+        with held_interrupts(), results_in(folder, made, force=arguments.force) as results:
+            results.complete = False
             claims.datasets, claims.wall_time = None, time.perf_counter() - began
             claims.save(folder)
             asked.give(json_text(claims.summary()))

@@ -57,9 +57,8 @@ def execute(arguments: Namespace) -> int:
     # the finished combinations beside the results are kept from sweep to sweep
     made = made_by(scenario=scenario.to_toml())
     try:
-        with results_in(folder, made, force=arguments.force) as results:
+        with results_in(folder, made, force=arguments.force):
             write(datasets, folder, arguments.show, made["command"])
-            results.complete = True
     except OutputError as error:
         raise OutputError(f"{error}; all runs are kept, the same command goes on") from error
     if not numbers.give(json.dumps(summary(datasets), indent=1)):

@@ -45,57 +45,64 @@ def read_xml(path: Path, member: str) -> bytes | None:
     return content
 
 
-def unpack(path: Path) -> tempfile.TemporaryDirectory[str]:
-    """Unpack a unit into a fresh folder; FmuError in one line where that cannot be."""
+def unpack(
+    path: Path,
+    most: tuple[int, int, int] | None = None,
+    refused: type[ValueError] = FmuError,
+    fault: str = "damaged",
+) -> tempfile.TemporaryDirectory[str]:
+    """Unpack a unit, or another archive, into a fresh folder; `refused` in one line where that
+    cannot be.
+
+    most: as of `check_members`. fault: what a broken archive is.
+    """
     from stickslip.scratch import scratch_folder  # whoever couples units loads no model
 
     try:
         directory = scratch_folder("fmu")
     except OSError as error:
-        raise FmuError(f"{path}: there is no folder to unpack it in ({one_line(error)})") from error
+        raise refused(f"{path}: there is no folder to unpack it in ({one_line(error)})") from error
     folder = directory.name
+    where = f"{path}: cannot be unpacked in {folder}"
     try:
-        with _opened(path, "damaged") as archive:
-            size = check_members(path, archive)
+        with _opened(path, fault, refused) as archive:
+            size = check_members(path, archive, most, refused)
             room = shutil.disk_usage(folder).free
             if size > room:
-                raise FmuError(
-                    f"{path}: cannot be unpacked in {folder}: takes {size >> 20} MiB, there are "
-                    f"{room >> 20} MiB; {ELSEWHERE}"
+                raise refused(
+                    f"{where}: takes {size >> 20} MiB, there are {room >> 20} MiB; {ELSEWHERE}"
                 )
             for member in archive.infolist():
-                _extract(path, archive, member, folder)
+                name = member.orig_filename
+                if "\\" in name or "\0" in name:
+                    raise refused(f"{path}: its member {name!r} has a name that no file may have")
+                try:
+                    archive.extract(member, folder)
+                except OSError as error:
+                    raise refused(f"{where}: {error.strerror or error}; {ELSEWHERE}") from error
     except BaseException:
         directory.cleanup()
         raise
     return directory
 
 
-def _extract(path: Path, archive: zipfile.ZipFile, member: zipfile.ZipInfo, folder: str) -> None:
-    name = member.orig_filename
-    if "\\" in name or "\0" in name:
-        raise FmuError(f"{path}: its member {name!r} has a name that no FMU may hold")
-    try:
-        archive.extract(member, folder)
-    except OSError as error:
-        raise FmuError(
-            f"{path}: cannot be unpacked in {folder}: {error.strerror or error}; {ELSEWHERE}"
-        ) from error
-
-
 @contextmanager
-def _opened(path: Path, fault: str = "not an FMU, or truncated") -> Iterator[zipfile.ZipFile]:
+def _opened(
+    path: Path,
+    fault: str = "not an FMU, or truncated",
+    refused: type[ValueError] = FmuError,
+) -> Iterator[zipfile.ZipFile]:
     if not path.is_file():
-        raise FmuError(f"{path}: no such file; expected an FMU")
+        raise refused(f"{path}: no such file; expected an FMU")
     try:
         with zipfile.ZipFile(path) as archive:
             yield archive
-    except FmuError:
+    except refused:
         raise
     except BROKEN as error:
-        raise FmuError(f"{path}: {fault} ({one_line(error)})") from error
+        raise refused(f"{path}: {fault} ({one_line(error)})") from error
     except OSError as error:
-        raise FmuError(f"{path}: cannot be read: {error.strerror or error}") from error
+        raise refused(f"{path}: cannot be read: {error.strerror or error}") from error
 
 
 def check_members(

@@ -80,8 +80,7 @@ class Fmi3(Instance):
         self._fmu.exitInitializationMode()
         self._stepping = True
         if self._events:  # which the unit then is at
-            self._update()
-            self._fmu.enterStepMode()
+            self._end_event()
 
     def write(self, groups: Sequence[Group]) -> None:
         if not (self._stepping and self._events):
@@ -97,8 +96,7 @@ class Fmi3(Instance):
             self._fmu.enterEventMode()
             for group in changed:
                 self.put(group)
-            self._update()
-            self._fmu.enterStepMode()
+            self._end_event()
 
     def put(self, group: Group) -> None:
         super().put(group)
@@ -133,17 +131,17 @@ class Fmi3(Instance):
             raise FmuCallError(f"wants to end the simulation, at t = {reached:.9g} s")
         if self._events and (event or (event_at is not None and reached >= event_at)):
             self._fmu.enterEventMode()
-            self._update()
-            self._fmu.enterStepMode()
+            self._end_event()
         return reached
 
-    def _update(self) -> None:
-        """Let the discrete states settle."""
+    def _end_event(self) -> None:
+        """Let the discrete states settle, and go on with steps."""
         for _ in range(MOST_ROUNDS):
             more, ends, _, _, announced, event_at = self._fmu.updateDiscreteStates()
             if ends:
                 raise FmuCallError("wants to end the simulation, at an event")
             if not more:
                 self.memory["next_event"] = event_at if announced else None
+                self._fmu.enterStepMode()
                 return
         raise FmuCallError(f"its discrete states do not settle in {MOST_ROUNDS} rounds")

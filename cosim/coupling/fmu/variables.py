@@ -8,7 +8,7 @@ from numbers import Real
 
 from fmpy.model_description import ModelDescription, ModelVariable
 
-from cosim.coupling.conversion import BASE_UNITS
+from cosim.coupling.conversion import BASE_UNITS, NO_UNIT
 from cosim.coupling.fmu.errors import FmuError
 from cosim.coupling.participant import Causality, Port, UnitDefinition
 from cosim.names import unknown_name
@@ -19,7 +19,6 @@ Setting = float | int | bool | str
 INTEGERS = ("Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")
 NUMERIC = ("Real", "Integer", "Float32", "Float64", *INTEGERS, "Boolean", "Enumeration")
 REALS = ("Real", "Float32", "Float64")
-PLAIN_NUMBER = "1"
 #: Kind of a setting that says what a variable starts from.
 START = "start value"
 #: Elements of all arrays of a unit, more is no set of ports.
@@ -108,7 +107,7 @@ def ports_of(description: ModelDescription, table: Mapping[str, Scalar]) -> list
 
 def unit_of(variable: ModelVariable) -> str:
     """The declared unit, of the variable or of its type; "1" when there is none."""
-    return (_declared(variable, "unit") or "").strip() or PLAIN_NUMBER
+    return (_declared(variable, "unit") or "").strip() or NO_UNIT
 
 
 def _declared(variable: ModelVariable, key: str) -> str | None:

@@ -2,13 +2,12 @@
 
 import time as clock
 import warnings
-from collections import deque
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from cosim.coupling.exchange import MOST_POINTS, Effort, Exchange, Statistics
+from cosim.coupling.exchange import Effort, Exchange, Stand, Statistics
 from cosim.coupling.participant import Saved, capabilities
 from cosim.coupling.record.checkpoint import (
     Checkpoint,
@@ -92,7 +91,7 @@ class Keeper:
         except Exception as error:
             raise CheckpointError(f"{path}: {name} does not go on from it: {error}") from error
         master = checkpoint.master
-        _restore_exchange(self._exchange, master["exchange"])
+        _restore(self._exchange, **master["exchange"])
         self._control.restore(master["control"])
         self._scheme.restore(master["scheme"])
         self._counted = master["rows"]
@@ -154,7 +153,7 @@ class Keeper:
             master={
                 "rows": self._counted,
                 "seconds": self.seconds(),
-                "exchange": _state_of(exchange),
+                "exchange": exchange.stand._asdict() | {"statistics": asdict(exchange.statistics)},
                 "control": self._control.state(),
                 "scheme": self._scheme.state(),
             },
@@ -193,20 +192,7 @@ def _spelled(thing: object) -> str:
     return f"{type(thing).__name__}({told})"
 
 
-def _state_of(exchange: Exchange) -> dict[str, Any]:
-    return {
-        "time": exchange.time,
-        "outputs": exchange.outputs,
-        "inputs": exchange.inputs,
-        "history": list(exchange.history.points),
-        "statistics": asdict(exchange.statistics),
-    }
-
-
-def _restore_exchange(exchange: Exchange, state: Mapping[str, Any]) -> None:
-    exchange.time = state["time"]
-    exchange.outputs, exchange.inputs = state["outputs"], state["inputs"]
-    points = [(time, outputs) for time, outputs in state["history"]]
-    exchange.history.points = deque(points, maxlen=MOST_POINTS)
-    efforts = {name: Effort(**each) for name, each in state["statistics"]["participants"].items()}
-    exchange.statistics = Statistics(**(state["statistics"] | {"participants": efforts}))
+def _restore(exchange: Exchange, statistics: dict[str, Any], **stand: Any) -> None:
+    exchange.go_on(Stand(**stand))
+    efforts = {name: Effort(**each) for name, each in statistics["participants"].items()}
+    exchange.statistics = Statistics(**(statistics | {"participants": efforts}))

@@ -1,9 +1,7 @@
 """The rows of a coupled run, one for each recorded time."""
 
 import json
-from collections.abc import Callable, Mapping, Sequence
-from itertools import groupby
-from operator import itemgetter
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -12,11 +10,8 @@ from cosim.coupling.participant import Causality
 from cosim.coupling.record.checkpoint import CheckpointError
 from cosim.coupling.record.folder import RunFolder
 from cosim.coupling.record.table import GrowingTable
-from cosim.coupling.system import Address, CoupledSystem, find_port
+from cosim.coupling.system import CoupledSystem
 from cosim.files import OutputError, write_text
-
-#: Takes the values of some ports of one participant, for a row.
-Taking = Callable[[Mapping[str, float]], Sequence[float]]
 
 
 class Recording:
@@ -37,13 +32,18 @@ class Recording:
         folder: RunFolder | None = None,
         place: Sequence[object] | None = None,
     ):
-        channels = _channels(system)
-        self.units = {str(each): find_port(system.participants, each).unit for _, each in channels}
-        # one for each run of channels of a participant
-        self._readers = [
-            (*of, _taking([each.port for _, each in group]))
-            for of, group in groupby(channels, key=lambda one: (one[0], one[1].participant))
+        participants = system.participants
+        self._outputs = [
+            (name, port.name)
+            for name, participant in participants.items()
+            for port in participant.ports.values()
+            if port.causality is Causality.OUTPUT
         ]
+        self._inputs = [(each.sink.participant, each.sink.port) for each in system.connections]
+        channels = [*self._outputs, *self._inputs]
+        self.units = {
+            f"{name}.{port}": participants[name].ports[port].unit for name, port in channels
+        }
         try:
             self.table = GrowingTable(
                 1 + len(channels), None if folder is None else folder.record, place=place
@@ -58,10 +58,8 @@ class Recording:
 
     def add(self, time: float, exchange: Exchange, keep: bool = True) -> None:
         """Write the values of now as the row of a time (s); keep: do not replace it later."""
-        row = [time]
-        for causality, name, values in self._readers:
-            given = causality is Causality.OUTPUT
-            row += values((exchange.outputs if given else exchange.inputs)[name])
+        row = [time, *(exchange.outputs[name][port] for name, port in self._outputs)]
+        row += [exchange.inputs[name][port] for name, port in self._inputs]
         self.table.append(row, keep)
 
     @property
@@ -72,20 +70,3 @@ class Recording:
     def values(self) -> dict[str, np.ndarray]:
         """`participant.port` -> (n,), read-only: memory is taken when they are looked at."""
         return dict(zip(self.units, self.table.rows().T[1:], strict=True))
-
-
-def _channels(system: CoupledSystem) -> list[tuple[Causality, Address]]:
-    outputs = [
-        (Causality.OUTPUT, Address(name, port.name))
-        for name, participant in system.participants.items()
-        for port in participant.ports.values()
-        if port.causality is Causality.OUTPUT
-    ]
-    return outputs + [(Causality.INPUT, each.sink) for each in system.connections]
-
-
-def _taking(ports: Sequence[str]) -> Taking:
-    if len(ports) > 1:
-        return itemgetter(*ports)
-    (port,) = ports  # of one name, itemgetter gives the value itself
-    return lambda values: [values[port]]

@@ -8,7 +8,7 @@ import numpy as np
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.participant import CouplingError, ParticipantError
 from cosim.coupling.schemes.acceleration import QuasiNewton, Relaxation, Vector
-from cosim.coupling.schemes.scheme import EndedEarly, StepDone, against, degree_of
+from cosim.coupling.schemes.scheme import EndedEarly, Scheme, StepDone, degree_of
 from cosim.coupling.system import Address, CoupledSystem
 from cosim.coupling.tolerance import Tolerance, bounds, nominals
 from cosim.coupling.waveform import Waveform
@@ -22,7 +22,7 @@ Plan = tuple[tuple[Address, ...], Vector, Vector, tuple[Vector, Vector]]
 
 
 @dataclass
-class Iterated:
+class Iterated(Scheme):
     """Participants go back and repeat the step until its end values change no more than allowed.
 
     An input over the step is the value at its end ("held"), or runs "linear" from start to end, or
@@ -40,21 +40,19 @@ class Iterated:
     most_iterations: int = 20
 
     needs_restore = True
-    free_order = False
 
     def __post_init__(self) -> None:
         # depends on the system alone: found once
         self._plan: tuple[CoupledSystem, Plan] | None = None
 
     @property
-    def accuracy(self) -> int:
-        """Order of the error in the step's size."""
-        return degree_of(self.waveform) + 1
+    def degree(self) -> int:
+        """That of the waveform."""
+        return degree_of(self.waveform)
 
     def check(self, system: CoupledSystem) -> None:
         """Refuse a system that this order does not fit, and settings that cannot be."""
-        system.check_order(self.order)
-        degree_of(self.waveform)
+        super().check(system)
         self.tolerance.check(system)
         if self.sweep not in SWEEPS:
             raise CouplingError(f"sweep = {self.sweep!r}: must be one of {', '.join(SWEEPS)}")
@@ -64,8 +62,7 @@ class Iterated:
     def step(self, exchange: Exchange, size: float) -> StepDone:
         """One macro step of the whole system, of length size (s)."""
         guessed, least, scale, within = self._planned(exchange.system)
-        degree = degree_of(self.waveform)
-        ends = [exchange.extrapolated(source, degree, size).end for source in guessed]
+        ends = [exchange.extrapolated(source, self.degree, size).end for source in guessed]
         guess = np.array(ends).clip(*within)
         plain = None
         self.acceleration.begin()
@@ -74,14 +71,14 @@ class Iterated:
                 if iteration > 1:
                     exchange.back(mark)
                 try:
-                    found = self._sweep(exchange, guessed, guess, degree, size)
+                    found = self._sweep(exchange, guessed, guess, size)
                 except ParticipantError:
                     if plain is None:
                         raise
                     # an accelerated guess may be what cannot be: joules handed over and taken back
                     exchange.back(mark)
                     guess = plain
-                    found = self._sweep(exchange, guessed, guess, degree, size)
+                    found = self._sweep(exchange, guessed, guess, size)
                 changes = np.abs(found - guess) / self.tolerance.allowed(least, found)
                 if not guessed or changes.max() <= 1.0:
                     return _done(size, iteration, changes, guessed, True)
@@ -108,18 +105,13 @@ class Iterated:
 
     def unknown(self, system: CoupledSystem) -> tuple[Address, ...]:
         """What is guessed: all connected outputs, or those that go against the order."""
-        return system.sources if self.sweep == "jacobi" else against(system, self.order)
+        return system.sources if self.sweep == "jacobi" else super().unknown(system)
 
     def _sweep(
-        self,
-        exchange: Exchange,
-        guessed: tuple[Address, ...],
-        guess: Vector,
-        degree: int,
-        size: float,
+        self, exchange: Exchange, guessed: tuple[Address, ...], guess: Vector, size: float
     ) -> Vector:
         """Let everybody make the step; what then comes of the guessed values."""
-        ends = dict(zip(guessed, guess.tolist(), strict=True))
+        ends, degree = dict(zip(guessed, guess.tolist(), strict=True)), self.degree
 
         def course(source: Address) -> Waveform:
             end = ends.get(source)

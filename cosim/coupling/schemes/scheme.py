@@ -1,8 +1,9 @@
 """What a coupling scheme is, and those that make each step once: all at once, or in turn."""
 
-from collections.abc import Sequence
+from abc import ABC, abstractmethod
+from collections.abc import Sequence, Set
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import ClassVar
 
 from cosim.coupling.exchange import Course, Exchange
 from cosim.coupling.participant import CouplingError, capabilities
@@ -41,39 +42,47 @@ class EndedEarly(Exception):
         self.name, self.size = name, size
 
 
-class Scheme(Protocol):
-    """How the participants make a macro step together."""
+class Scheme(Forgetful, ABC):
+    """How the participants make a macro step together.
+
+    order: participant names, each once, in the order of the initial exchange. needs_restore:
+    whether it makes a step more than once. free_order: whether participants may make a step in any
+    order, as none waits for another.
+    """
+
+    order: tuple[str, ...]
+    needs_restore: ClassVar[bool] = False
+    free_order: ClassVar[bool] = False
 
     @property
-    def order(self) -> tuple[str, ...]:
-        """Participant names, each once, in the order of the initial exchange."""
+    @abstractmethod
+    def degree(self) -> int:
+        """Of the polynomial that inputs follow over a step."""
 
     @property
     def accuracy(self) -> int:
         """Order of the error of a step's end values in the step's size, over a run."""
-
-    @property
-    def needs_restore(self) -> bool:
-        """Whether it makes a step more than once."""
-
-    @property
-    def free_order(self) -> bool:
-        """Whether participants may make a step in any order: none waits for another."""
+        return self.degree + 1
 
     def check(self, system: CoupledSystem) -> None:
-        """Refuse a system that the scheme does not fit."""
+        """Refuse a system that this order does not fit, and settings that cannot be."""
+        system.check_order(self.order)
+        _ = self.degree  # which refuses what there is none of
 
     def unknown(self, system: CoupledSystem) -> tuple[Address, ...]:
-        """Connected outputs that a step needs before they are there: extrapolated, or guessed."""
+        """Connected outputs that a step needs before they are there: those that feed somebody who
+        comes before their participant in the order."""
+        place = {name: number for number, name in enumerate(self.order)}
+        found = [
+            connection.source
+            for connection in system.connections
+            if place[connection.source.participant] >= place[connection.sink.participant]
+        ]
+        return tuple(dict.fromkeys(found))
 
+    @abstractmethod
     def step(self, exchange: Exchange, size: float) -> StepDone:
         """One macro step from exchange.time, of length size (s); may raise EndedEarly."""
-
-    def state(self) -> Any:
-        """What is remembered from step to step, as nested lists of numbers."""
-
-    def restore(self, state: Any) -> None:
-        """Go on from what `state` gave."""
 
 
 def degree_of(extrapolation: str) -> int:
@@ -84,25 +93,6 @@ def degree_of(extrapolation: str) -> int:
     return EXTRAPOLATIONS[extrapolation]
 
 
-def against(system: CoupledSystem, order: Sequence[str]) -> tuple[Address, ...]:
-    """Connected outputs that feed somebody who comes before their participant in an order."""
-    place = {name: number for number, name in enumerate(order)}
-    found = [
-        connection.source
-        for connection in system.connections
-        if place[connection.source.participant] >= place[connection.sink.participant]
-    ]
-    return tuple(dict.fromkeys(found))
-
-
-def step_together(exchange: Exchange, name: str, size: float, first: bool) -> float:
-    """Step a participant; the size that it made, which for all but the first is as asked for."""
-    made = exchange.step(name, size)
-    if made < size and not first:
-        raise EndedEarly(name, made)
-    return made
-
-
 def ending_early_first(system: CoupledSystem, names: Sequence[str]) -> tuple[str, ...]:
     """The names, those first that may end a step early: then nobody has to be taken back."""
     return tuple(
@@ -111,7 +101,7 @@ def ending_early_first(system: CoupledSystem, names: Sequence[str]) -> tuple[str
 
 
 @dataclass(frozen=True)
-class OnePass(Forgetful):
+class OnePass(Scheme):
     """What the schemes share that make each step once.
 
     order : participant names, each once; extrapolation : of inputs over a step, of EXTRAPOLATIONS.
@@ -120,17 +110,25 @@ class OnePass(Forgetful):
     order: tuple[str, ...]
     extrapolation: str = "held"
 
-    needs_restore = False
-
     @property
-    def accuracy(self) -> int:
-        """Order of the error in the step's size."""
-        return degree_of(self.extrapolation) + 1
+    def degree(self) -> int:
+        """That of the extrapolation."""
+        return degree_of(self.extrapolation)
 
-    def check(self, system: CoupledSystem) -> None:
-        """Refuse a system that this order does not fit."""
-        system.check_order(self.order)
-        degree_of(self.extrapolation)
+    def _made(self, exchange: Exchange, name: str, size: float, others: Set[str]) -> float:
+        """Let a participant step; the size that it made, which beside others is as asked for.
+
+        others: who has made the step already.
+        """
+        if self.degree:
+            known = set() if self.free_order else others
+            exchange.deliver_over_step(name, course(exchange, known, self.degree, size))
+        else:
+            exchange.deliver(name)
+        made = exchange.step(name, size)
+        if made < size and others:
+            raise EndedEarly(name, made)
+        return made
 
 
 @dataclass(frozen=True)
@@ -156,20 +154,14 @@ class Jacobi(OnePass):
     def step(self, exchange: Exchange, size: float) -> StepDone:
         """One macro step of the whole system, of length size (s)."""
         names = ending_early_first(exchange.system, self.order)
-        degree = degree_of(self.extrapolation)
-        made = size
         for place, name in enumerate(names):
-            if degree:
-                exchange.deliver_over_step(name, course(exchange, set(), degree, size))
-            else:
-                exchange.deliver(name)
-            made = step_together(exchange, name, made, place == 0)
+            size = self._made(exchange, name, size, {*names[:place]})
         for name in names:
             exchange.collect(name)
         if self.refresh:
             for name in names:
                 exchange.refresh(name)
-        return StepDone(made)
+        return StepDone(size)
 
 
 @dataclass(frozen=True)
@@ -184,28 +176,15 @@ class GaussSeidel(OnePass):
     order: participant names, each once.
     """
 
-    free_order = False
-
-    def unknown(self, system: CoupledSystem) -> tuple[Address, ...]:
-        """Those that go against the order."""
-        return against(system, self.order)
-
     def step(self, exchange: Exchange, size: float) -> StepDone:
         """One macro step of the whole system, of length size (s)."""
-        degree = degree_of(self.extrapolation)
-        stepped: set[str] = set()
-        for name in self.order:
-            if degree:
-                exchange.deliver_over_step(name, course(exchange, stepped, degree, size))
-            else:
-                exchange.deliver(name)
-            size = step_together(exchange, name, size, not stepped)
+        for place, name in enumerate(self.order):
+            size = self._made(exchange, name, size, {*self.order[:place]})
             exchange.collect(name)
-            stepped.add(name)
         return StepDone(size)
 
 
-def course(exchange: Exchange, stepped: set[str], degree: int, size: float) -> Course:
+def course(exchange: Exchange, stepped: Set[str], degree: int, size: float) -> Course:
     """Sources that have stepped are interpolated to the step's end, the others extrapolated."""
     history = exchange.history
 

@@ -49,7 +49,6 @@ class AdaptiveStep(StepControl):
             )
         if not 0.0 < self.safety < 1.0:
             raise CouplingError(f"safety = {self.safety:g}: must lie between 0 and 1")
-        self._size, self._error, self._above = self.first, 1.0, 0
 
     @property
     def first_size(self) -> float:

@@ -5,6 +5,7 @@ And the plainest, steps of one size.
 
 import math
 from contextlib import nullcontext
+from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol
 
 from cosim.coupling.exchange import Exchange
@@ -176,17 +177,14 @@ class Grid:
         return self.stop if n == self.steps else self.start + n * self.macro_step
 
 
+@dataclass
 class FixedStep(StepControl):
     """Communication points on a grid, and at known events between them.
 
     macro_step: s.
     """
 
-    def __init__(self, macro_step: float):
-        self.macro_step = macro_step
-        self._grid: Grid | None = None
-        self._made = 0
-        self._on_grid = True
+    macro_step: float
 
     @property
     def first_size(self) -> float:
@@ -200,7 +198,6 @@ class FixedStep(StepControl):
 
     def step(self, stepper: Stepper, stop: float) -> float:
         """To the next time of the grid, or as far as `stop` or an event lets it."""
-        assert self._grid is not None
         goal = self._grid[self._made + 1]
         if abs(goal - stop) <= SLIVER * self.macro_step:
             goal = stop  # an event at 0.6 is that of 6 steps of 0.1, which are 0.6000000000000001

@@ -8,7 +8,8 @@ from contextlib import closing, contextmanager
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from cosim.processes import BrokenProcessPool, as_finished, cores
+from cosim.cores import CORES
+from cosim.processes import BrokenProcessPool, as_finished
 
 from .axis import SweepError
 from .combination import Row, Run, SweepStopped, Task, Work, compute_chunk
@@ -80,7 +81,7 @@ def _workers(
 ) -> Iterator[tuple[int, Callable[[Work, Chunks], Rows]]]:
     """How many compute at once; and what gives the rows of each chunk as it is finished."""
     if dask is None:
-        count = cores() if jobs is None else jobs
+        count = CORES if jobs is None else jobs
         yield count, partial(_in_processes, count)
         return
     with _client(dask) as client:

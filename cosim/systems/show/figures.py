@@ -37,7 +37,7 @@ OVER_TIME: dict[str, tuple[str, str]] = {
 
 def pictures(run: SystemRun, columns: Columns) -> dict[str, Picture]:
     """Every figure that the run has something for: name -> picture, in the page's order."""
-    system, order = run.assembly.system, run.assembly.order
+    system, order = run.assembly.system, run.assembly.scheme.order
     if is_legible(system, order):
         units = diagram(system, order)
         units = replace(units, caption=units.caption + colour_key(system))
@@ -52,7 +52,7 @@ def pictures(run: SystemRun, columns: Columns) -> dict[str, Picture]:
 
 def figure_of(run: SystemRun, columns: Columns, name: str) -> Figure:
     """One of them for a notebook; ValueError for a name that is none of this run's."""
-    system, found = (run.assembly.system, run.assembly.order), described(run, columns)
+    system, found = (run.assembly.system, run.assembly.scheme.order), described(run, columns)
     if name == "system":
         return shown(diagram if is_legible(*system) else matrix, *system)
     if name not in found:

@@ -154,7 +154,7 @@ def _coupling(run: SystemRun) -> dict[str, Any]:
     _, shortest, longest = run.steps.groups
     return {
         "scheme": settings.scheme,
-        "order": list(run.assembly.order),
+        "order": list(run.assembly.scheme.order),
         "step_control": settings.step_control,
         "macro_step": run.assembly.macro_step,
         **step_numbers(run.result),

@@ -6,14 +6,14 @@ from, and what a parameter set gives to it goes to what it feeds.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from cosim.coupling import UnitDefinition
 from cosim.names import unknown_name
 from cosim.systems.specification import Hop, Link, Start, UnitEntry
 from cosim.systems.ssp.package import Package
-from cosim.systems.ssp.structure import NUMBERS, Connector, Element, Ends, Structure
+from cosim.systems.ssp.structure import NUMBERS, Connector, Element, Ends
 from cosim.systems.ssp.values import bound_values
 from cosim.systems.system_errors import SystemFault
 
@@ -26,46 +26,42 @@ GIVES, TAKES = ("output", "calculatedParameter"), ("input", "parameter", "struct
 
 
 class Flat:
-    """The units and links of a structure."""
+    """The units and links of a system. definitions: units of its file."""
 
-    def __init__(self, structure: Structure, package: Package):
-        self._structure, self._package = structure, package
+    def __init__(self, top: Element, definitions: Mapping[str, UnitDefinition], package: Package):
+        self._definitions, self._package = definitions, package
         #: Components and systems.
         self._elements: dict[Path, Element] = {}
         #: What comes to a connector: from where, and by which connection.
         self._feeds: dict[Node, tuple[Node, Ends]] = {}
-        self._walk((), structure.system)
-        self._components = {path: one for path, one in self._elements.items() if one.source}
-        self._names = _names(self._components)
+        self._walk((), top)
+        self._names = _names(path for path, one in self._elements.items() if one.source)
 
     def units(self) -> list[UnitEntry]:
         """All components, with what they start from."""
         given = self._all_given()
         return [
             UnitEntry(
-                name=self._names[path],
-                file=self._package.file(component.source),
+                name=own,
+                file=self._package.file(self._elements[path].source),
                 given={name: start for (owner, name), start in given.items() if owner == path},
                 ports={
-                    name: (connector.unit, self._definition(connector.unit))
-                    for name, connector in component.connectors.items()
+                    name: (connector.unit, self._definitions.get(connector.unit))
+                    for name, connector in self._elements[path].connectors.items()
                     if connector.unit is not None
                 },
             )
-            for path, component in self._components.items()
+            for path, own in self._names.items()
         ]
 
     def links(self) -> list[Link]:
         """What comes to the inputs of components from outputs of components."""
         found = []
         for node in self._feeds:
-            if node[0] not in self._components or self._connector(node).kind != "input":
-                continue
-            *_, (source, hops) = self._behind(node)
-            if source[0] in self._components:
-                self._check_kind(source)
-                self._check_kind(node)
-                found.append(Link(self._address(source), self._address(node), tuple(hops)))
+            if self._is_of_unit(node) and self._connector(node).kind == "input":
+                *_, (source, hops) = self._behind(node)
+                if self._is_of_unit(source):
+                    found.append(Link(self._address(source), self._address(node), tuple(hops)))
         return found
 
     def _walk(self, path: Path, element: Element) -> None:
@@ -73,24 +69,15 @@ class Flat:
         for name, inner in element.elements.items():
             self._walk((*path, name), inner)
         for ends in element.connections:
-            self._add(path, element, ends)
-
-    def _add(self, path: Path, system: Element, ends: Ends) -> None:
-        """Note a connection by the end that it feeds, whichever end the file puts first."""
-        start_gives, end_gives = (_gives(system, ends, end) for end in (ends.start, ends.end))
-        if start_gives == end_gives:
-            raise SystemFault(
-                f"connection {ends}: both ends {'give' if end_gives else 'take'}, allowed is"
-                " an output to an input"
+            source, sink = (
+                ((*path, *filter(None, [owner])), name) for owner, name in _directed(element, ends)
             )
-        sides = (ends.start, ends.end) if start_gives else (ends.end, ends.start)
-        source, sink = (((*path, *filter(None, [element])), name) for element, name in sides)
-        if sink in self._feeds:
-            raise SystemFault(
-                f"connection {ends}: {_spelled(sink)} is fed twice,"
-                " allowed is one connection to an input"
-            )
-        self._feeds[sink] = source, ends
+            if sink in self._feeds:
+                raise SystemFault(
+                    f"connection {ends}: {_spelled(sink)} is fed twice,"
+                    " allowed is one connection to an input"
+                )
+            self._feeds[sink] = source, ends
 
     def _behind(self, node: Node) -> Iterator[tuple[Node, list[Hop]]]:
         """From where a value comes, farther and farther back, and the hops that it makes from there
@@ -100,24 +87,20 @@ class Flat:
         while node in self._feeds and node not in seen and not (hops and self._is_of_unit(node)):
             seen.add(node)
             (source, ends), unit = self._feeds[node], self._connector(node).unit
-            hops = [Hop(ends.transformation, ends.converts, unit, self._definition(unit)), *hops]
+            definition = self._definitions.get(unit or "")
+            hops = [Hop(ends.transformation, ends.converts, unit, definition), *hops]
             node = source
             yield node, hops
 
     def _is_of_unit(self, node: Node) -> bool:
-        return node[0] in self._components
-
-    def _definition(self, unit: str | None) -> UnitDefinition | None:
-        return None if unit is None else self._structure.units.get(unit)
+        return node[0] in self._names
 
     def _connector(self, node: Node) -> Connector:
         path, name = node
         return self._elements[path].connectors[name]
 
     def _address(self, node: Node) -> str:
-        return f"{self._names[node[0]]}.{node[1]}"
-
-    def _check_kind(self, node: Node) -> None:
+        """`unit.port` of a connector that can be coupled."""
         connector = self._connector(node)
         for wrong, what, allowed in (
             (connector.type not in NUMBERS, f"a {connector.type}", "numbers"),
@@ -129,18 +112,20 @@ class Flat:
                     f"connector {_spelled(node)} is {what}, which is not coupled here,"
                     f" allowed are {allowed}"
                 )
+        return f"{self._names[node[0]]}.{node[1]}"
 
     def _all_given(self) -> dict[Node, Start]:
         """What every connector and variable starts from; outer bindings count more than inner."""
         found: dict[Node, Start] = {}
-        # from the innermost system outwards, so that what comes later counts
-        inwards = sorted(self._elements, key=len, reverse=True)
-        for path in sorted(inwards, key=lambda path: path not in self._components):
-            node = self._elements[path].node
-            for name, start, place in bound_values(node, self._package, self._structure.units):
+        # from the innermost outwards, so that what comes later counts
+        for path in sorted(self._elements, key=lambda path: (path not in self._names, -len(path))):
+            system = self._elements[path]
+            for name, start, place in bound_values(system.node, self._package, self._definitions):
                 targets = [*self._targets(path, name)]
                 if not targets:
-                    known = self._known_names(path)
+                    inner = ((f"{n}.", each.connectors) for n, each in system.elements.items())
+                    levels = [("", system.connectors), *inner]
+                    known = [before + own for before, connectors in levels for own in connectors]
                     raise SystemFault(
                         f"{place}: {unknown_name('variable of the system', name, known)}"
                     )
@@ -156,13 +141,6 @@ class Flat:
             if name[:dot] in element.elements:
                 yield from self._targets((*path, name[:dot]), name[dot + 1 :])
 
-    def _known_names(self, path: Path) -> list[str]:
-        system = self._elements[path]
-        known = list(system.connectors)
-        for name, element in system.elements.items():
-            known += [f"{name}.{connector}" for connector in element.connectors]
-        return known
-
     def _passed_on(self, given: dict[Node, Start]) -> dict[Node, Start]:
         """What a system's connector starts from, to the inputs and parameters that it feeds."""
         found = {}
@@ -171,7 +149,10 @@ class Flat:
                 continue
             for passed, hops in self._behind(node):
                 if passed in given and not self._is_of_unit(passed):
-                    found[node] = _moved(given[passed], hops)
+                    affine = given[passed].transformation
+                    for hop in hops:
+                        affine = affine.then(hop.transformation)
+                    found[node] = replace(given[passed], transformation=affine)
                     break
             else:
                 if self._is_of_unit(passed) and self._connector(node).kind != "input":
@@ -180,6 +161,17 @@ class Flat:
                         " done here, allowed are inputs"
                     )
         return found
+
+
+def _directed(system: Element, ends: Ends) -> tuple[tuple[str, str], tuple[str, str]]:
+    """Both ends of a connection, first that which gives, whichever the file puts first."""
+    start_gives, end_gives = (_gives(system, ends, end) for end in (ends.start, ends.end))
+    if start_gives == end_gives:
+        raise SystemFault(
+            f"connection {ends}: both ends {'give' if end_gives else 'take'}, allowed is"
+            " an output to an input"
+        )
+    return (ends.start, ends.end) if start_gives else (ends.end, ends.start)
 
 
 def _gives(system: Element, ends: Ends, end: tuple[str, str]) -> bool:
@@ -204,14 +196,6 @@ def _gives(system: Element, ends: Ends, end: tuple[str, str]) -> bool:
 
 def _spelled(node: Node) -> str:
     return ".".join((*node[0], node[1]))
-
-
-def _moved(start: Start, hops: Iterable[Hop]) -> Start:
-    """A value behind some connections that scale it."""
-    affine = start.transformation
-    for hop in hops:
-        affine = affine.then(hop.transformation)
-    return replace(start, transformation=affine)
 
 
 def _names(paths: Iterable[Path]) -> dict[Path, str]:

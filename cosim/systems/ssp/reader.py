@@ -12,7 +12,7 @@ from cosim.systems.settings import Coupling, Run
 from cosim.systems.specification import SystemSpecification
 from cosim.systems.ssp.flat import Flat
 from cosim.systems.ssp.package import Package
-from cosim.systems.ssp.structure import Structure, read_structure
+from cosim.systems.ssp.structure import tables_of, top_of, units_of
 from cosim.systems.system_errors import SystemFault, changed, naming, table_of
 
 
@@ -26,9 +26,10 @@ def read_ssp(path: Path, changes: Mapping[str, Any]) -> SystemSpecification:
         package = Package(path)
         unpacked.callback(package.close)
         root = package.xml(package.structure)
-        structure = read_structure(root, package.structure)
-        flat = Flat(structure, package)
-        tables = changed(_tables(structure), changes)
+        with naming(package.structure):
+            top, definitions, said = top_of(root), units_of(root, "ssd"), tables_of(root)
+        flat = Flat(top, definitions, package)
+        tables = changed(said, changes)
         coupling = table_of(Coupling, tables["coupling"], "coupling")
         run = table_of(Run, tables["run"], "run")
         units = flat.units()
@@ -39,7 +40,7 @@ def read_ssp(path: Path, changes: Mapping[str, Any]) -> SystemSpecification:
             for name in package.others()
         ]
         return SystemSpecification(
-            name=structure.name,
+            name=root.get("name") or top.node.get("name") or "system",
             source=str(path),
             units=units,
             links=flat.links(),
@@ -49,15 +50,3 @@ def read_ssp(path: Path, changes: Mapping[str, Any]) -> SystemSpecification:
             remarks=(*package.remarks, *variants),
             _held=unpacked.pop_all(),
         )
-
-
-def _tables(structure: Structure) -> dict[str, Any]:
-    """What the file says of step and time."""
-    told = {
-        "coupling": {"macro_step": structure.step},
-        "run": {"start": structure.start, "stop": structure.stop},
-    }
-    return {
-        table: {key: value for key, value in entries.items() if value is not None}
-        for table, entries in told.items()
-    }

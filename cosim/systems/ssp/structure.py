@@ -7,13 +7,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import NamedTuple
 from xml.etree.ElementTree import Element as Xml
 from xml.etree.ElementTree import register_namespace
 
 from cosim.coupling import Affine, UnitDefinition
 from cosim.coupling.conversion import BASE_UNITS
-from cosim.systems.system_errors import SystemFault, naming
+from cosim.systems.system_errors import SystemFault
 
 _NAMES = {
     **{"ssc": "Common", "ssd": "Description"},
@@ -36,8 +38,7 @@ TYPES = (*NUMBERS, "String", "Binary", "Clock")
 MASTERS = {"FixedStepMaster": "stepSize", "FixedStepAlgorithm": "baseStepSize"}
 
 
-@dataclass(frozen=True)
-class Connector:
+class Connector(NamedTuple):
     """A connector of a component or a system; kind and type as the file has them."""
 
     kind: str
@@ -46,19 +47,17 @@ class Connector:
     is_array: bool
 
 
-@dataclass(frozen=True)
-class Ends:
+class Ends(NamedTuple):
     """A connection as it stands: element ("" for the system itself) and connector of both ends."""
 
     start: tuple[str, str]
     end: tuple[str, str]
-    transformation: Affine
-    converts: bool
+    transformation: Affine = Affine()
+    converts: bool = True
 
     def __str__(self) -> str:
-        return " -> ".join(
-            ".".join(filter(None, end)) or "a nameless end" for end in (self.start, self.end)
-        )
+        ends = (".".join(filter(None, end)) or "a nameless end" for end in self[:2])
+        return " -> ".join(ends)
 
 
 @dataclass(frozen=True)
@@ -69,45 +68,39 @@ class Element:
     and what connects them.
     """
 
-    name: str
-    connectors: Mapping[str, Connector]
     node: Xml
+    connectors: Mapping[str, Connector]
     source: str = ""
     elements: Mapping[str, Element] = field(default_factory=dict)
     connections: tuple[Ends, ...] = ()
 
 
-@dataclass(frozen=True)
-class Structure:
-    """The whole file. start, stop, step: s, None where it names none."""
-
-    name: str
-    system: Element
-    units: Mapping[str, UnitDefinition]
-    start: float | None
-    stop: float | None
-    step: float | None
-
-
-def read_structure(root: Xml, place: str) -> Structure:
-    """What the root of an SSD says; SystemFault, with the place, by the name of what cannot be."""
+def top_of(root: Xml) -> Element:
+    """The outermost system below the root of an SSD."""
     if root.tag != tag("ssd:SystemStructureDescription"):
-        raise SystemFault(
-            f"{place}: is no SystemStructureDescription, allowed is one of SSP 1.0 or 2.0"
-        )
+        raise SystemFault("is no SystemStructureDescription, allowed is one of SSP 1.0 or 2.0")
     top = root.find(tag("ssd:System"))
     if top is None:
-        raise SystemFault(f"{place}: has no System, needed is one")
-    experiment = root.find(tag("ssd:DefaultExperiment"))
-    with naming(place):
-        return Structure(
-            name=root.get("name") or top.get("name") or "system",
-            system=_system(top),
-            units=units_of(root, "ssd"),
-            start=_number(experiment, "startTime"),
-            stop=_number(experiment, "stopTime"),
-            step=_step(root),
-        )
+        raise SystemFault("has no System, needed is one")
+    return _system(top)
+
+
+def tables_of(root: Xml) -> dict[str, dict[str, float]]:
+    """What the file says of time and step, as the tables [run] and [coupling].
+
+    The step is that of a master that the annotations name: OMSimulator's, or of the OSP tools.
+    """
+    experiments = root.findall(tag("ssd:DefaultExperiment"))[:1]
+    masters = [node for node in root.iter() if local(node) in MASTERS][:1]
+    return {
+        "coupling": _numbers(masters, {key: "macro_step" for key in MASTERS.values()}),
+        "run": _numbers(experiments, {"startTime": "start", "stopTime": "stop"}),
+    }
+
+
+def _numbers(nodes: list[Xml], keys: Mapping[str, str]) -> dict[str, float]:
+    found = {keys[key]: _number(node, key) for node in nodes for key in keys if key in node.keys()}
+    return found
 
 
 def tag(name: str) -> str:
@@ -130,16 +123,15 @@ def units_of(root: Xml, space: str) -> dict[str, UnitDefinition]:
     """Unit -> what it is made of, of the Units of a file."""
     found = {}
     for unit in below(root, f"{space}:Units/ssc:Unit"):
-        base = unit.find(tag("ssc:BaseUnit"))
-        if base is not None:
-            exponents = tuple(int(_finite(base, name, 0.0)) for name in BASE_UNITS)
-            factor = _finite(base, "factor", 1.0)
+        for base in below(unit, "ssc:BaseUnit"):
+            exponents = tuple(int(_number(base, name)) for name in BASE_UNITS)
+            factor = _number(base, "factor", 1.0)
             if factor == 0.0:
                 raise SystemFault(f"unit {unit.get('name')!r} has factor = 0, allowed is another")
             found[unit.get("name", "")] = UnitDefinition(
                 exponents,  # type: ignore[arg-type]  # eight of them
                 factor,
-                _finite(base, "offset", 0.0),
+                _number(base, "offset"),
             )
     return found
 
@@ -154,7 +146,7 @@ def transformation_of(node: Xml, what: str) -> Affine:
     for child in node:
         name = local(child)
         if name == "LinearTransformation":
-            return Affine(_finite(child, "factor", 1.0), _finite(child, "offset", 0.0))
+            return Affine(_number(child, "factor", 1.0), _number(child, "offset"))
         if name.endswith("Transformation"):
             raise SystemFault(f"{what}: {name} is not done here, allowed is LinearTransformation")
     return Affine()
@@ -167,25 +159,22 @@ def converts(node: Xml) -> bool:
 
 def _system(node: Xml) -> Element:
     name = node.get("name", "")
+    elements: dict[str, Element] = {}
     for found in (*below(node, "ssd:SignalDictionaries/*"), *below(node, "ssd:Elements/*")):
-        if local(found) in ("SignalDictionary", "SignalDictionaryReference"):
+        kind, own = local(found), found.get("name", "")
+        if kind in ("SignalDictionary", "SignalDictionaryReference"):
             raise SystemFault(
-                f"{local(found)} {found.get('name', '')!r} in system {name!r} is not done here;"
+                f"{kind} {own!r} in system {name!r} is not done here;"
                 " allowed are connections of the units themselves"
             )
-    elements: dict[str, Element] = {}
-    for element in map(_element, below(node, "ssd:Elements/*")):
-        if element.name in elements:
-            raise SystemFault(
-                f"system {name!r} has two elements named {element.name!r}, allowed is one"
-            )
-        elements[element.name] = element
+        if own in elements:
+            raise SystemFault(f"system {name!r} has two elements named {own!r}, allowed is one")
+        elements[own] = _element(found, kind, own)
     connections = tuple(_ends(child) for child in below(node, "ssd:Connections/ssd:Connection"))
-    return Element(name, _connectors(node), node, "", elements, connections)
+    return Element(node, _connectors(node), "", elements, connections)
 
 
-def _element(node: Xml) -> Element:
-    kind, name = local(node), node.get("name", "")
+def _element(node: Xml, kind: str, name: str) -> Element:
     if not name:
         raise SystemFault(f"a {kind} has no name, needed is one")
     if kind == "System":
@@ -202,14 +191,13 @@ def _element(node: Xml) -> Element:
         )
     if not source:
         raise SystemFault(f"component {name!r} has no source, needed is the path of an FMU")
-    return Element(name, _connectors(node), node, source)
+    return Element(node, _connectors(node), source)
 
 
 def _connectors(node: Xml) -> dict[str, Connector]:
     found = {}
     for child in below(node, "ssd:Connectors/ssd:Connector"):
-        kinds = [inner for inner in child if local(inner) in TYPES]
-        form = kinds[0] if kinds else None
+        form = next((inner for inner in child if local(inner) in TYPES), None)
         found[child.get("name", "")] = Connector(
             kind=child.get("kind", "unspecified"),
             type="Real" if form is None else local(form),
@@ -224,31 +212,15 @@ def _ends(node: Xml) -> Ends:
         (node.get(f"{side}Element", ""), node.get(f"{side}Connector", ""))
         for side in ("start", "end")
     )
-    bare = Ends(start, end, Affine(), converts(node))
-    return replace(bare, transformation=transformation_of(node, f"connection {bare}"))
+    affine = transformation_of(node, f"connection {Ends(start, end)}")
+    return Ends(start, end, affine, converts(node))
 
 
-def _number(node: Xml | None, key: str) -> float | None:
-    text = None if node is None else node.get(key)
-    if node is None or text is None:
-        return None
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise SystemFault(f"{local(node)} has {key} = {text!r}, allowed is a finite number")
-    return value
-
-
-def _finite(node: Xml, key: str, default: float) -> float:
-    value = _number(node, key)
-    return default if value is None else value
-
-
-def _step(root: Xml) -> float | None:
-    """The step of a master that the annotations name: OMSimulator's, or that of the OSP tools."""
-    for node in root.iter():
-        if local(node) in MASTERS:
-            return _number(node, MASTERS[local(node)])
-    return None
+def _number(node: Xml, key: str, default: float = 0.0) -> float:
+    text = node.get(key)
+    if text is None:
+        return default
+    with suppress(ValueError):
+        if math.isfinite(value := float(text)):
+            return value
+    raise SystemFault(f"{local(node)} has {key} = {text!r}, allowed is a finite number")

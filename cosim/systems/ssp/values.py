@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from xml.etree.ElementTree import Element
 
@@ -105,25 +106,21 @@ def _check_form(node: Element, form: str, what: str) -> None:
 
 
 def _value(parameter: Element, units: Mapping[str, UnitDefinition], what: str) -> Start:
-    for child in parameter:
-        form, text = local(child), child.get("value")
-        if form in ("Annotations", "MetaData", "Dimension"):
-            continue
-        if text is None:
-            raise SystemFault(f"{what} has no value, needed is one")
-        if form in REALS or form in INTEGERS:
-            unit = unit_of(child)
-            return Start(_numeric(text, form, what), unit, units.get(unit or ""))
-        if form == "Boolean":
-            if text.strip() not in TRUTH:
-                raise SystemFault(f"{what} is {text!r}, allowed is true or false")
-            return Start(TRUTH[text.strip()])
-        if form in ("String", "Enumeration"):
-            return Start(text)
-        raise SystemFault(
-            f"{what} is a {form}, which is not set here, allowed are numbers and texts"
-        )
-    raise SystemFault(f"{what} has no value, needed is one")
+    about = ("Annotations", "MetaData", "Dimension")
+    child = next((each for each in parameter if local(each) not in about), None)
+    if child is None or (text := child.get("value")) is None:
+        raise SystemFault(f"{what} has no value, needed is one")
+    form = local(child)
+    if form in REALS or form in INTEGERS:
+        unit = unit_of(child)
+        return Start(_numeric(text, form, what), unit, units.get(unit or ""))
+    if form == "Boolean":
+        if text.strip() not in TRUTH:
+            raise SystemFault(f"{what} is {text!r}, allowed is true or false")
+        return Start(TRUTH[text.strip()])
+    if form in ("String", "Enumeration"):
+        return Start(text)
+    raise SystemFault(f"{what} is a {form}, which is not set here, allowed are numbers and texts")
 
 
 def _numeric(text: str, form: str, what: str) -> float | int:
@@ -131,10 +128,8 @@ def _numeric(text: str, form: str, what: str) -> float | int:
         raise SystemFault(
             f"{what} is an array, which is not set here, allowed are numbers and texts"
         )
-    try:
+    with suppress(ValueError, OverflowError):
         value = int(text) if form in INTEGERS else float(text)
         if math.isfinite(value):
             return value
-    except (ValueError, OverflowError):
-        pass
     raise SystemFault(f"{what} is {text!r}, allowed is a finite number")

@@ -1,5 +1,6 @@
 """The coupled case on the real FMU: what crosses, the closed loop, pictures, state."""
 
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import numpy as np
@@ -234,3 +235,18 @@ def test_every_method_couples_the_case(method, warm_rise, fmu):
     late = np.max(np.diff(flow.handed)) if "jacobi" == method.get("scheme") else 0.0
     assert np.abs(flow.in_transit).max() <= late + 1e-6
     assert result["thermal.interface_temperature"][-1] + 8.0 == pytest.approx(warm_rise, rel=0.1)
+
+
+def test_the_belt_runs_over_its_railing_also_where_the_block_sticks():
+    """By what the surface has travelled since the last step, wherever the run began."""
+    steps = []
+    model = SimpleNamespace(state=list, restore=list, step=lambda *given: steps.append(given))
+    heat = ThermalParticipant(model)
+    heat.enter_initialisation(0.0, 1.0)
+    heat.write({"surface_travel": 5.0, "x": 0.0})
+    heat.exit_initialisation()
+    for time, travel in ((0.0, 5.3), (0.1, 5.4)):
+        heat.write({"surface_travel": travel, "x": travel - 5.0})
+        heat.step(time, 0.1)
+    assert [slid for _, _, slid, _ in steps] == [0.0, 0.0]
+    np.testing.assert_allclose([railed for *_, railed in steps], [0.3, 0.1], rtol=1e-12)

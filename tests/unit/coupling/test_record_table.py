@@ -56,6 +56,23 @@ def test_a_row_that_is_not_kept_gives_way_to_the_next(tmp_path):
     assert len(table) == 4 and table.rows()[:, 0].tolist() == [0, 3, 6, 7]
 
 
+def test_a_row_across_two_pages_is_not_counted_while_another_takes_its_place(tmp_path, monkeypatch):
+    """A kill in the middle of it could leave half of the one, half of the other."""
+    table = GrowingTable(100, tmp_path / "t.npy")
+    for n in range(5):
+        table.append([n] * 100, keep=n < 4)
+    assert len(loaded(table.path)) == 5
+
+    def killed(file, data, at):
+        assert len(data) < 100, "the row itself"
+        return os.pwrite(file, data, at)
+
+    monkeypatch.setattr("cosim.coupling.record.table._write_at", killed)
+    with pytest.raises(AssertionError, match="the row itself"):
+        table.append([5.0] * 100)
+    assert len(loaded(table.path)) == 4
+
+
 def test_every_number_comes_back_as_it_was(tmp_path):
     odd = [np.nan, np.inf, -np.inf, -0.0, 5e-324, 1.7976931348623157e308, 0.1]
     table = GrowingTable(len(odd), tmp_path / "t.npy")

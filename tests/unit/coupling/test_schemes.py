@@ -111,6 +111,27 @@ def test_who_may_end_a_step_that_others_made_is_refused_where_those_cannot_go_ba
         np.testing.assert_allclose([size for _, size in plain.steps[:3]], [0.1, 0.15, 0.25])
 
 
+class Clock(Bouncer):
+    """Gives its time as a speed."""
+
+    ports = port_table(outputs(time="m/s"))
+
+    def read(self):
+        return {"time": self.time}
+
+
+@pytest.mark.parametrize("own, known", [([0.35], ()), ([], (0.35,))])
+def test_what_is_extrapolated_is_over_the_step_that_was_made_and_held_behind_an_event(own, known):
+    """In Jacobi, too, in which the clock ends the step for all; u of the steps: 0, then the mean of
+    the straight line, 0.325 of the one that ends at the event, 0.35 of the one behind it."""
+    links = [Connection("bouncer.time", "plain.u")]
+    scheme = Jacobi(("plain", "bouncer"), "linear")
+    system = CoupledSystem([Plain(), Clock(own)], links)
+    result = run(system, scheme, stop=0.4, macro_step=0.1, events=known)
+    x = 0.1 * (0.0 + 0.15 + 0.25) + 0.05 * (0.325 + 0.35)
+    assert result["plain.x"][-1] == pytest.approx(x, rel=1e-12)
+
+
 @pytest.mark.parametrize(
     "how",
     [

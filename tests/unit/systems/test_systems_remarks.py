@@ -188,7 +188,7 @@ def test_many_units_are_a_matrix(tmp_path):
     with read_system(tmp_path / "row.toml") as specification:
         assembly = assemble(specification)
         with assembly.system as system:
-            assert not is_legible(system, assembly.order)
+            assert not is_legible(system, assembly.scheme.order)
     from PIL import Image
 
     width, height = Image.open(tmp_path / "out" / "system.png").size
