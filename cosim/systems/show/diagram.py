@@ -86,7 +86,7 @@ def diagram(system: CoupledSystem, order: Sequence[str]) -> Figure:
 def colour_key(system: CoupledSystem) -> str:
     """What the colours of energy and power stand for, as far as the system has any."""
     kinds = {RED: "dark orange and thick: energy", ORANGE: "light orange and thick: power"}
-    colours = {_colour(system, each) for each in system.connections}
+    colours = {colour_of(system, each) for each in system.connections}
     told = [words for colour, words in kinds.items() if colour in colours]
     return f" {', '.join(told).capitalize()}." if told else ""
 
@@ -229,7 +229,7 @@ class _Sheet:
 
         label: x, y and alignment.
         """
-        colour, affine = _colour(self._system, connection), self._system.conversions[connection]
+        colour, affine = colour_of(self._system, connection), self._system.conversions[connection]
         path = Path(points, [Path.MOVETO, *[code] * (len(points) - 1)])
         look: Any = {"facecolor": "none", "edgecolor": colour, "zorder": 1}
         width = 2.4 if colour in (RED, ORANGE) else 1.2
@@ -243,7 +243,8 @@ class _Sheet:
             self._text(x, y, str(affine), 7.5, ha=align, va="bottom", bbox=paper, zorder=4)
 
 
-def _colour(system: CoupledSystem, connection: Connection) -> str:
+def colour_of(system: CoupledSystem, connection: Connection) -> str:
+    """Red for energy, orange for power in any unit; else that of the unit it comes from."""
     source = find_port(system.participants, connection.source)
     if source.unit == ENERGY_UNIT or watts(source) is not None:
         return RED if source.unit == ENERGY_UNIT else ORANGE

@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from cosim.coupling import CoupledSystem
-from cosim.coupling.system import find_port
 from cosim.report.palette import BLUE, GREY, INK, ORANGE, PALE_GREY, RED, SOFT_GREY
 from cosim.report.style import clipped, picture
+from cosim.systems.show.diagram import colour_of
 
 #: Inches for a unit, and of the smallest and the largest sheet without its names.
 EACH, SMALLEST, LARGEST = 0.13, 4.0, 16.0
@@ -22,7 +22,6 @@ LETTER, MARGIN, HEAD = 0.062, 0.35, 0.75
 LONGEST_NAME = 24
 #: Units of which every one has its name: of more, every second, third, ...
 MOST_NAMES = int(LARGEST / EACH)
-COLOURS = {"J": RED, "W": ORANGE}
 
 
 @picture(
@@ -68,8 +67,8 @@ def _pairs(axes: Axes, system: CoupledSystem, order: Sequence[str], points: floa
     for each in system.connections:
         pair = place[each.sink.participant], place[each.source.participant]
         counts[pair] += 1
-        unit = find_port(system.participants, each.source).unit
-        colours[pair] = COLOURS.get(unit, colours.get(pair, BLUE))
+        colour = colour_of(system, each)
+        colours[pair] = colour if colour in (RED, ORANGE) else colours.get(pair, BLUE)
     square: dict[str, Any] = {"ms": 0.85 * points, "ls": "", "mew": 0.0}
     several: dict[str, Any] = {"ha": "center", "va": "center_baseline", "color": "white"}
     for (x, y), number in counts.items():
