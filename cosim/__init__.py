@@ -42,4 +42,21 @@ if TYPE_CHECKING:
     from cosim.systems import run_system as run_system
 
 # the command line and the master alone start without the models
-__getattr__, __dir__, __all__ = lazy(__name__, __file__)
+__getattr__, __dir__, __all__ = lazy(
+    __name__,
+    {
+        "cosim.coupling.case": "CoupledRun run_scenario",
+        "cosim.gap": "read_campaign",
+        "cosim.gap.find": "find_gap",
+        "cosim.gap.plan": "make_plan read_plan",
+        "cosim.report.compare": "compare read_result",
+        "cosim.scenario": "Scenario read_scenario",
+        "cosim.simulated": "SimulatedRun simulate_scenario",
+        "cosim.studies.belt_length": "how_long",
+        "cosim.studies.friction_map": "friction_map",
+        "cosim.studies.reproduction": "reproduce",
+        "cosim.studies.stability": "case_of pretension_map regime_map stability stick_slip_range",
+        "cosim.studies.sweep": "sweep",
+        "cosim.systems": "read_system run_system",
+    },
+)

@@ -115,8 +115,7 @@ class Fitting:
 
         def missed(form: Named) -> float:
             parts = [self.part(form, form.findings[0])]
-            left = self.fitted(form, parts, is_shown=False, scatters=False).unscattered
-            return left.worst
+            return self.fitted(form, parts, is_shown=False, scatters=False).unscattered.worst
 
         chosen = min(forms, key=missed)
         rung = named.ladder.system.rung(chosen.findings[0].added)

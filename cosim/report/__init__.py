@@ -17,4 +17,13 @@ if TYPE_CHECKING:
     from cosim.report.run_summary import summary as summary
 
 # who wants words and style of a page needs no model of the motion
-__getattr__, __dir__, __all__ = lazy(__name__, __file__)
+__getattr__, __dir__, __all__ = lazy(
+    __name__,
+    {
+        "cosim.files": "OutputError",
+        "cosim.report.contents": "Views",
+        "cosim.report.dataset": "run_dataset trajectory_dataset",
+        "cosim.report.results": "write_data write_results",
+        "cosim.report.run_summary": "summary",
+    },
+)

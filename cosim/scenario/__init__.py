@@ -12,4 +12,11 @@ if TYPE_CHECKING:
     from cosim.scenario.work import check_work as check_work
 
 # who only refuses a wrong key needs no model
-__getattr__, __dir__, __all__ = lazy(__name__, __file__)
+__getattr__, __dir__, __all__ = lazy(
+    __name__,
+    {
+        ".scenario": "Scenario packaged_scenarios read_scenario",
+        ".validation": "ScenarioError",
+        ".work": "check_work",
+    },
+)
