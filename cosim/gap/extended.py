@@ -22,7 +22,14 @@ from cosim.gap.weak_form.constants import ALIKE, CONTACT_DELAY, FAULT_SIZES, HAR
 from cosim.gap.weak_form.ladder import BY_SPEED, FALLS, Finding
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.windows.numbers import Number
-from cosim.gap.windows.run_model import FORCE_PART, LOADING, PER_WEIGHT, TABLE_PART, WITH_WEIGHT
+from cosim.gap.windows.run_model import (
+    FORCE_PART,
+    LOADING,
+    PER_WEIGHT,
+    TABLE_PART,
+    WITH_STIFFNESS,
+    WITH_WEIGHT,
+)
 from cosim.gap.windows.windows import moves_across
 
 #: Bounds of the contact's own numbers: friction falls over 0.3 to 20 mm/s, and over a small part of
@@ -34,12 +41,14 @@ ROUNDING = "measurement.quantisation"
 #: what follows the loading rate farther is static friction's own law.
 LONGEST_DELAY = 0.05
 
+#: Springs are at most so many times as stiff as stated.
+STIFFER = (0.2, 5.0)
 #: A fault is at most so many times as large as is expected of one.
 MOST_FAULT = 5.0
 
-#: Parameters of laws of the sliding speed that say how strong they are.
+#: Parameters of laws of the sliding speed, or of the springs, that say how strong they are.
 STRENGTHS = ("coefficient", "root_coefficient", "power", "saturating", "linear", "hyperbolic",
-             "stribeck", "logarithmic")  # fmt: skip
+             "stribeck", "logarithmic", "cubic", "quintic")  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -121,6 +130,9 @@ def part_of(
         return _fault(campaign, rung, finding)
     if finding.name == "load_dependence":
         return _load(rung, finding, scales.force)
+    if finding.name == "other.springs":
+        stiffer = 1.0 + float(rung.posterior[0][rung.part_of(finding.main)][0])
+        return Part(finding, numbers=(Number("springs.stiffness", stiffer, None, *STIFFER),))
     units = dict.fromkeys(("film_drag", "structural_damping"), level.kinetic * scales.force)
     units["spring_hardening"] = scales.travel * 4.0 * scales.stiffness
     at_rest = unknown.curve is not None and unknown.curve.per == "mu_k"
@@ -143,6 +155,8 @@ def part_of(
                for free in best.candidate.free_parameters]  # fmt: skip
     if finding.name in BY_SPEED:
         settings |= _of_load(finding, numbers, scales.force)
+    if unknown.settings.get("per_stiffness"):
+        settings |= _scaled(WITH_STIFFNESS, numbers, scales.stiffness)
     settings |= _shares(best.effect, unknown.settings)
     if finding.name == "thermal_weakening":
         memory = unknown.settings["memory"]
@@ -174,7 +188,7 @@ def _points(
     Of 2 n - 1 points that a force curve may have; {} where the model has no such table.
     """
     at, value = curve.at[[0, *range(2, curve.at.size)]], curve.mean[[0, *range(2, curve.at.size)]]
-    if finding.name == "spring_hardening":
+    if finding.name == "spring_hardening" and finding.main.unknown.settings["per_stiffness"]:
         more = value / (4.0 * scales.stiffness)
         # along x two springs are stretched by what the others lose: odd about their tension
         stretch = np.concatenate([-at[:0:-1], at])
@@ -199,9 +213,13 @@ def _of_load(finding: Finding, numbers: Sequence[Number], force: float) -> dict[
     of_weight = curve is not None and curve.per == "mu_k"
     if of_weight == (finding.name == FALLS):
         return {}
-    how = WITH_WEIGHT if of_weight else PER_WEIGHT
+    return _scaled(WITH_WEIGHT if of_weight else PER_WEIGHT, numbers, force)
+
+
+def _scaled(how: str, numbers: Sequence[Number], typical: float) -> dict[str, float]:
+    """A law's strengths, which are what they say at a typical weight or stiffness."""
     strengths = [n.key for n in numbers if n.key.rpartition(".")[2] in STRENGTHS]
-    return {f"{how}{key}": force for key in strengths}
+    return {f"{how}{key}": typical for key in strengths}
 
 
 def _shares(effect: str, settings: Mapping[str, float]) -> dict[str, float]:

@@ -78,7 +78,7 @@ def file_text(
 ) -> str:
     """A scenario as a commented file. quantities : what is said of fitted keys beside them."""
     given = scenario.model_dump(exclude_unset=True)
-    known = {one.key: one for one in quantities}
+    known = {one.key: one for one in quantities if one.name == one.key}
     wrapped = [line for text in header for line in textwrap.wrap(text, 96)]
     lines = [f"# {line}".rstrip() for line in (*wrapped, *USAGE)] + [""]
     beginning = [key for key in ("name", "defaults", "effects") if key in given]

@@ -15,7 +15,7 @@ from cosim.gap.result import Gap, Ranked
 #: Beginning of a measurement fault's name.
 FAULT = "measurement."
 #: Settings that are points of a curve, of the fit's own, or said elsewhere.
-UNSAID = (TABLES, FAULT, "with_weight.", "per_weight.", "springs.force_curve", "scatter.")
+UNSAID = (TABLES, FAULT, "with_", "per_weight.", "springs.force_curve", "scatter.")
 #: Channel -> how its noise is written, from SI and from thousandths.
 NOISE_OF = {
     "x": "x: {1:.3g} mm", "y": "y: {1:.3g} mm", "phi": "φ: {1:.3g} mrad",

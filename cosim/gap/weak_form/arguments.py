@@ -53,7 +53,7 @@ class Arguments:
                 "velocity_weakening": [self._over_speed(True, steep) for steep in (False, True)],
                 "film_drag": [self._over_speed(False, steep) for steep in (False, True)],
                 "structural_damping": [self._over_velocity()],
-                "spring_hardening": [self._over_place()],
+                "spring_hardening": list(self._over_place()),
                 "run_in": list(self._over_distance()),
                 "thermal_weakening": list(self._over_heat()),
                 "other.time": list(self._over_time()),
@@ -100,20 +100,27 @@ class Arguments:
         curve = Curve("velocity of the block", "m/s", nodes, "N")
         return Unknown.over("structural_damping", curve, respond)
 
-    def _over_place(self) -> Unknown:
-        """Force of the springs beyond the stated ones, odd in the place."""
+    def _over_place(self) -> Iterator[Unknown]:
+        """Force of the springs beyond the stated ones, odd in the place: as large whatever springs
+        are in, or in proportion to their stiffness, as of springs of one make."""
         farthest = self._largest(lambda run: np.abs(run.track.place))
-        nodes = np.linspace(0.0, farthest, CURVE_NODES)
-        unit = farthest * float(np.mean([run.track.run.total_stiffness for run in self.runs]))
+        curve = Curve("place of the block", "m", np.linspace(0.0, farthest, CURVE_NODES), "N")
+        stiffness = {run.track.run.name: run.track.run.total_stiffness for run in self.runs}
+        typical = float(np.mean(list(stiffness.values())))
+        several = float(np.ptp(np.log(list(stiffness.values())))) > LEAST_LOG_RANGE
 
-        def respond(run: RunRows) -> Response:
-            place = run.track.x  # as measured: a stiff spring feels what smoothing leaves
-            force = -unit * np.sign(place)[:, None] * curve.at(np.abs(place))
-            turned = [abs(event.force) / run.track.run.total_stiffness for event in run.events]
-            return Response(force=force, static=-unit * curve.at(np.array(turned)))
+        for per_spring in (False, True) if several else (True,):
 
-        curve = Curve("place of the block", "m", nodes, "N")
-        return Unknown.over("spring_hardening", curve, respond)
+            def respond(run: RunRows, per_spring: bool = per_spring) -> Response:
+                unit = farthest * (stiffness[run.track.run.name] if per_spring else typical)
+                place = run.track.x  # as measured: a stiff spring feels what smoothing leaves
+                force = -unit * np.sign(place)[:, None] * curve.at(np.abs(place))
+                turned = [abs(event.force) / stiffness[run.track.run.name] for event in run.events]
+                return Response(force=force, static=-unit * curve.at(np.array(turned)))
+
+            words = "in proportion to the stiffness" if per_spring and several else ""
+            settings = {"per_stiffness": float(per_spring)}
+            yield Unknown.over("spring_hardening", curve, respond, words, settings)
 
     def _springs(self) -> Unknown:
         """All springs stiffer than stated, far beyond the stated error."""

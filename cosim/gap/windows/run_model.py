@@ -36,16 +36,15 @@ UNSEEN = {"y": 0.02, "phi": 0.1}
 #: stiffness: these then scale the whole.
 TABLE_PART, FORCE_PART = "friction.table_part", "springs.force_part"
 #: Of the tracker and the drive, not of the block.
-OUTSIDE = ("offset.", "measurement.", "per_weight.", "with_weight.", "scatter.")
+OUTSIDE = ("offset.", "measurement.", "per_weight.", "with_weight.", "with_stiffness.", "scatter.")
 #: Standard deviation of the static friction from one stick to the next, relative.
 BREAK_AWAY = "scatter.break_away"
 #: Time by which a contact lets go sooner, s: mu_s N falls by this times the rate of the load.
 LOADING = "offset.loading"
-#: ``per_weight.block.parameter``: the weight, N, at which that parameter is what it says; in other
-#: runs it is less in proportion to theirs.
-PER_WEIGHT = "per_weight."
-#: The same of what grows in proportion to the weight.
-WITH_WEIGHT = "with_weight."
+#: ``with_weight.block.parameter``: the weight, N, at which that parameter is what it says; in other
+#: runs it goes in proportion to theirs; ``per_weight.`` inversely; ``with_stiffness.`` in proportion
+#: to that of their springs, N/m.
+WITH_WEIGHT, PER_WEIGHT, WITH_STIFFNESS = "with_weight.", "per_weight.", "with_stiffness."
 
 
 def uneven(catalogue: Catalogue) -> list[str]:
@@ -71,10 +70,13 @@ def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, fl
         rate = run.total_stiffness * abs(run.surface_speed) / weight
         flat["friction.mu_s"] = max(flat["friction.mu_s"] - values[LOADING] * rate, 0.0)
     for key, typical in values.items():
-        if key.startswith(PER_WEIGHT):
-            flat[key.removeprefix(PER_WEIGHT)] *= typical / weight
-        elif key.startswith(WITH_WEIGHT):
-            flat[key.removeprefix(WITH_WEIGHT)] *= weight / typical
+        scaled_by, _, parameter = key.partition(".")
+        if scaled_by == "per_weight":
+            flat[parameter] *= typical / weight
+        elif scaled_by == "with_weight":
+            flat[parameter] *= weight / typical
+        elif scaled_by == "with_stiffness":
+            flat[parameter] *= run.stiffness / typical
     tables = {
         TABLE_PART: ("friction.table_mu", flat.get("friction.mu_k", 0.0)),
         FORCE_PART: ("springs.force_curve_force", flat["springs.stiffness"]),

@@ -10,12 +10,13 @@ RIG = {"spring_natural_length": 0.17}
 
 
 def motion(
-    speed=0.06, mass=0.87, mu_s=0.3, mu_k=0.2, duration=20.0, interval=0.01, creep=0.0, **blocks
-):
+    speed=0.06, mass=0.87, mu_s=0.3, mu_k=0.2, duration=20.0, interval=0.01, creep=0.0,
+    stiffness=KNOWN["stiffness"], **blocks,
+):  # fmt: skip
     """The exact motion of a block that sticks and slips; creep: in stick, m/s."""
     parameters = Parameters(
         rig={"mass": mass, **RIG},
-        springs={"stiffness": KNOWN["stiffness"]},
+        springs={"stiffness": stiffness},
         friction={"mu_s": mu_s, "mu_k": mu_k, "stick_creep": creep},
         surface={"speed": speed},
         **blocks,

@@ -11,6 +11,8 @@ from scipy.special import logsumexp
 from scipy.stats import multivariate_normal
 
 from cosim.gap import read_campaign
+from cosim.gap.extended import part_of
+from cosim.gap.naming import Naming
 from cosim.gap.scatter import Scatter, scatter_text
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.added import Added
@@ -24,6 +26,7 @@ from cosim.gap.weak_form.surface import tracks_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth
 from cosim.gap.weak_form.unknowns import Unknown
+from cosim.gap.windows.run_model import parameters_of
 
 MASS, STIFFNESS = KNOWN["mass"], 4.0 * KNOWN["stiffness"]
 #: Masses and speeds of five runs.
@@ -98,6 +101,29 @@ def found_in(campaign):
 def test_what_is_there_is_named_first(effect, tmp_path):
     blocks = {effect: EFFECTS[effect]} if effect else {}
     assert found_in(written(tmp_path, **blocks))[:1] == [effect] * bool(effect)
+
+
+@pytest.mark.parametrize("proportional", [True, False])
+def test_springs_of_two_makes_harden_in_proportion_to_their_stiffness_or_not(
+    proportional, tmp_path
+):
+    runs = []
+    for number, (part, speed) in enumerate([(1.0, 0.06), (1.0, 0.12), (0.4, 0.06), (0.4, 0.12)]):
+        stiffness = part * KNOWN["stiffness"]
+        hardening = {"cubic": 1e4 * (part if proportional else 1.0)}
+        run = motion(speed, stiffness=stiffness, duration=10.0, spring_hardening=hardening)
+        columns = {"t": run.time, "x": noisy(run["x"], number)}
+        runs.append({"surface_speed": speed, "stiffness": stiffness, "columns": columns})
+    campaign = read_campaign(write_campaign(tmp_path, runs, noise={"x": NOISE}))
+    named = Naming.of(campaign).named()
+    part = part_of(campaign, named.system, named.rung, named.findings[0])
+    assert [finding.name for finding in named.findings] == ["spring_hardening"]
+    assert ("with_stiffness.spring_hardening.cubic" in part.settings) == proportional
+    values = {**part.settings, **{number.key: number.start for number in part.numbers}}
+    for run in campaign.runs:
+        made = 1e4 * (run.stiffness / KNOWN["stiffness"] if proportional else 1.0)
+        known = parameters_of(run, values)
+        assert known["spring_hardening.cubic"] == pytest.approx(made, rel=0.2)
 
 
 @pytest.mark.slow
