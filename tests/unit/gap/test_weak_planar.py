@@ -155,6 +155,21 @@ def test_a_form_whose_numbers_may_be_zero_is_a_swing(deviations, answer, tmp_pat
     assert planar_of(tmp_path, initial={"y": 5e-3}).answer == answer
 
 
+@pytest.mark.parametrize("more, answer", [(8.0, "lateral_friction"), (12.0, "turning_surface")])
+def test_how_the_load_lies_on_the_contact_is_no_effect_of_its_own(
+    more, answer, tmp_path, monkeypatch
+):
+    """A hundredth of what friction across explains may be an uneven load's."""
+
+    def fitted(campaign, runs, level, form, turned):
+        evidence = 1000.0 if form == ("share",) else (1000.0 + more) * (form[:1] == ("curvature",))
+        number = {"ratio" if name == "share" else name: (0.5, 1e-3) for name in form}
+        return in_plane.Fitted(form, evidence, number, {}, 1.0 if form else 9.0, turned)
+
+    monkeypatch.setattr(in_plane, "_best_fit", fitted)
+    assert planar_of(tmp_path, initial={"y": 5e-3}).answer == answer
+
+
 def test_zeros_far_beyond_their_stated_error_explain_no_place_beside_the_axis(tmp_path):
     """Not even beside anchors that turn the block, too, which no tracker has seen."""
     anchors = {"lateral_offset": 9e-3, "diagonal_offset": 9e-3}
