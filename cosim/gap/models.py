@@ -10,12 +10,12 @@ import numpy as np
 
 from cosim.gap.data import Campaign
 from cosim.gap.extended import (
-    ROUNDING,
     TRANSITION_SPEED,
     Part,
     contact_numbers,
+    friction_of_runs,
     rounding_of,
-    scatter_numbers,
+    set_point,
     started_from,
 )
 from cosim.gap.report_of_findings import text_of
@@ -41,6 +41,8 @@ LOST = 1.5
 #: feel what else its law has.
 HARDLY = 0.02
 
+#: Name of the rung that lets surfaces run off their set-points.
+SET_POINTS = "set-points"
 #: Numbers of a model, and its settings.
 _Free = tuple[list[Number], dict[str, float]]
 
@@ -52,7 +54,7 @@ class Models:
     system : rows of the fitted runs; jobs : runs simulated at a time
     fits, ladder : one a rung; free : its numbers, its settings and how much friction scatters
     scatter : of friction, with its 90 % interval, as the rows alone have it
-    last : ln evidence of the last rung's rows
+    last : ln evidence of the last rung's rows; before : number of the rung before the findings
     is_scattered : whether friction has been let scatter, if it is to
     known : what was fitted to these windows before, by its numbers, settings and scatter
     """
@@ -67,6 +69,7 @@ class Models:
     ladder: list[Rung] = field(default_factory=list)
     scatter: tuple[float, float, float] | None = None
     last: float | None = None
+    before: int = 0
     is_scattered: bool = False
     known: dict[frozenset[object], Fitted] = field(default_factory=dict)
 
@@ -75,7 +78,7 @@ class Models:
         cls, campaign: Campaign, system: System, parts: Sequence[Part], *,
         step: Callable[[], None], jobs: int, others: Models | None = None, is_shown: bool = True,
     ) -> Models:  # fmt: skip
-        """The user's model, then the findings, then a contact where it is felt.
+        """The user's model, set-points where they are felt, the findings, and a contact.
 
         others : whose windows and fits these have as well; is_shown :
         each finding by itself; else all of them and a contact in one rung
@@ -84,6 +87,8 @@ class Models:
         models = cls(campaign, system, windows, parts, jobs, known=others.known if others else {})
         models._add_plain()
         step()
+        models._try_set_points()
+        models.before = len(models.ladder) - 1
         if is_shown:
             models._add_parts()
             step()
@@ -117,10 +122,17 @@ class Models:
         text = f"{text_of(rounding)}; what rounding adds counts as noise from here on"
         self._add(rounding.effect, text, (numbers, settings), rows, fitted, across=gain)
 
-    @property
-    def _plain(self) -> int:
-        """Number of the rung before the findings."""
-        return int(any(rung.name == ROUNDING for rung in self.ladder))
+    def _try_set_points(self) -> None:
+        """Speeds of the runs' surfaces, which their sticks show."""
+        numbers, settings, _ = self.free[-1]
+        free = [*numbers, set_point(self.campaign)], settings
+        rows = self.system.rung(contact=False, scatter=False)
+        if self._try(SET_POINTS, "", free, rows):
+            values = self.fits[-1].values.items()
+            off = [value for label, value in values if label.startswith("offset.speed@")]
+            worst = 100.0 * max(map(abs, off), default=0.0)
+            text = f"surfaces run off their set-points, by {worst:.2g} % at most"
+            self.ladder[-1] = replace(self.ladder[-1], text=text)
 
     def let_scatter(self) -> None:
         """Once: friction scatters, as the rows with all findings have it, where that is felt."""
@@ -167,7 +179,9 @@ class Models:
         spread = scatter.expected[2]  # a run may lie at the far end of what is probable
         text = scatter_text(scatter.seen)
         numbers, settings, _ = self.free[-1]
-        more = [*numbers, *scatter_numbers(self.campaign, spread)]
+        speed = [set_point(self.campaign)]  # where set-points alone were not felt
+        has_speed = speed[0].key in {number.key for number in numbers}
+        more = [*numbers, friction_of_runs(spread), *speed[has_speed:]]
         settings = {**settings, BREAK_AWAY: STICK_SCATTER}
         if self._try("scatter", text, (more, settings), self.system.rung(self._added), spread):
             sticks = 100.0 * self.fits[-1].stick_scatter
@@ -177,7 +191,7 @@ class Models:
     @property
     def is_lost(self) -> bool:
         """Whether the findings make it much worse."""
-        return self.unscattered.fit > LOST * self.ladder[self._plain].gap.fit
+        return self.unscattered.fit > LOST * self.ladder[self.before].gap.fit
 
     def is_lost_beside(self, other: Models) -> bool:
         """Whether it is much worse than another, in fitted runs or in those that judge."""
@@ -187,8 +201,8 @@ class Models:
     @property
     def is_felt(self) -> bool:
         """Whether the findings take anything of the gap by themselves."""
-        first = self._plain
-        before, after = (self.ladder[n].gap.fit for n in (first, first + len(self.parts)))
+        with_parts = self.before + len(self.parts)
+        before, after = (self.ladder[n].gap.fit for n in (self.before, with_parts))
         return before**2 - after**2 > FELT_PART * max(before**2 - 1.0, 0.0)
 
     @property

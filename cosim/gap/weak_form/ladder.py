@@ -29,6 +29,9 @@ from cosim.gap.weak_form.unknowns import Unknown
 #: Findings that round corners, as what a contact and other findings leave there does: they are
 #: asked of runs in which nothing else is missing.
 ALONE = ("measurement.latency",)
+#: What goes from run to run, as scatter does: evidence alone tells the one from the other, and
+#: nothing that smoothed arguments leave within a run looks like it.
+TRENDS = ("load_dependence", "other.room", "other.order")
 #: What friction over the sliding speed is called, growing and falling.
 GROWS, FALLS = "film_drag", "velocity_weakening"
 BY_SPEED = (GROWS, FALLS)
@@ -136,14 +139,22 @@ class Search:
             offers = self.offers(rung, [name for name, _ in found]) if number else first
             if not offers:
                 break
-            name = max(offers, key=lambda each: offers[each][0])
-            offers[name] = self._finer(rung, name, offers[name])
-            more = self._rung([*found, (name, offers[name][1])])
-            if offers[name][0] - rung.evidence < _least(found) or not self._is_missed(rung, more):
+            best = max(offers, key=lambda each: offers[each][0])
+            offers[best] = self._finer(rung, best, offers[best])
+            there = [each for each in TRENDS if each in offers]
+            trends = sorted(there, key=lambda each: -offers[each][0])
+            missed = (name for name in (best, *trends) if self._joins(rung, name, offers[name]))
+            if (name := next(missed, None)) is None:
                 break
             found = self._exchanged([*found, (name, offers[name][1])])
         found = self._without_idle(found)
         return self._ladder(found, first)
+
+    def _joins(self, rung: Rung, name: str, offer: Offer) -> bool:
+        """Whether rows ask for one more, and miss it."""
+        more = rung.with_more(offer[1])
+        is_asked_for = offer[0] - rung.evidence >= _least(rung.added)
+        return is_asked_for and self._is_missed(rung, more, name)
 
     def _finer(self, rung: Rung, name: str, offer: Offer) -> Offer:
         """The best of an argument's settings, also between those that were tried."""
@@ -169,7 +180,7 @@ class Search:
     def _misfit_at_first(self) -> float:
         return self.system.rung().misfit
 
-    def _is_missed(self, without: Rung, rung: Rung) -> bool:
+    def _is_missed(self, without: Rung, rung: Rung, name: str) -> bool:
         """Whether rows miss a finding; beside others, by more than a small part of all misfit.
 
         Where scatter and contact took it all from the first, at their price, evidence decides.
@@ -177,8 +188,10 @@ class Search:
         gained = rung.evidence - without.evidence
         if gained <= _least(without.added):
             return False
-        if not without.added or self._misfit_at_first == 0.0:
-            return not without.added or gained > UNDECIDED
+        if not without.added or name in TRENDS:
+            return True
+        if self._misfit_at_first == 0.0:
+            return gained > UNDECIDED
         return without.misfit - rung.misfit > LEAST_PART**2 * self._misfit_at_first
 
     def _exchanged(
@@ -192,7 +205,9 @@ class Search:
             best = max(offers, key=lambda each: offers[each][0])
             if best != found[place][0]:
                 tried = [*found[:place], (best, offers[best][1]), *found[place + 1 :]]
-                if self._rung(tried).evidence > self._rung(found).evidence + LEAST_GAIN:
+                better = self._rung(tried)
+                is_more = better.evidence > self._rung(found).evidence + LEAST_GAIN
+                if is_more and self._is_missed(self._rung(rest), better, best):
                     found = tried
         return self._without_idle(found)
 
@@ -202,7 +217,7 @@ class Search:
         """Without findings that the rows do not miss."""
         for one in list(found):
             rest = [other for other in found if other is not one]
-            if not self._is_missed(self._rung(rest), self._rung(found)):
+            if not self._is_missed(self._rung(rest), self._rung(found), one[0]):
                 found = rest
         return found
 
@@ -218,6 +233,8 @@ class Search:
             reference = rung.evidence  # others' places and phases are as finely searched
             if name in offers and name not in {kind.name for kind in self.waves}:
                 reference = offers[name][0]
+            if rest and name in TRENDS:
+                offers = {other: offers[other] for other in TRENDS if other in offers}
             others = {
                 other: offer[0] - reference for other, offer in offers.items() if other != name
             }

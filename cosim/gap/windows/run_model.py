@@ -42,8 +42,8 @@ BREAK_AWAY = "scatter.break_away"
 #: Time by which a contact lets go sooner, s: mu_s N falls by this times the rate of the load.
 LOADING = "offset.loading"
 #: ``with_weight.block.parameter``: the weight, N, at which that parameter is what it says; in other
-#: runs it goes in proportion to theirs; ``per_weight.`` inversely; ``with_stiffness.`` in proportion
-#: to that of their springs, N/m.
+#: runs it goes in proportion to theirs; ``per_weight.`` inversely; ``with_stiffness.`` as the
+#: stiffness of their springs, N/m.
 WITH_WEIGHT, PER_WEIGHT, WITH_STIFFNESS = "with_weight.", "per_weight.", "with_stiffness."
 
 

@@ -126,6 +126,13 @@ def test_springs_of_two_makes_harden_in_proportion_to_their_stiffness_or_not(
         assert known["spring_hardening.cubic"] == pytest.approx(made, rel=0.2)
 
 
+def test_a_trend_over_the_runs_is_found_where_scatter_would_have_to_take_it(tmp_path):
+    """However large the first finding is: what that leaves within a run is asked for otherwise."""
+    blocks = {"surface_pattern": {"amplitude": 0.5, "wavelength": 0.07}}
+    blocks["load_dependence"] = {"exponent": -0.5, "reference_force": 8.0}
+    assert found_in(written(tmp_path, **blocks)) == ["surface_pattern", "load_dependence"]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("name", FROM_RUN_TO_RUN)
 def test_what_no_effect_stands_for_is_found_by_its_own_name(name, tmp_path):
