@@ -326,8 +326,7 @@ class Fitting:
         """A lone finding that simulated runs put so far behind a rival that the rows must err.
 
         Runs that no fit has seen must come out better with the rival, too; and be explained by it
-        in place of what no effect stands for. A curve that is itself the law is not fitted to the
-        runs as a rival is: it stays where it explains them, and not by scatter of friction alone.
+        in place of what no effect stands for.
         """
         lone = _lone(parts)
         if lone is None:
@@ -337,10 +336,7 @@ class Fitting:
                 in_place = [rival if part is lone else part for part in parts]
                 with_it, own = (self.fitted(named, some) for some in (in_place, parts))
                 is_better = with_it.ladder[-1].gap.of_verdict < own.ladder[-1].gap.of_verdict
-                bare = self._without(lone, parts, named).unscattered
-                stays = (lone.in_model and judge.explains(own.ladder)
-                         and judge.halves(own.unscattered, bare))  # fmt: skip
-                if is_better and not stays and (lone.in_kernel or judge.explains(with_it.ladder)):
+                if is_better and (lone.in_kernel or judge.explains(with_it.ladder)):
                     without = self._without(lone, parts, named)
                     gained = without.gained(lone) if lone.in_kernel else None
                     return Rejected(lone.finding.name, lone.finding.gain, gained)

@@ -24,6 +24,7 @@ from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.windows.numbers import Number
 from cosim.gap.windows.run_model import (
     FORCE_PART,
+    HEIGHT,
     LOADING,
     PER_WEIGHT,
     TABLE_PART,
@@ -43,6 +44,8 @@ LONGEST_DELAY = 0.05
 
 #: Springs are at most so many times as stiff as stated.
 STIFFER = (0.2, 5.0)
+#: Of a curve that is the law its height is fitted.
+_AS_HIGH = (Number(HEIGHT, 1.0, None, 0.0, 2.0),)
 #: A fault is at most so many times as large as is expected of one.
 MOST_FAULT = 5.0
 
@@ -71,7 +74,7 @@ class Part:
     @property
     def in_model(self) -> bool:
         """Whether the curve itself is the law of the model."""
-        return self.curve is not None and bool(self.settings) and not self.numbers
+        return any(number.key == HEIGHT for number in self.numbers)
 
     @property
     def in_kernel(self) -> bool:
@@ -149,7 +152,7 @@ def part_of(
         fits.sort(key=lambda fit: fit.law != law.law)
     best = fits[0]
     if not (law or best.follows) and (points := _points(campaign, finding, curve, scales)):
-        return Part(finding, curve, tuple(fits), (), points)
+        return Part(finding, curve, tuple(fits), _AS_HIGH, points)
     settings = dict(best.candidate.settings)
     numbers = [_number(free, best.values.get(free.key, free.start))
                for free in best.candidate.free_parameters]  # fmt: skip
@@ -177,7 +180,7 @@ def as_points(campaign: Campaign, system: System, part: Part) -> Part:
         return part
     scales = scales_of(campaign, system.runs, system.level.kinetic)
     points = _points(campaign, part.finding, part.curve, scales)
-    return replace(part, numbers=(), settings=points, shifts={}) if points else part
+    return replace(part, numbers=_AS_HIGH, settings=points, shifts={}) if points else part
 
 
 def _points(

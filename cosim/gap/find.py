@@ -27,6 +27,7 @@ from cosim.gap.weak_form.camera_faults import FAULTS
 from cosim.gap.weak_form.constants import ALIKE
 from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.track import thinned
+from cosim.gap.windows.run_model import HEIGHT
 
 #: Parts of the bar, and where it stands after checks and where the search begins. Nobody knows how
 #: many models will be fitted: each step of one takes a share of what is left.
@@ -82,6 +83,7 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
     if any(doubt.severe for doubt in answered):
         verdict = replace(verdict, verdict="unknown", effects=())
     extended = models.fits[-1]
+    curves = (law_of(system, rung, part, extended.values.get(HEIGHT, 1.0)) for part in parts)
     known = {finding.name for finding in ladder.findings} | set(ladder.first_offers)
     gap = Gap(
         campaign=campaign,
@@ -97,7 +99,7 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
         ),
         plain=models.fits[0],
         extended=extended,
-        laws=tuple(law for part in parts if (law := law_of(system, rung, part)) is not None),
+        laws=tuple(law for law in curves if law is not None),
         exponents=tuple(one for part in parts for one in exponents_of(part)),
         scatter=models.scatter,
         rig=rig_numbers(campaign, extended),

@@ -13,8 +13,7 @@
     be told apart: a class; so are two within e^12, the first below e^500, of which simulated runs
     prefer the second; where they do so by e^500, and rows prefer the first by e^200 at most, or by
     a 200th of its own if it does not explain the runs, the first goes, if no effect stands for it
-    only where the second explains the runs, and if its curve is the law only where it does not, or
-    takes less than half of what they miss before friction may scatter.
+    only where the second explains the runs.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`; with
     three that leave twice the noise in the rows nothing is doubted.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same

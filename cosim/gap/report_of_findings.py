@@ -21,6 +21,7 @@ from cosim.gap.weak_form.rows import BREAK_AWAY, SLIP, STICK
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.weak_form.unknowns import Curve
 from cosim.gap.windows import Fitted
+from cosim.gap.windows.run_model import HEIGHT
 
 #: Whether a piece of a finding's setting is a figure.
 _FIGURE = re.compile(r"\d").search
@@ -84,11 +85,13 @@ def _size(part: Part, gap: Gap) -> str:
     """
     axis = _axis_of(part)
     power = next((one for one in gap.exponents if one.effect == part.effect), None)
-    if part.numbers or part.curve is None or axis is None:
+    if (part.numbers and not part.in_model) or part.curve is None or axis is None:
         size = _first_number(part, gap)
         return size + (_power(power) if power and not power.holds else "")
     most = int(np.argmax(np.abs(part.curve.mean)))
-    mean, sd = part.curve.mean[most], float(np.sqrt(part.curve.covariance[most, most]))
+    height = gap.extended.values.get(HEIGHT, 1.0)
+    sd = height * float(np.sqrt(part.curve.covariance[most, most]))
+    mean = height * part.curve.mean[most]
     at, per = part.curve.at[most], _unit_of(part.finding.name, axis)
     where = f"after {np.exp(at):.2g} s" if axis.unit == "ln s" else f"at {at:.2g} {axis.unit}"
     shown, low, high = with_digits(mean, mean - NINETY * sd, mean + NINETY * sd)
@@ -125,12 +128,13 @@ def _unit_of(name: str, axis: Curve) -> str:
     return "mu_k" if name == "velocity_weakening" else axis.per
 
 
-def law_of(system: System, rung: Rung, part: Part) -> Law | None:
-    """A curve with the points that each run says by itself."""
+def law_of(system: System, rung: Rung, part: Part, height: float) -> Law | None:
+    """A curve with the points that each run says by itself. height : of one that is the law"""
     curve, axis = part.curve, _axis_of(part)
     if curve is None or axis is None:
         return None
-    variance = np.diag(curve.covariance)
+    height = height if part.in_model else 1.0
+    variance = height**2 * np.diag(curve.covariance)
     form, law = "", None
     if part.fits:
         best, weight = part.fits[0], 1.0 / np.maximum(variance, 1e-18)
@@ -139,7 +143,7 @@ def law_of(system: System, rung: Rung, part: Part) -> Law | None:
     points, names = _points(system, rung, part.finding.main, axis, variance[-1])
     return Law(
         part.effect, axis.quantity, axis.unit, _unit_of(part.finding.name, axis), curve.at,
-        curve.mean, np.sqrt(variance), points, names, form, law, part.in_model,
+        height * curve.mean, np.sqrt(variance), points, names, form, law, part.in_model,
     )  # fmt: skip
 
 

@@ -35,8 +35,10 @@ UNSEEN = {"y": 0.02, "phi": 0.1}
 #: Points of a table of friction, in parts of mu_k, and of the springs' force curve, over their
 #: stiffness: these then scale the whole.
 TABLE_PART, FORCE_PART = "friction.table_part", "springs.force_part"
+#: By which factor such a curve is higher than its points, beyond mu_k or a force that is linear.
+HEIGHT = "curve.height"
 #: Of the tracker and the drive, not of the block.
-OUTSIDE = ("offset.", "measurement.", "per_weight.", "with_weight.", "with_stiffness.", "scatter.")
+OUTSIDE = ("offset.", "measurement.", "per_weight.", "with_", "scatter.", "curve.")
 #: Standard deviation of the static friction from one stick to the next, relative.
 BREAK_AWAY = "scatter.break_away"
 #: Time by which a contact lets go sooner, s: mu_s N falls by this times the rate of the load.
@@ -77,13 +79,16 @@ def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, fl
             flat[parameter] *= weight / typical
         elif scaled_by == "with_stiffness":
             flat[parameter] *= run.stiffness / typical
-    tables = {
-        TABLE_PART: ("friction.table_mu", flat.get("friction.mu_k", 0.0)),
-        FORCE_PART: ("springs.force_curve_force", flat["springs.stiffness"]),
-    }
-    for part, (name, scale) in tables.items():
-        for key in [key for key in flat if key.startswith(part)]:
-            flat[key.replace(part, name)] = scale * flat.pop(key)
+    height, force = values.get(HEIGHT, 1.0), -math.inf
+    for key in [key for key in flat if key.startswith((TABLE_PART, FORCE_PART))]:
+        part, number = flat.pop(key), key[key.index("[") :]
+        if key.startswith(TABLE_PART):
+            part = max(1.0 + height * (part - 1.0), 0.0)
+            flat[f"friction.table_mu{number}"] = flat["friction.mu_k"] * part
+        else:
+            linear = flat[f"springs.force_curve_extension{number}"]
+            force = max(force, flat["springs.stiffness"] * (linear + height * (part - linear)))
+            flat[f"springs.force_curve_force{number}"] = force
     return flat
 
 

@@ -26,9 +26,9 @@ def finding(name, gain):
     return Finding(name, (Added(Unknown(name, "", None, np.eye(1))),), gain, {})
 
 
-def part(found, curve=None):
+def part(found):
     """A finding that the model has."""
-    return Part(found, curve, (), (), {"on": 1.0})
+    return Part(found, None, (), (), {"on": 1.0})
 
 
 class Rows:
@@ -240,31 +240,12 @@ def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(
     assert overruled(monkeypatch, part(lone) if own else Part(lone), more, gaps) is gone
 
 
-@pytest.mark.parametrize(
-    ("own", "unscattered", "gone"),
-    [(1.29, 1.3, False), (1.31, 1.3, True), (1.01, 1.58, False), (1.01, 1.6, True)],
-)
-def test_a_curve_that_is_the_law_stays_where_it_explains_the_runs(
-    monkeypatch, own, unscattered, gone
-):
-    """Its points are not fitted to the simulated runs, a rival's numbers are.
-
-    unscattered : gap with the curve before friction may scatter
-    """
-    lone = part(finding("spring_hardening", 39.0), object())
-    gaps = {"spring_hardening": own, "film_drag": 1.0}
-    assert overruled(monkeypatch, lone, 6e4, gaps, unscattered) is gone
-
-
-def overruled(monkeypatch, lone, more, gaps, unscattered=1.0):
+def overruled(monkeypatch, lone, more, gaps):
     """Whether film_drag overrules; gaps : of held-out runs with each, 2 without any."""
 
     def fitted(self, named, parts, **_):
         gap = Score(1.0, gaps[parts[0].effect] if parts else 2.0)
-        before = Score(unscattered, unscattered) if parts else Score(2.0, 2.0)
-        return SimpleNamespace(
-            gained=lambda part: 20.0, ladder=[SimpleNamespace(gap=gap)], unscattered=before
-        )
+        return SimpleNamespace(gained=lambda part: 20.0, ladder=[SimpleNamespace(gap=gap)])
 
     monkeypatch.setattr(agreement.Fitting, "fitted", fitted)
     rivals = {"film_drag": (part(finding("film_drag", 30.0)), more)}

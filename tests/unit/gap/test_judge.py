@@ -163,6 +163,9 @@ class Rows:
     def misfit(self):
         return sum(self.misfits.values()) - sum(self.misfits[one] for one in self.added)
 
+    def with_more(self, added):
+        return Rows(self.gains, self.misfits, (*self.added, *added))
+
     def offered(self, variants):
         return self.evidence + self.gains[variants[0].name], variants[0].name
 
@@ -284,7 +287,7 @@ def test_what_moves_the_block_across_has_a_name_and_no_curve():
     )  # fmt: skip
     said = "turning_surface, curvature = 0.995 1/m (0.985 to 1.005)."
     assert sentence_of(gap, [part]).endswith(said)
-    assert law_of(None, None, part) is None and list(exponents_of(part)) == []
+    assert law_of(None, None, part, 1.0) is None and list(exponents_of(part)) == []
 
 
 def test_data_in_doubt_are_said_to_be_the_reason():
