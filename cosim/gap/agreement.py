@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import islice
 
 from cosim.gap import judge
 from cosim.gap.data import Campaign
@@ -66,8 +67,7 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
             continue
         doubted = fitting.lost(parts, named, faint) or fitting.rejected(parts, named, faint)
         if doubted is None:
-            if not parts:
-                parts, named = fitting.aged(named)
+            parts, named = fitting.aged(parts, named)
             found, models = fitting.best_of(parts, named)
             if not (judge.explains(models.ladder) and models.is_felt):
                 along = {part.finding.name for part in parts if part.finding.added}
@@ -128,24 +128,23 @@ class Fitting:
         return [Rejected(one.name, one.gain, None)
                 for one in named.findings if one.added and one.gain < judge.SURE]  # fmt: skip
 
-    def aged(self, named: Named) -> tuple[list[Part], Named]:
-        """Static friction over the hold time, where a contact would have to let go very soon.
+    def aged(self, parts: list[Part], named: Named) -> tuple[list[Part], Named]:
+        """Static friction over the hold time as well, where a contact would let go very soon.
 
         Rows hardly tell the one from the other.
         """
-        without = self.fitted(named, [])
-        offered = named.ladder.first_offers.get(AGEING)
-        if offered is None or not judge.is_asked_for_ageing(
-            without.fits[-1].values.get(LOADING, 0.0)
-        ):
-            return [], named
-        finding = Finding(AGEING, offered[1], 0.0)
-        aged = _with_alone(named, finding)
+        without, names = self.fitted(named, parts), [part.finding.name for part in parts]
+        sooner = without.fits[-1].values.get(LOADING, 0.0)
+        if AGEING not in named.unknowns or AGEING in names or not judge.is_asked_for_ageing(sooner):
+            return parts, named
+        _, added = named.ladder.rung.offered(named.unknowns[AGEING])
+        finding = Finding(AGEING, (added,), 0.0)
+        aged = _with_more(named, finding)
         gained = self._gained(self.part(aged, finding), without, aged, judge.MUCH_MORE)
         if not judge.much_more(gained):
-            return [], named
-        aged = _with_alone(named, replace(finding, gain=gained))
-        return [self.part(aged, aged.findings[0])], aged
+            return parts, named
+        aged = _with_more(named, replace(finding, gain=gained))
+        return [*parts, self.part(aged, aged.findings[-1])], aged
 
     def _gained(
         self, part: Part, without: Models, named: Named, enough: float = LEAST_GAIN
@@ -302,13 +301,14 @@ class Fitting:
             return {}
         finding = lone.finding
         near = judge.rivals_of(finding, judge.explains(models.ladder))
-        rivals = {name: self._in_place(named, name) for name in near}
+        parts_of = ((name, self._in_place(named, name)) for name in near)
+        rivals = dict(islice((pair for pair in parts_of if pair[1].in_kernel), judge.RIVALS))
         if not rivals:
             return {}
         without = self._without(lone, parts, named)
         own = without.gained(lone) - price_of(finding.name) if lone.in_kernel else 0.0
         return {name: (rival, self._more(rival, finding.others[name], without, named) - own)
-                for name, rival in rivals.items() if rival.in_kernel}  # fmt: skip
+                for name, rival in rivals.items()}  # fmt: skip
 
     def _more(self, rival: Part, rows: float, without: Models, named: Named) -> float:
         """What simulated runs gain by a rival; by any form of its law, where rows hardly tell it.
@@ -383,6 +383,12 @@ class Fitting:
 def _with_alone(named: Named, finding: Finding) -> Named:
     """The same rows with this finding in place of all others."""
     return replace(named, findings=(finding,), rung=named.system.rung(finding.added))
+
+
+def _with_more(named: Named, finding: Finding) -> Named:
+    """The same rows with this finding, too."""
+    rung = named.rung.with_more(finding.added)
+    return replace(named, findings=(*named.findings, finding), rung=rung)
 
 
 def _lone(parts: Sequence[Part]) -> Part | None:

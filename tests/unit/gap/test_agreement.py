@@ -39,14 +39,19 @@ class Rows:
 
     def __init__(self, *findings, most=1, offers=(), left=1.0):
         self.findings, self.most, self.asked, self.left = findings, most, [], left
-        self.offers = {one.name: (one.gain, one.added) for one in offers}
+        self.offers = {one.name: [one] for one in offers}
 
     def named(self, without, most):
         self.asked.append(tuple(without))
         left = [one for one in self.findings if one.name not in without][:most]
         system = SimpleNamespace(rung=lambda added: None)
-        ladder = SimpleNamespace(first_offers=self.offers, rung=SimpleNamespace(gap=self.left))
-        return Named(ladder, tuple(left[: self.most]), system, None, {})
+        rung = SimpleNamespace(
+            gap=self.left, offered=lambda ones: (ones[0].gain, ones[0].added[0]),
+            with_more=lambda added: None,
+        )  # fmt: skip
+        offers = {name: ones for name, ones in self.offers.items() if name not in without}
+        found = tuple(left[: self.most])
+        return Named(SimpleNamespace(rung=rung), found, system, rung, offers)
 
 
 def agreed(
@@ -216,6 +221,23 @@ def test_rivals_of_a_finding_are_simulated(monkeypatch, gain, rows, gained, told
     assert fitting.overruled(parts, named, rivals) is None
 
 
+def test_of_rivals_those_are_simulated_that_the_model_has(monkeypatch):
+    """Three of them, in the order of the rows."""
+    modelled = ["film_drag", "structural_damping", "thermal_weakening", "velocity_weakening"]
+    others = {name: -float(n) for n, name in enumerate(["other.time", "other.release", *modelled])}
+    one = Finding("run_in", finding("run_in", 20.0).added, 20.0, others)
+    offers = {name: (0.0, one.added) for name in others}
+    system = SimpleNamespace(rung=lambda added=(): None)
+    named = Named(SimpleNamespace(first_offers=offers), (one,), system, None, {})
+    monkeypatch.setattr(agreement, "part_of", lambda campaign, system, rung, one, law: (
+        Part(one) if one.name.startswith("other.") else part(one)))  # fmt: skip
+    fitting = agreement.Fitting(None, lambda: None, 1)
+    ends = [SimpleNamespace(gap=Score(1.0, 1.0))]
+    models = SimpleNamespace(gained=lambda part: 1.0, ladder=ends)
+    monkeypatch.setattr(fitting, "fitted", lambda named, parts, **_: models)
+    assert list(fitting.rivals([part(one)], named, models)) == modelled[:3]
+
+
 @pytest.mark.parametrize(("left", "names"), [(1.9, 1), (2.1, 3)])
 def test_nothing_is_doubted_where_three_findings_leave_twice_the_noise(monkeypatch, left, names):
     """It is unknown whatever is dropped, and each fit to runs that are so far off is long."""
@@ -258,9 +280,11 @@ def overruled(monkeypatch, lone, more, gaps):
 )
 def test_a_contact_that_lets_go_very_soon_has_aged_less(monkeypatch, sooner, gained, named):
     """Rows do not tell the one from the other; simulated runs may."""
-    rows = Rows(offers=[finding("static_strengthening", 0.1)])
-    found, _ = agreed(monkeypatch, rows, {"static_strengthening": gained}, sooner=sooner)
-    assert found == ["static_strengthening"] * named
+    offers = [finding("static_strengthening", 0.1)]
+    gains = {"static_strengthening": gained, "run_in": 900.0}
+    for others in ([], [finding("run_in", 900.0)]):
+        found, _ = agreed(monkeypatch, Rows(*others, offers=offers), gains, sooner=sooner)
+        assert found == ["run_in"] * len(others) + ["static_strengthening"] * named
 
 
 def test_what_is_lost_by_itself_goes_before_the_others_are_asked_beside_it(monkeypatch):
