@@ -8,12 +8,13 @@
     of which a fault, and what no effect stands for, needs e^3 times as much.
  4. An argument is a finding where the rows are e^6 times as probable with it (e^3 the first), and
     it takes more than a small part of what was missing at first, or, where contact and scatter had
-    taken all of that, e^12 times; the best joins, all others are asked again.
+    taken all of that, e^12 times, or goes from run to run as scatter does; the best joins, all
+    others are asked again.
  5. Findings within e^3 of one another in the same place, and within e^6 in simulated runs, cannot
-    be told apart: a class; so are two within e^12, the first below e^500, of which simulated runs
-    prefer the second; where they do so by e^500, and rows prefer the first by e^200 at most, or by
-    a 200th of its own if it does not explain the runs, the first goes, if no effect stands for it
-    only where the second explains the runs.
+    be told apart: a class, of effects alone where two are among them; so are two within e^12, the
+    first below e^500, of which simulated runs prefer the second; where they do so by e^500, and
+    rows prefer the first by e^200 at most, or by a 200th of its own if it does not explain the
+    runs, the first goes, if no effect stands for it only where the second explains the runs.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`; with
     three that leave twice the noise in the rows nothing is doubted.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
@@ -103,7 +104,8 @@ def judge(
     if improves and after <= EXPLAINED:
         # two names for one thing: what cannot be told apart is one answer
         if classes and len(findings) == 1:
-            return Verdict("class", classes[0], classes)
+            known = tuple(name for name in classes[0] if name in physics)
+            return Verdict("class", known if len(known) > 1 else classes[0], classes)
         return Verdict("named", tuple(names), classes)
     own = without is None or halves(ladder[-1].gap, without)
     if improves and own and ladder[-1].share >= MOST:
