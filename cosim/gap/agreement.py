@@ -268,7 +268,8 @@ class Fitting:
         """Whether it takes what is missing without it, or half of that; or half before scatter.
 
         What makes the runs e^500 times as probable is a part of what is missing, also where the
-        contact or a friction that may scatter from run to run have taken it up.
+        contact or a friction that may scatter from run to run have taken it up; a trend over the
+        runs beside a greater one, which scatter takes up, where it makes them e^12 times as so.
         """
         without = self._without(part, parts, named)
         is_missed = judge.leaves(before := without.ladder[-1].gap)
@@ -277,7 +278,8 @@ class Fitting:
         found = self.fitted(named, parts)
         if found.is_lost:
             return False
-        if without.gained(part) > judge.SURE or (len(parts) == 1 and not is_missed):
+        is_lone, gained = len(parts) == 1, without.gained(part)
+        if judge.needs_no_misfit(part.finding.name, gained, is_lone) or (is_lone and not is_missed):
             return True
         after = found.ladder[-1].gap
         if is_missed and (not judge.leaves(after) or judge.halves(after, before)):

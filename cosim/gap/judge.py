@@ -21,10 +21,10 @@
     windows of runs that no fit has seen; 1 is noise.
  8. A finding below e^500, or beside a greater one, or that does not explain the runs or takes
     nothing of the gap by itself, goes, and the rows are not asked for it again, where the simulated
-    runs are not e^6 times as probable with it, e^30 by another of its laws, or, below e^500, it
-    takes neither all nor half of what they miss without it, at last or before friction may scatter,
-    or a greater one explains them before that. So for four rounds; then rows are asked for one
-    finding alone, and then for none. Static friction over the hold time, which rows do not tell
+    runs are not e^6 times as probable with it, e^30 by another of its laws, or, below e^500 (e^12:
+    a trend from run to run beside a greater one), it takes neither all nor half of what they miss
+    without it, at last or before friction may scatter, or a greater one explains them before that.
+    So for four rounds; then rows are asked for one finding alone, and then for none. Static friction over the hold time, which rows do not tell
     from a contact that lets go by 30 ms sooner, is found where simulated runs are e^30 times as
     probable with it. `none` is no finding left, and every run at 1.1 at most; without any held out
     nothing tells.
@@ -41,7 +41,7 @@ from dataclasses import dataclass, replace
 from cosim.gap.rates import confirmed
 from cosim.gap.result import Rates, Rung, Score
 from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN, MOST_FINDINGS, NEARLY_ALIKE, UNDECIDED
-from cosim.gap.weak_form.ladder import Finding
+from cosim.gap.weak_form.ladder import TRENDS, Finding
 
 #: Gap up to which nothing is missing: noise of a window's rows, whose states are free, and what
 #: windows of three cycles add up of a scatter that was not foreseen.
@@ -163,6 +163,11 @@ def is_asked_for_ageing(sooner: float) -> bool:
 def much_more(gained: float) -> bool:
     """Whether simulated runs ask for what rows do not, or for another form of what they do."""
     return gained > MUCH_MORE
+
+
+def needs_no_misfit(name: str, gained: float, is_lone: bool) -> bool:
+    """Whether simulated runs need a finding also where nuisances have taken what it takes."""
+    return gained > (UNDECIDED if name in TRENDS and not is_lone else SURE)
 
 
 def halves(left: Score, before: Score) -> bool:

@@ -103,8 +103,9 @@ def test_the_true_one_is_found_behind_a_pretended_one(monkeypatch):
 
 
 FIRST = {"run_in": 2.0 * SURE}
-PATTERN, DRAG, DRIFT = (FIRST | {name: gain} for name, gain in (
-    ("surface_pattern", 80.0), ("film_drag", 30.0), ("other.time", 30.0)))  # fmt: skip
+PATTERN, DRAG, DRIFT, TREND = (FIRST | {name: gain} for name, gain in (
+    ("surface_pattern", 80.0), ("film_drag", 30.0), ("other.time", 30.0),
+    ("load_dependence", 10.0)))  # fmt: skip
 #: What rows gain by each finding, simulated runs by the last, what else is so, how many are named.
 DECIDED = [
     # simulated runs ask by as much as the rows, for a fault of the camera by e^3 more
@@ -132,6 +133,9 @@ DECIDED = [
     # what simulated runs are sure of is named where scatter takes it up
     (DRAG, 499.0, {"halved": (1.31, 1.31)}, 1),
     (DRAG, 501.0, {"halved": (1.31, 1.31)}, 2),
+    # and a trend over the runs, which scatter takes up, beside another
+    (TREND, 11.9, {"halved": (2.0, 1.6)}, 1),
+    (TREND, 12.1, {"halved": (2.0, 1.6)}, 2),
     # a lone finding takes what is missing
     ({"speed_ripple": 56.0}, 80.0, {"reached": (1.19, 1.0), "halved": (2.0, 1.6)}, 1),
     ({"speed_ripple": 56.0}, 80.0, {"reached": (1.19, 1.09), "halved": (2.0, 1.6)}, 1),
