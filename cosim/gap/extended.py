@@ -7,7 +7,7 @@ their laws, so that what is shown is the model that a unit would run.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -160,7 +160,9 @@ def part_of(
         settings |= _of_load(finding, numbers, scales.force)
     if unknown.settings.get("per_stiffness"):
         settings |= _scaled(WITH_STIFFNESS, numbers, scales.stiffness)
-    settings |= _shares(best.effect, unknown.settings)
+    if (share := unknown.settings.get("static")) is not None:
+        kind = "relative" if share not in (0.0, 1.0) else "absolute"
+        numbers.append(Number(f"{best.effect}.static_{kind}", min(share, 1.0), None, 0.0, 2.0))
     if finding.name == "thermal_weakening":
         memory = unknown.settings["memory"]
         numbers = [n for n in numbers if not n.key.endswith("relaxation_time")]
@@ -223,14 +225,6 @@ def _scaled(how: str, numbers: Sequence[Number], typical: float) -> dict[str, fl
     """A law's strengths, which are what they say at a typical weight or stiffness."""
     strengths = [n.key for n in numbers if n.key.rpartition(".")[2] in STRENGTHS]
     return {f"{how}{key}": typical for key in strengths}
-
-
-def _shares(effect: str, settings: Mapping[str, float]) -> dict[str, float]:
-    """How static friction follows a drift of mu_k: not, by as much, or in proportion."""
-    share = settings.get("static", 0.0)
-    if share == 0.0:
-        return {}
-    return {f"{effect}.static_{'absolute' if share == 1.0 else 'relative'}": 1.0}
 
 
 def own_effects(campaign: Campaign) -> frozenset[str]:
