@@ -24,10 +24,10 @@
     runs are not e^6 times as probable with it, e^30 by another of its laws, or, below e^500 (e^12:
     a trend from run to run beside a greater one), it takes neither all nor half of what they miss
     without it, at last or before friction may scatter, or a greater one explains them before that.
-    So for four rounds; then rows are asked for one finding alone, and then for none. Static friction over the hold time, which rows do not tell
-    from a contact that lets go by 30 ms sooner, is found where simulated runs are e^30 times as
-    probable with it. `none` is no finding left, and every run at 1.1 at most; without any held out
-    nothing tells.
+    So for four rounds; then rows are asked for one finding alone, and then for none. Static
+    friction over the hold time, which rows do not tell from a contact that lets go by 30 ms sooner,
+    is found where simulated runs are e^30 times as probable with it. `none` is no finding left, and
+    every run at 1.1 at most; without any held out nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
     where they are better but stay above that, and most of the misfit is gone, half by findings.
 10. Everything else is `unknown`.
