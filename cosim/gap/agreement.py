@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice
 
 from cosim.gap import judge
 from cosim.gap.data import Campaign
@@ -303,14 +302,13 @@ class Fitting:
             return {}
         finding = lone.finding
         near = judge.rivals_of(finding, judge.explains(models.ladder))
-        parts_of = ((name, self._in_place(named, name)) for name in near)
-        rivals = dict(islice((pair for pair in parts_of if pair[1].in_kernel), judge.RIVALS))
+        rivals = {name: self._in_place(named, name) for name in near}
         if not rivals:
             return {}
         without = self._without(lone, parts, named)
         own = without.gained(lone) - price_of(finding.name) if lone.in_kernel else 0.0
         return {name: (rival, self._more(rival, finding.others[name], without, named) - own)
-                for name, rival in rivals.items()}  # fmt: skip
+                for name, rival in rivals.items() if rival.in_kernel}  # fmt: skip
 
     def _more(self, rival: Part, rows: float, without: Models, named: Named) -> float:
         """What simulated runs gain by a rival; by any form of its law, where rows hardly tell it.

@@ -56,7 +56,7 @@ BEYOND = 2.0
 SURE = 500.0
 #: ln of a Bayes factor up to which a contact may have turned rows, or, of what is sure and does not
 #: explain the runs, a part of its own: a law followed to 7 % leaves so much of its squares. And how
-#: many rivals that the model has are tried.
+#: many rivals are tried.
 TURNED, TURNED_PART, RIVALS = 200.0, 5e-3, 3
 #: Rounds in which rows are asked for what simulated runs do not confirm: after three no second one
 #: of two findings has ever been confirmed, in 164 campaigns with known answers.
@@ -185,7 +185,7 @@ def leaves(score: Score, most: float = NOTHING_MISSING) -> bool:
 
 
 def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
-    """What else rows ask for in its place, and a contact may have put behind it, the best first.
+    """What else the rows ask for in a finding's place, and a contact may have put behind it.
 
     does_explain : whether the model with the finding is near enough to the runs
     """
@@ -193,7 +193,7 @@ def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
     within = TURNED if finding.gain < SURE else within
     near = {name: less for name, less in finding.others.items()
             if less > -within and finding.gain + less > ALIKE}  # fmt: skip
-    return sorted(near, key=lambda name: -near[name])
+    return sorted(near, key=lambda name: -near[name])[:RIVALS]
 
 
 def told_by_both(finding: Finding, name: str, simulated: float) -> float:

@@ -225,23 +225,6 @@ def test_rivals_of_a_finding_are_simulated(monkeypatch, gain, rows, gained, told
     assert fitting.overruled(parts, named, rivals) is None
 
 
-def test_of_rivals_those_are_simulated_that_the_model_has(monkeypatch):
-    """Three of them, in the order of the rows."""
-    modelled = ["film_drag", "structural_damping", "thermal_weakening", "velocity_weakening"]
-    others = {name: -float(n) for n, name in enumerate(["other.time", "other.release", *modelled])}
-    one = Finding("run_in", finding("run_in", 20.0).added, 20.0, others)
-    offers = {name: (0.0, one.added) for name in others}
-    system = SimpleNamespace(rung=lambda added=(): None)
-    named = Named(SimpleNamespace(first_offers=offers), (one,), system, None, {})
-    monkeypatch.setattr(agreement, "part_of", lambda campaign, system, rung, one, law: (
-        Part(one) if one.name.startswith("other.") else part(one)))  # fmt: skip
-    fitting = agreement.Fitting(None, lambda: None, 1)
-    ends = [SimpleNamespace(gap=Score(1.0, 1.0))]
-    models = SimpleNamespace(gained=lambda part: 1.0, ladder=ends)
-    monkeypatch.setattr(fitting, "fitted", lambda named, parts, **_: models)
-    assert list(fitting.rivals([part(one)], named, models)) == modelled[:3]
-
-
 @pytest.mark.parametrize(("left", "names"), [(1.9, 1), (2.1, 3)])
 def test_nothing_is_doubted_where_three_findings_leave_twice_the_noise(monkeypatch, left, names):
     """It is unknown whatever is dropped, and each fit to runs that are so far off is long."""

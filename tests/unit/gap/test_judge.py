@@ -131,6 +131,8 @@ def test_rivals_are_the_best_few_that_rows_do_not_rule_out():
     near = {"film_drag": -199.0, "structural_damping": -201.0, "other.time": -4.0}
     clear = Finding("run_in", (), 300.0, near)
     assert rivals_of(clear, True) == ["other.time", "film_drag"]
+    many = {f"e{n}": -float(n) for n in range(9)}
+    assert rivals_of(finding("run_in", **many), True) == ["e0", "e1", "e2"]
     faint = Finding("run_in", (), 8.0, {"film_drag": -4.9, "other.time": -5.1})
     assert rivals_of(faint, True) == ["film_drag"]  # the other is not asked for by itself
     sure = Finding("run_in", (), 501.0, {"film_drag": -2.9, "other.time": -3.1})
