@@ -161,8 +161,9 @@ def part_of(
     if unknown.settings.get("per_stiffness"):
         settings |= _scaled(WITH_STIFFNESS, numbers, scales.stiffness)
     if (share := unknown.settings.get("static")) is not None:
-        kind = "relative" if share not in (0.0, 1.0) else "absolute"
-        numbers.append(Number(f"{best.effect}.static_{kind}", min(share, 1.0), None, 0.0, 2.0))
+        kind = "relative" if unknown.settings["in_proportion"] else "absolute"
+        start = 1.0 if kind == "relative" else share
+        numbers.append(Number(f"{best.effect}.static_{kind}", start, None, 0.0, 2.0))
     if finding.name == "thermal_weakening":
         memory = unknown.settings["memory"]
         numbers = [n for n in numbers if not n.key.endswith("relaxation_time")]

@@ -36,6 +36,9 @@ from cosim.gap.weak_form.rig_unknowns import Level
 from cosim.gap.weak_form.rows import Response, RunRows
 from cosim.gap.weak_form.unknowns import Curve, Unknown, column
 
+#: Form of a drift in which both coefficients keep their ratio.
+IN_PROPORTION = "mu_s in proportion"
+
 
 class Arguments:
     """The arguments of a campaign's runs, and the unknowns that they make."""
@@ -233,10 +236,10 @@ class Arguments:
         self, name: str, variant: str, values: dict[str, np.ndarray], curve: Curve,
         settings: dict[str, float],
     ) -> Iterator[Unknown]:  # fmt: skip
-        """Coefficient over what a run remembers: mu_s stays, moves by as much, or in proportion."""
-        shares = {"mu_k alone": 0.0, "mu_s by as much": 1.0}
+        """Coefficient over what a run remembers: mu_s stays, moves as well, or in proportion."""
+        shares = {"mu_k alone": 0.0, "mu_s by half as much": 0.5, "mu_s by as much": 1.0}
         if any(run.events for run in self.runs):
-            shares["mu_s in proportion"] = self.level.static / self.level.kinetic
+            shares[IN_PROPORTION] = self.level.static / self.level.kinetic
         for form, share in shares.items():
 
             def respond(run: RunRows, share: float = share) -> Response:
@@ -246,7 +249,8 @@ class Arguments:
                 return Response(force=unit * run.track.direction[:, None] * at, static=static)
 
             words = ", ".join(filter(None, [variant, form]))
-            yield Unknown.over(name, curve, respond, words, {**settings, "static": share})
+            more = {"static": share, "in_proportion": float(form == IN_PROPORTION)}
+            yield Unknown.over(name, curve, respond, words, {**settings, **more})
 
     def _trend(self, name: str, quantity: Callable[[RunRows], float]) -> Iterator[Unknown]:
         """Both coefficients with the logarithm of a setting of the runs."""

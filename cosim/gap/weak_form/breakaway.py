@@ -14,10 +14,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.ndimage import median_filter
 
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import Plane
-from cosim.gap.weak_form.constants import MOST_OVERSHOOT, SHORTEST_STICK
+from cosim.gap.weak_form.constants import ALIKE_SLIPS, MOST_OVERSHOOT, SHORTEST_STICK
 from cosim.gap.weak_form.rig_geometry import spring_loads
 from cosim.gap.weak_form.track import SmoothTrack
 
@@ -47,12 +48,14 @@ def break_aways(track: SmoothTrack, rig: Rig, plane: Plane | None = None) -> tup
     """
     run = track.run
     sign = 1.0 if run.surface_speed >= 0.0 else -1.0
-    balance = sign * _balance(track)
     overshoot = abs(run.surface_speed) / run.natural_frequency
     swing = round(np.pi / run.natural_frequency / track.interval)
     shortest = SHORTEST_STICK * 2.0 * np.pi / run.natural_frequency
     found = []
-    for (_, end), (begin, last) in zip(track.slips, track.slips[1:], strict=False):
+    balances = sign * _balances(track)[1:]
+    for (_, end), (begin, last), balance in zip(
+        track.slips, track.slips[1:], balances, strict=False
+    ):
         hold = (begin - end) * track.interval
         if hold < shortest or not track.seen[end:begin].all():
             continue
@@ -78,13 +81,14 @@ def _held(rig: Rig, stiffness: float, x: float, at: int, plane: Plane | None) ->
     return -float(np.copysign(np.hypot(along[0], across[0]), along[0]))
 
 
-def _balance(track: SmoothTrack) -> float:
-    """Where springs and kinetic friction balance, m: m x'' / K + x, its median over the slips."""
-    slipping = track.slips_mask
-    if not slipping.any():
-        return 0.0
+def _balances(track: SmoothTrack) -> np.ndarray:
+    """(slips,) where springs and kinetic friction balance, m: m x'' / K + x, its median in a slip.
+
+    And of those of the slips next to it: friction may drift over a run, and a slip has much noise.
+    """
     force = track.place + track.acceleration / track.run.natural_frequency**2
-    return float(np.median(force[slipping]))
+    slips = [float(np.median(force[first:last])) for first, last in track.slips]
+    return np.asarray(median_filter(slips, size=ALIKE_SLIPS, mode="nearest"))
 
 
 def _weighed(

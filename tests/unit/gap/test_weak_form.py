@@ -11,6 +11,7 @@ from scipy.special import logsumexp
 from scipy.stats import multivariate_normal
 
 from cosim.gap import read_campaign
+from cosim.gap.agreement import Fitting
 from cosim.gap.extended import part_of
 from cosim.gap.naming import Naming
 from cosim.gap.scatter import Scatter, scatter_text
@@ -124,6 +125,17 @@ def test_springs_of_two_makes_harden_in_proportion_to_their_stiffness_or_not(
         made = 1e4 * (run.stiffness / KNOWN["stiffness"] if proportional else 1.0)
         known = parameters_of(run, values)
         assert known["spring_hardening.cubic"] == pytest.approx(made, rel=0.2)
+
+
+def test_what_static_friction_takes_of_a_drift_is_fitted_to_the_runs(tmp_path):
+    worn = {"change": -0.3, "distance": 0.3, "static_absolute": 0.5}
+    campaign = written(tmp_path, run_in=worn)
+    fitting, named = Fitting(campaign, lambda: None, 2), Naming.of(campaign).named()
+    assert [finding.name for finding in named.findings] == ["run_in"]
+    parts = [fitting.part(named, named.findings[0])]
+    models = fitting.fitted(named, parts)
+    assert models.fits[-1].values["run_in.static_absolute"] == pytest.approx(0.5, abs=0.05)
+    assert models.ladder[-1].gap.fit < 1.05
 
 
 def test_a_trend_over_the_runs_is_found_where_scatter_would_have_to_take_it(tmp_path):
