@@ -66,7 +66,8 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
             continue
         doubted = fitting.lost(parts, named, faint) or fitting.rejected(parts, named, faint)
         if doubted is None:
-            parts, named = fitting.aged(parts, named)
+            if not parts:
+                parts, named = fitting.aged(named)
             found, models = fitting.best_of(parts, named)
             if not (judge.explains(models.ladder) and models.is_felt):
                 along = {part.finding.name for part in parts if part.finding.added}
@@ -127,23 +128,24 @@ class Fitting:
         return [Rejected(one.name, one.gain, None)
                 for one in named.findings if one.added and one.gain < judge.SURE]  # fmt: skip
 
-    def aged(self, parts: list[Part], named: Named) -> tuple[list[Part], Named]:
-        """Static friction over the hold time as well, where a contact would let go very soon.
+    def aged(self, named: Named) -> tuple[list[Part], Named]:
+        """Static friction over the hold time, where a contact would have to let go very soon.
 
         Rows hardly tell the one from the other.
         """
-        without, names = self.fitted(named, parts), [part.finding.name for part in parts]
-        sooner = without.fits[-1].values.get(LOADING, 0.0)
-        if AGEING not in named.unknowns or AGEING in names or not judge.is_asked_for_ageing(sooner):
-            return parts, named
-        _, added = named.ladder.rung.offered(named.unknowns[AGEING])
-        finding = Finding(AGEING, (added,), 0.0)
-        aged = _with_more(named, finding)
+        without = self.fitted(named, [])
+        offered = named.ladder.first_offers.get(AGEING)
+        if offered is None or not judge.is_asked_for_ageing(
+            without.fits[-1].values.get(LOADING, 0.0)
+        ):
+            return [], named
+        finding = Finding(AGEING, offered[1], 0.0)
+        aged = _with_alone(named, finding)
         gained = self._gained(self.part(aged, finding), without, aged, judge.MUCH_MORE)
         if not judge.much_more(gained):
-            return parts, named
-        aged = _with_more(named, replace(finding, gain=gained))
-        return [*parts, self.part(aged, aged.findings[-1])], aged
+            return [], named
+        aged = _with_alone(named, replace(finding, gain=gained))
+        return [self.part(aged, aged.findings[0])], aged
 
     def _gained(
         self, part: Part, without: Models, named: Named, enough: float = LEAST_GAIN
@@ -383,12 +385,6 @@ class Fitting:
 def _with_alone(named: Named, finding: Finding) -> Named:
     """The same rows with this finding in place of all others."""
     return replace(named, findings=(finding,), rung=named.system.rung(finding.added))
-
-
-def _with_more(named: Named, finding: Finding) -> Named:
-    """The same rows with this finding, too."""
-    rung = named.rung.with_more(finding.added)
-    return replace(named, findings=(*named.findings, finding), rung=rung)
 
 
 def _lone(parts: Sequence[Part]) -> Part | None:

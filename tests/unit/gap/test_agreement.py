@@ -39,19 +39,14 @@ class Rows:
 
     def __init__(self, *findings, most=1, offers=(), left=1.0):
         self.findings, self.most, self.asked, self.left = findings, most, [], left
-        self.offers = {one.name: [one] for one in offers}
+        self.offers = {one.name: (one.gain, one.added) for one in offers}
 
     def named(self, without, most):
         self.asked.append(tuple(without))
         left = [one for one in self.findings if one.name not in without][:most]
         system = SimpleNamespace(rung=lambda added: None)
-        rung = SimpleNamespace(
-            gap=self.left, offered=lambda ones: (ones[0].gain, ones[0].added[0]),
-            with_more=lambda added: None,
-        )  # fmt: skip
-        offers = {name: ones for name, ones in self.offers.items() if name not in without}
-        found = tuple(left[: self.most])
-        return Named(SimpleNamespace(rung=rung), found, system, rung, offers)
+        ladder = SimpleNamespace(first_offers=self.offers, rung=SimpleNamespace(gap=self.left))
+        return Named(ladder, tuple(left[: self.most]), system, None, {})
 
 
 def agreed(
@@ -267,11 +262,9 @@ def overruled(monkeypatch, lone, more, gaps):
 )
 def test_a_contact_that_lets_go_very_soon_has_aged_less(monkeypatch, sooner, gained, named):
     """Rows do not tell the one from the other; simulated runs may."""
-    offers = [finding("static_strengthening", 0.1)]
-    gains = {"static_strengthening": gained, "run_in": 900.0}
-    for others in ([], [finding("run_in", 900.0)]):
-        found, _ = agreed(monkeypatch, Rows(*others, offers=offers), gains, sooner=sooner)
-        assert found == ["run_in"] * len(others) + ["static_strengthening"] * named
+    rows = Rows(offers=[finding("static_strengthening", 0.1)])
+    found, _ = agreed(monkeypatch, rows, {"static_strengthening": gained}, sooner=sooner)
+    assert found == ["static_strengthening"] * named
 
 
 def test_what_is_lost_by_itself_goes_before_the_others_are_asked_beside_it(monkeypatch):
