@@ -14,11 +14,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import median_filter
 
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import Plane
-from cosim.gap.weak_form.constants import ALIKE_SLIPS, MOST_OVERSHOOT, SHORTEST_STICK
+from cosim.gap.weak_form.constants import (
+    MOST_OVERSHOOT,
+    SHORTEST_STICK,
+    SLIPS_OF_A_POWER,
+)
 from cosim.gap.weak_form.rig_geometry import spring_loads
 from cosim.gap.weak_form.track import SmoothTrack
 
@@ -84,11 +87,16 @@ def _held(rig: Rig, stiffness: float, x: float, at: int, plane: Plane | None) ->
 def _balances(track: SmoothTrack) -> np.ndarray:
     """(slips,) where springs and kinetic friction balance, m: m x'' / K + x, its median in a slip.
 
-    And of those of the slips next to it: friction may drift over a run, and a slip has much noise.
+    A slip has much noise, which its neighbours must not share, and friction may drift over a run:
+    a cubic of the time, a line where slips are few.
     """
     force = track.place + track.acceleration / track.run.natural_frequency**2
-    slips = [float(np.median(force[first:last])) for first, last in track.slips]
-    return np.asarray(median_filter(slips, size=ALIKE_SLIPS, mode="nearest"))
+    medians = [float(np.median(force[first:last])) for first, last in track.slips]
+    lengths = [last - first for first, last in track.slips]
+    middles = [0.5 * (first + last) for first, last in track.slips]
+    degree = min(len(medians) // SLIPS_OF_A_POWER, 3)
+    course = np.polynomial.Polynomial.fit(middles, medians, degree, w=np.sqrt(lengths))
+    return np.asarray(course(np.array(middles)))
 
 
 def _weighed(

@@ -53,9 +53,9 @@ ROUNDING = 1e-9
 #: Of the largest deflection, the part that the surface's own speed may make: beyond it nearly all
 #: of the overshoot is the belt's, and what the contact held is the small difference of two numbers.
 MOST_OVERSHOOT = 0.8
-#: Slips in a row of which kinetic friction is taken as one: a drift over a run of tens of slips is
-#: followed, the noise of a slip's acceleration is not.
-ALIKE_SLIPS = 5
+#: Slips for each power of the time by which kinetic friction is followed over a run: the error of
+#: the course is then half of a slip's at most.
+SLIPS_OF_A_POWER = 5
 #: A stick shorter than this part of a period may be none.
 SHORTEST_STICK = 0.08
 
