@@ -198,16 +198,15 @@ class Statements:
         refuse(self.where, node, "loops go over range()")
 
     def _step(self, node: ast.For, step: ast.expr) -> int:
-        negative = isinstance(step, ast.UnaryOp) and isinstance(step.op, ast.USub)
-        value: object = None
-        match step.operand if negative else step:
-            case ast.Constant(value=value):
-                pass
-            case ast.Name(id=name) if name not in self.made.of_names:
-                value = self.program.constants.get(name)
+        sign, size = 1, step
+        if isinstance(step, ast.UnaryOp) and isinstance(step.op, ast.USub):
+            sign, size = -1, step.operand
+        value: object = size.value if isinstance(size, ast.Constant) else None
+        if isinstance(size, ast.Name) and size.id not in self.made.of_names:
+            value = self.program.constants.get(size.id)
         if not isinstance(value, int) or value == 0:
             refuse(self.where, node, "the step of a range is a whole constant")
-        return -value if negative else value
+        return sign * value
 
     def _return(self, node: ast.Return, value: ast.expr | None) -> None:
         kind = self.function.returns
