@@ -102,7 +102,7 @@ RECIPE_FILES = (
     Path(units.__file__),
     Path(description.__file__),
     *sorted(Path(description.__file__).parent.glob("*.xml.j2")),
-    Path(ports.__file__),
+    Path(ports.__file__).with_name("ports.toml"),
 )
 
 
