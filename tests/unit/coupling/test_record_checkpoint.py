@@ -17,7 +17,7 @@ EXAMPLE = Checkpoint(
     setup={"rig.mass": 0.67, "unit": "{1234}", "order": ["a", "b"]},
     master={"outputs": {"a": {"x": 1 / 3, "n": 3, "on": True}}, "past": [[0.1, None], []]},
     states={"a": bytes(range(256)) * 5, "b/../ü": b"", "c": b"c"},
-    record={"rows": 7, "kept": 6, "last": [5e-324, -0.0, 1.7976931348623157e308]},
+    record={"rows": 6, "newest": [5e-324, -0.0, 1.7976931348623157e308]},
 )
 
 
@@ -62,7 +62,7 @@ def test_another_format_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr("cosim.coupling.record.checkpoint.FORMAT", 99)
     path = save_checkpoint(tmp_path / "c.zip", EXAMPLE)
     monkeypatch.undo()
-    with pytest.raises(CheckpointError, match="format 99, this version goes on from format 1"):
+    with pytest.raises(CheckpointError, match="format 99, this version goes on from format 2"):
         load_checkpoint(path)
 
 
