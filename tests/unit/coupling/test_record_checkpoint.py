@@ -29,7 +29,9 @@ def saved(tmp_path):
 def test_comes_back_as_it_was(saved):
     found = load_checkpoint(saved)
     assert found == EXAMPLE
-    assert np.array(found.record["last"]).tobytes() == np.array(EXAMPLE.record["last"]).tobytes()
+    assert (
+        np.array(found.record["newest"]).tobytes() == np.array(EXAMPLE.record["newest"]).tobytes()
+    )
     assert type(found.master["outputs"]["a"]["n"]) is int
     assert type(found.master["outputs"]["a"]["on"]) is bool
 
