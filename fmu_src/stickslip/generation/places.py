@@ -53,14 +53,17 @@ class Place:
 
 
 _DECLARED = tomllib.loads(Path(__file__).with_name("places.toml").read_text("utf-8"))
-#: Words that a term of the contact or the surface can take, and constants of a run, which a term of
-#: any place can -> where the kernel has them.
-WORDS: dict[str, str]
-CONSTANTS: dict[str, str]
-WORDS, CONSTANTS = (
-    {word: told["kernel"] for word, told in _DECLARED[kind].items()}
-    for kind in ("words", "constants")
-)
+
+
+def _in_kernel(kind: str) -> dict[str, str]:
+    """Word -> where the kernel has it."""
+    return {word: told["kernel"] for word, told in _DECLARED[kind].items()}
+
+
+#: Words that a term of the contact or the surface can take.
+WORDS = _in_kernel("words")
+#: Constants of a run, which a term of any place can take.
+CONSTANTS = _in_kernel("constants")
 #: At which values a word is tried, in SI units, degC.
 TRIED: dict[str, Sequence[float]] = {
     word: told["tried"]
