@@ -15,9 +15,9 @@ from stickslip.kernel.outputs import show
 from stickslip.kernel.rig.drive import lead_inputs
 from stickslip.kernel.rig.springs import spring_length
 from stickslip.packing import pack
-from stickslip.status import WHY_NOT
 from stickslip.unit_slave import Refused, UnitSlave
 from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS, TUNABLE
+from stickslip.words import WHY_NOT
 
 #: Parameters that say what a rig bears.
 LIMITS = ("turning_surface.curvature", "belt.width", "springs.longest")

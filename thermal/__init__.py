@@ -25,10 +25,9 @@ if TYPE_CHECKING:
     from .parameters import Ambient as Ambient
     from .parameters import ParameterError as ParameterError
     from .parameters import ThermalParameters as ThermalParameters
+    from .steady_sliding import NoSteadyState as NoSteadyState
     from .steady_sliding import SlidingState as SlidingState
     from .steady_sliding import SteadySliding as SteadySliding
-    from .steady_state import NoSteadyState as NoSteadyState
-    from .steady_state import settle as settle
 
 _HOMES = {
     ".belt.parameters": "Belt Layer",
@@ -39,8 +38,7 @@ _HOMES = {
     ".model": "BeltIceModel",
     ".output": "FieldSeries RigView collection rig_view",
     ".parameters": "Ambient ParameterError ThermalParameters",
-    ".steady_sliding": "SlidingState SteadySliding",
-    ".steady_state": "NoSteadyState settle",
+    ".steady_sliding": "NoSteadyState SlidingState SteadySliding",
 }
 _HOME = {name: home for home, names in _HOMES.items() for name in names.split()}
 __all__ = sorted(_HOME)

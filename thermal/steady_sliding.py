@@ -25,7 +25,6 @@ from .contact.footprint import Footprint
 from .ice.block import standing_block
 from .ice.body import IceBody
 from .parameters import ThermalParameters
-from .steady_state import FOREVER, check_gives_heat
 
 #: First steps of a transient: parts of the usual one, since fluxes start like the root of time.
 _START = (1 / 32, 1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2)
@@ -41,6 +40,27 @@ _END_OF_RAMP = (1 / 2, 1 / 4, 1 / 8, 1 / 8)
 
 #: Steps in a pause: each longer than the one before by the same factor.
 _PAUSE_STEPS, _FIRST_OF_PAUSE = 24, 1e-3
+
+
+#: A step after which nothing changes any more, s: its mean differs from its end by the part of it
+#: that the slowest change (hours) takes.
+FOREVER = 1e13
+
+#: Rates below this are those of a belt that keeps its heat, 1/s: a year is 3e7 s.
+_KEEPS_HEAT = 1e-9
+
+
+class NoSteadyState(ValueError):
+    """The belt gives no heat away, so it warms for ever; or the ice melts for ever."""
+
+
+def check_gives_heat(slowest_rate: float, to_supports: bool) -> None:
+    """NoSteadyState when a belt gives its heat neither to the air nor to supports."""
+    if slowest_rate < _KEEPS_HEAT and not to_supports:
+        raise NoSteadyState(
+            "belt.air_heat_transfer = 0: a belt that gives its heat to nothing warms for ever and"
+            " has no steady state; allowed is above 0, or a railing or rollers that take heat"
+        )
 
 
 class SlidingState(NamedTuple):

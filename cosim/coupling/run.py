@@ -86,6 +86,7 @@ def run(
     reason = "" if error is None else str(error)
     if status == "interrupted":
         reason = f"interrupted at t = {reached:.9g} s"
+    keeper.recording.end()
     values = keeper.recording.values()
     return CoupledResult(
         time=keeper.recording.time,

@@ -6,7 +6,7 @@ from string import Formatter
 
 from stickslip.catalogue import Catalogue
 from stickslip.contradictions import COMPUTABLE
-from stickslip.status import WHY_NOT
+from stickslip.words import WHY_NOT
 
 from cosim.fmu.exchange import INDICATORS, local_slots, state_references, states
 from cosim.fmu.variables import HOLD, LIMITS, WATCHED, Variable, by_array, names

@@ -16,22 +16,6 @@ from cosim.fmu.variables import variables as variables_without
 
 #: Event indicators of the kernel.
 INDICATORS = layout.INDICATORS
-# Outputs that are states, by the kernel's names.
-OUTPUTS = {
-    "X": "x",
-    "Y": "y",
-    "PHI": "phi",
-    "VX": "vx",
-    "VY": "vy",
-    "OMEGA": "omega",
-    "TRAVEL": "surface_travel",
-    "DISTANCE": "sliding_distance",
-    "HEAT": "heat",
-    "WORK_SURFACE": "surface_work",
-    "WORK_EXTERNAL": "external_work",
-    "DAMPED": "damping_heat",
-    "SLIP_TIME": "slip_time",
-}
 BRISTLES = {
     "SHEAR_X": ("bristles.shear_x", "Shear of the contact along x"),
     "SHEAR_Y": ("bristles.shear_y", "Shear of the contact across, scaled as the sliding velocity"),
@@ -42,11 +26,15 @@ RATE_UNITS = {"m/s": "m/s2", "rad/s": "rad/s2", "J": "W", "s": "1"}
 
 def states(catalogue: Catalogue = CATALOGUE) -> list[Variable]:
     """The continuous states in the order of the kernel, which is that of FMI's vector of states."""
-    declared = {variable.name: variable for variable in variables_without(catalogue)}
+    outputs = {
+        variable.slot.removeprefix("O_"): variable
+        for variable in variables_without(catalogue)
+        if variable.causality == "output"
+    }
     found = []
     for slot in _slots(catalogue):
-        if slot in OUTPUTS:
-            found.append(replace(declared[OUTPUTS[slot]], is_state=True))
+        if slot in outputs:
+            found.append(replace(outputs[slot], is_state=True))
         elif slot in BRISTLES:
             name, description = BRISTLES[slot]
             found.append(Variable(name, "local", "m", 1e-4, description, is_state=True))

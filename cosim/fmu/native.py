@@ -16,12 +16,12 @@ from pathlib import Path
 from xml.etree.ElementTree import ParseError, fromstring
 
 from stickslip.catalogue import CATALOGUE, Catalogue
-from stickslip.contradictions import COMPUTABLE, SAID
+from stickslip.contradictions import COMPUTABLE
 from stickslip.generation import c as c_generation
 from stickslip.generation.c import c_header, c_source
 from stickslip.generation.platforms import Platform
 from stickslip.kernel.tables import value_names
-from stickslip.status import WHY_NOT
+from stickslip.words import SAID, WHY_NOT
 
 from cosim.files import write_bytes
 from cosim.fmu import c_tables

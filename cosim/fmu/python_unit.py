@@ -99,10 +99,10 @@ RECIPE_FILES = (
         Path(__file__).with_name,
         ("pythonfmu_library.py", "pythonfmu.toml", "variables.py", "variables.toml"),
     ),
-    Path(units.__file__),
+    Path(units.__file__).with_name("units.toml"),
     Path(description.__file__),
     *sorted(Path(description.__file__).parent.glob("*.xml.j2")),
-    Path(ports.__file__),
+    Path(ports.__file__).with_name("ports.toml"),
 )
 
 

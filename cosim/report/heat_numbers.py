@@ -133,8 +133,8 @@ def end_of_sliding(dataset: Data) -> dict[str, float | str | None]:
     Steady sliding with the mean friction heat after the ramp, on a belt that gives as much to the
     air as in this run. Nothing for a run without such a time, nor for a mesh, which takes long.
     """
+    from thermal import NoSteadyState
     from thermal.in_the_end import in_the_end
-    from thermal.steady_state import NoSteadyState
 
     speed, ramp = abs(value_of(dataset, "surface", "speed") or 0.0), ramp_end(dataset)
     late = dataset.sel(time=slice(ramp, None))

@@ -9,7 +9,7 @@ import numpy as np
 from .catalogue import CATALOGUE, Catalogue
 from .kernel import layout as places
 from .parameters import Parameters
-from .status import WHY_NOT
+from .words import WHY_NOT
 
 #: x, y (m), phi (rad), vx, vy (m/s), omega (rad/s)
 STATE = ("x", "y", "phi", "vx", "vy", "omega")

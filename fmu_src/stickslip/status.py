@@ -1,4 +1,4 @@
-"""Why `advance` gave up, in sentences with the remedy; and whether it would, before it starts."""
+"""Whether a motion could be followed, before it starts: how long its steps may be."""
 
 from __future__ import annotations
 
@@ -10,20 +10,6 @@ from .kernel.bristles.step import STABLE
 
 if TYPE_CHECKING:
     from .parameters import Parameters
-
-WHY_NOT = {
-    layout.STEP_VANISHED: "the integrator's step fell below the resolution of time; check mass, "
-    "stiffness, initial state and what is next to nothing, such as rig.contact_radius or "
-    "friction.transition_speed, or raise solver.tolerance",
-    layout.NOT_FINITE: "the motion grew beyond all numbers",
-    layout.SPRING_COLLAPSED: "the block was carried into the anchor of a spring; use stiffer or "
-    "longer springs, or less friction",
-    layout.TOO_STIFF: "something answers faster than the motion can be followed in steps that "
-    "anybody would wait for; if the contact creeps, raise mu_s above mu_k, take "
-    "lateral_friction.ratio 0 or 1, or a larger rate_and_state.creep_speed; else check mass, "
-    "stiffness, damping, lengths of the rig and of patterns on the surface, or make shorter "
-    "communication steps",
-}
 
 #: Internal steps for a second of motion that the kernel still takes.
 MOST_STEPS_PER_SECOND = layout.STEPS_PER_SECOND

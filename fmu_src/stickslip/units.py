@@ -2,64 +2,19 @@
 written into a file."""
 
 import re
-from math import pi
+import tomllib
+from pathlib import Path
 
-# FMI 2 unit name -> exponents of its base units, factor and offset; None: the exponents are not
-# whole numbers, which FMI cannot state
+_DECLARED = tomllib.loads(Path(__file__).with_name("units.toml").read_text("utf-8"))
+#: FMI 2 unit name -> exponents of its base units, factor and offset; None: the exponents are not
+#: whole numbers, which FMI cannot state.
 UNITS: dict[str, dict[str, float] | None] = {
-    "1": {},
-    "m": {"m": 1},
-    "m/s": {"m": 1, "s": -1},
-    "rad": {"rad": 1},
-    "rad/s": {"rad": 1, "s": -1},
-    "rad/s2": {"rad": 1, "s": -2},
-    "deg": {"rad": 1, "factor": pi / 180},
-    "s": {"s": 1},
-    "kg": {"kg": 1},
-    "kg.m2": {"kg": 1, "m": 2},
-    "N": {"kg": 1, "m": 1, "s": -2},
-    "N.m": {"kg": 1, "m": 2, "s": -2},
-    "N/m": {"kg": 1, "s": -2},
-    "J": {"kg": 1, "m": 2, "s": -2},
-    "J/m3": {"kg": 1, "m": -1, "s": -2},
-    "Pa": {"kg": 1, "m": -1, "s": -2},
-    "Pa.s": {"kg": 1, "m": -1, "s": -1},
-    "W.s0.5/(m2.K)": None,
-    "W": {"kg": 1, "m": 2, "s": -3},
-    "degC": {"K": 1, "offset": 273.15},
-    "K": {"K": 1},
-    "kg/s": {"kg": 1, "s": -1},
-    "kg/m3": {"kg": 1, "m": -3},
-    "J/kg": {"m": 2, "s": -2},
-    "J/(kg.K)": {"m": 2, "s": -2, "K": -1},
-    "W/(m.K)": {"kg": 1, "m": 1, "s": -3, "K": -1},
-    "W/(m2.K)": {"kg": 1, "s": -3, "K": -1},
-    "1/K": {"K": -1},
-    "1/J": {"kg": -1, "m": -2, "s": 2},
-    "Hz": {"s": -1},
-    "s/m": {"s": 1, "m": -1},
-    "N/m3": {"kg": 1, "m": -2, "s": -2},
-    "N/m5": {"kg": 1, "m": -4, "s": -2},
-    "N.s/m": {"kg": 1, "s": -1},
-    "N.s2/m2": {"kg": 1, "m": -1},
-    "N.m.s": {"kg": 1, "m": 2, "s": -1},
-    "1/m": {"m": -1},
-    "1/s": {"s": -1},
-    "m/s2": {"m": 1, "s": -2},
+    name: None if isinstance(told, str) else told for name, told in _DECLARED["units"].items()
 }
-
-
 #: Letter or letters before a unit -> factor.
-PREFIXES = {"": 1.0, "n": 1e-9, "u": 1e-6, "µ": 1e-6, "m": 1e-3, "c": 1e-2, "k": 1e3, "M": 1e6}
+PREFIXES: dict[str, float] = _DECLARED["prefixes"]
 #: What a unit is put together of, beside those of `UNITS` that are a word: name -> as there.
-_WRITTEN: dict[str, dict[str, float]] = {
-    "g": {"kg": 1, "factor": 1e-3},
-    "min": {"s": 1, "factor": 60.0},
-    "h": {"s": 1, "factor": 3600.0},
-    "bar": {"kg": 1, "m": -1, "s": -2, "factor": 1e5},
-    "°C": {"K": 1, "offset": 273.15},
-    "°": {"rad": 1, "factor": pi / 180},
-}
+_WRITTEN: dict[str, dict[str, float]] = _DECLARED["written"]
 _QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\W\d].*|°.*)")
 #: Operator, bracket that opens, name, exponent, bracket that closes.
 _PART = re.compile(r"\s*([*/.·]?)\s*(\(?)\s*([^\W\d]+|°C?)(?:(?:\^|\*\*)?(-?\d))?\s*(\)?)")

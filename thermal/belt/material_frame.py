@@ -92,23 +92,6 @@ class BeltField:
             loss_forced=duration * np.sum(self._air * entering[..., 0] * held_mean[:, 0], axis=1),
         )
 
-    def periodic_response(self, duration: float, shift: int) -> Response:
-        """Of a step before and after which the field is the same, `shift` nodes further back.
-
-        Without memory: `forced` gives the field before the step, which the loads sustain.
-        """
-        once = self.response(duration)
-        turn = 2j * np.pi * shift / self.cells * np.arange(self.rates.shape[1])
-        # exp(turn) - decay, without cancelling
-        kept = once.forced / (np.expm1(turn) - np.expm1(-self.rates * duration))
-        pairs = np.einsum("amk,bmk->abk", once.free_mean, kept)
-        return once._replace(
-            decay=np.zeros_like(once.decay),
-            free_mean=np.zeros_like(once.free_mean),
-            forced=kept,
-            kernels=once.kernels + irfft(pairs, self.cells, axis=-1),
-        )
-
     def nodal(self, first: int, loads: Array) -> Array:
         """Loads (nodes,) on consecutive nodes from `first` on, wrapped onto the loop: (cells,)."""
         nodal = np.zeros(self.cells)
@@ -117,15 +100,13 @@ class BeltField:
             nodal[(first + start + np.arange(piece.size)) % self.cells] += piece
         return nodal
 
-    def face_means(
-        self, duration: float, patches: Sequence[FluxPatch], response: Response | None = None
-    ) -> tuple[Array, Array]:
+    def face_means(self, duration: float, patches: Sequence[FluxPatch]) -> tuple[Array, Array]:
         """Step-means of the faces under the patches, summed over the nodes with their loads.
 
         Returns the means (rows,) without load, K m2, and their response (rows, rows), to fluxes
-        of 1 W/m2 on the rows; rows of all patches in a row. response: in place of the step's own.
+        of 1 W/m2 on the rows; rows of all patches in a row.
         """
-        response = response or self.response(duration)
+        response = self.response(duration)
         free = {}
         for face in {patch.face for patch in patches}:
             weighted = np.einsum("mk,mk->k", response.free_mean[face], self.amplitudes)

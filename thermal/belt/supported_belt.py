@@ -8,7 +8,7 @@ from numpy.fft import rfft
 from thermal.arrays import Array
 from thermal.contact.footprint import Footprint, strip_loads
 
-from .material_frame import BeltField, FluxPatch, Response
+from .material_frame import BeltField, FluxPatch
 from .parameters import Belt
 from .supports import CONTACT, Eliminated, Places
 
@@ -37,24 +37,18 @@ class SupportedBelt:
         self._air = parameters.film
 
     def step_response(
-        self,
-        duration: float,
-        centre: float,
-        movement: float,
-        travel: float,
-        belt: Response | None = None,
+        self, duration: float, centre: float, movement: float, travel: float
     ) -> StepResponse:
         """What a step of some duration (s) finds, the contact moving from `centre` (m).
 
-        travel: of the belt over its supports, m, signed. belt: how it responds, when not as to
-        a step.
+        travel: of the belt over its supports, m, signed.
         """
         places, cell = self.places, self.belt.cell
         patches = [
             FluxPatch(face, *strip_loads(edges, self._lane, centre, movement, cell))
             for face, edges in zip(places.faces, places.edges, strict=True)
         ]
-        means, response = self.belt.face_means(duration, patches, belt)
+        means, response = self.belt.face_means(duration, patches)
         free, response = means / places.areas, response / places.areas[:, None]
         rubbing = places.drags * (abs(travel) / duration)
         given = places.conductances * places.rises + rubbing

@@ -89,7 +89,7 @@ class Snapshots:
                 "number": self._number,
                 "position": self.position.tolist(),
                 "contact_length": self.contact_length,
-                "pictures": None if self._pictures is None else self._pictures.place,
+                "pictures": None if self._pictures is None else len(self._pictures),
                 "views": None if self._views is None else self._views.state(),
             }
         ).encode()
@@ -105,7 +105,7 @@ class Snapshots:
         if state["pictures"] is None or self._store is None:
             return
         self._pictures = GrowingTable(
-            2 + self.position.size, self._store / PICTURES, place=state["pictures"]
+            2 + self.position.size, self._store / PICTURES, rows=state["pictures"]
         )
         self._last_time = float(self.time[-1])
         if self._views is not None and state["views"] is not None:
@@ -187,7 +187,7 @@ class _Views:
             "every": self._every,
             "kept": self._kept,
             "shapes": self._shapes,
-            "rows": None if self.table is None else self.table.place,
+            "rows": None if self.table is None else len(self.table),
         }
 
     def restore(self, state: Mapping[str, Any]) -> None:

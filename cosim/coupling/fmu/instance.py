@@ -1,12 +1,28 @@
-"""What instances of FMI 2.0 and 3.0 have in common: how values go in and out, and states.
+"""Instances of FMI 2.0 and 3.0: how values go in and out, steps, events, states.
 
 A participant asks of `Fmi2` and `Fmi3` the same, whichever it has.
 """
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from functools import partial
 from typing import Any, ClassVar
 
-from cosim.coupling.fmu.values import Group, Kind
+from fmpy import fmi2
+from fmpy.fmi1 import FMICallException
+from fmpy.fmi2 import FMU2Slave
+from fmpy.fmi3 import FMU3Slave
+from fmpy.model_description import ModelDescription
+
+from cosim.coupling.fmu.description import may_end_early
+from cosim.coupling.fmu.errors import FmuCallError
+from cosim.coupling.fmu.log import FmuLog
+from cosim.coupling.fmu.values import Filled, Group
+
+#: Rounds in which the discrete states of a unit settle at an event, and events at one time.
+MOST_ROUNDS = 100
+#: Parts of a step that are rounding.
+SLIVER = 1e-12
 
 
 class Instance:
@@ -14,31 +30,191 @@ class Instance:
     FmuCallError.
 
     memory: what the host knows of the instance and that goes back with its state; JSON can hold it.
-    kinds: type of a variable -> how it is served. arguments: how many those functions take behind
-    the instance, of references, their number, values, their number.
+    enumeration: type of an enumeration's values.
     """
 
-    kinds: ClassVar[Mapping[str, Kind]]
-    arguments: ClassVar[int]
+    enumeration: ClassVar[str]
 
-    def __init__(self, fmu: Any, version: str) -> None:
-        """Find the functions that fmpy has for an instance: fmi2... or fmi3..."""
-        self._fmu, self._component = fmu, fmu.component
+    def __init__(self, fmu: Any) -> None:
+        self._fmu = fmu
         self.memory: dict[str, Any] = {}
         self.terminate, self.free = fmu.terminate, fmu.freeInstance
-        functions = {kind.function for kind in self.kinds.values()}
-        self._set = {name: getattr(fmu, f"{version}Set{name}") for name in functions}
-        self._get = {name: getattr(fmu, f"{version}Get{name}") for name in functions}
 
-    def write(self, groups: Sequence[Group]) -> None:
-        """Set what the groups hold."""
-        for group in groups:
-            self.put(group)
+    def write(self, filled: Filled) -> None:
+        """Set what the groups are filled with."""
+        for group, elements in filled:
+            self.put(group, elements)
 
-    def put(self, group: Group) -> None:
-        """Set what a group holds."""
-        self._set[group.kind.function](self._component, *group.memory[: self.arguments])
+    def put(self, group: Group, elements: Sequence[Any]) -> None:
+        """Set a group."""
+        getattr(self._fmu, f"set{group.kind}")(group.references, elements)
 
-    def read(self, group: Group) -> None:
-        """Fill a group."""
-        self._get[group.kind.function](self._component, *group.memory[: self.arguments])
+
+class Fmi2(Instance):
+    """See `Instance`. A step ends where it should, or has failed."""
+
+    enumeration = "Integer"
+
+    def __init__(
+        self, description: ModelDescription, log: FmuLog, early: bool, given: Mapping[str, str]
+    ) -> None:
+        fmu = FMU2Slave(**given)
+        fmu.instantiate(callbacks=log.callbacks, loggingOn=True)
+        super().__init__(fmu)
+        self.enter_initialisation = fmu.enterInitializationMode
+        self.exit_initialisation = fmu.exitInitializationMode
+        self.get_state, self.set_state = fmu.getFMUstate, fmu.setFMUstate
+        self.as_bytes, self.from_bytes = fmu.serializeFMUstate, fmu.deSerializeFMUstate
+        self.free_state = fmu.freeFMUstate
+
+    def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
+        """From start to stop, s; before anything is set: some units then forget what was."""
+        self._fmu.setupExperiment(tolerance=tolerance, startTime=start, stopTime=stop)
+
+    def read(self, group: Group) -> dict[str, Any]:
+        """Name -> value of a group."""
+        return group.named(getattr(self._fmu, f"get{group.kind}")(group.references))
+
+    def write_rates(self, rates: Mapping[int, Sequence[float]]) -> None:
+        """Reference of an input -> its first, second, ... derivative, for the next step."""
+        told = [(each, k, rate) for each, some in rates.items() for k, rate in enumerate(some, 1)]
+        if told:
+            self._fmu.setRealInputDerivatives(*zip(*told, strict=True))
+
+    def step(self, time: float, size: float, may_go_back: bool) -> float | None:
+        """Time reached where that is not time + size, s. may_go_back: a state may be set later."""
+        try:
+            self._fmu.doStep(time, size, fmi2.fmi2False if may_go_back else fmi2.fmi2True)
+        except FMICallException as error:
+            if error.status != fmi2.fmi2Discard:
+                raise
+            raise FmuCallError(f"{self._why_discarded()} [{error}]") from error
+        return None
+
+    def _why_discarded(self) -> str:
+        why, reached = "cannot make the whole step", ""
+        with suppress(FMICallException):
+            reached = (
+                f"; it came to t = {self._fmu.getRealStatus(fmi2.fmi2LastSuccessfulTime):.9g} s"
+            )
+        with suppress(FMICallException):
+            if self._fmu.getBooleanStatus(fmi2.fmi2Terminated):
+                why = "wants to end the simulation"
+        return why + reached
+
+
+class Fmi3(Instance):
+    """See `Instance`. Its steps may end early, its events are handled where it has any.
+
+    memory: `next_event`, s, that the unit has announced, None for none; `discrete`, the newest
+    values of discrete inputs.
+    """
+
+    enumeration = "Int64"
+
+    def __init__(
+        self, description: ModelDescription, log: FmuLog, early: bool, given: Mapping[str, str]
+    ) -> None:
+        self._stepping = False
+        self._events = early and bool(description.coSimulation.hasEventMode)
+        fmu = FMU3Slave(**given)
+        how = {
+            "loggingOn": True,
+            "earlyReturnAllowed": early and may_end_early(description),
+            "logMessage": log.log_message,
+        }
+        self._early = how["earlyReturnAllowed"]
+        try:
+            fmu.instantiate(eventModeUsed=self._events, **how)
+        except Exception:  # fmpy's
+            if not self._events:
+                raise
+            # there are units that declare an event mode and have none (Roberts, of the
+            # Reference-FMUs)
+            self._events = False
+            log.take_errors()
+            fmu.instantiate(eventModeUsed=False, **how)
+        super().__init__(fmu)
+        self.memory = {"next_event": None, "discrete": {}}
+        self.get_state, self.set_state = fmu.getFMUState, fmu.setFMUState
+        self.as_bytes, self.from_bytes = fmu.serializeFMUState, fmu.deserializeFMUState
+        self.free_state = fmu.freeFMUState
+
+    def set_up(self, start: float, stop: float, tolerance: float | None) -> None:
+        """From start to stop, s."""
+        experiment = {"tolerance": tolerance, "startTime": start, "stopTime": stop}
+        self.enter_initialisation = partial(self._fmu.enterInitializationMode, **experiment)
+        self.exit_initialisation = self._begin_stepping
+
+    def _begin_stepping(self) -> None:
+        self._fmu.exitInitializationMode()
+        self._stepping = True
+        if self._events:  # which the unit then is at
+            self._end_event()
+
+    def read(self, group: Group) -> dict[str, Any]:
+        """Name -> value of a group."""
+        found = getattr(self._fmu, f"get{group.kind}")(group.references, group.size)
+        return group.named(found)
+
+    def write(self, filled: Filled) -> None:
+        if not (self._stepping and self._events):
+            super().write(filled)
+            return
+        changed: Filled = []
+        for group, elements in filled:
+            if not group.discrete:
+                self.put(group, elements)
+            elif group.named(elements).items() - self.memory["discrete"].items():
+                changed.append((group, elements))
+        if changed:  # discrete inputs may change at an event only: that is one
+            self._fmu.enterEventMode()
+            super().write(changed)
+            self._end_event()
+
+    def put(self, group: Group, elements: Sequence[Any]) -> None:
+        super().put(group, elements)
+        if group.discrete and self._events:
+            self.memory["discrete"].update(group.named(elements))
+
+    def write_rates(self, rates: object) -> None:
+        """There are none in FMI 3.0."""
+
+    def step(self, time: float, size: float, may_go_back: bool) -> float | None:
+        """Time reached where that is not time + size, s. may_go_back: a state may be set later."""
+        end = time + size
+        for _ in range(MOST_ROUNDS):
+            reached = self._once(time, size, may_go_back)
+            if abs(reached - end) <= SLIVER * max(abs(end), size):
+                return None
+            if reached > time:
+                return reached
+        raise FmuCallError(f"does not come beyond t = {time:.9g} s: {MOST_ROUNDS} events there")
+
+    def _once(self, time: float, size: float, may_go_back: bool) -> float:
+        """One call, no further than the event that the unit has announced; time reached."""
+        event_at = self.memory["next_event"]
+        if event_at is not None and time < event_at < time + size:
+            size = event_at - time
+        event, ends, early, last = self._fmu.doStep(time, size, not may_go_back)
+        reached: float = last if early else time + size
+        if early and not self._early:
+            raise FmuCallError(f"ended its step early at t = {reached:.9g} s, which it may not")
+        if ends:
+            raise FmuCallError(f"wants to end the simulation, at t = {reached:.9g} s")
+        if self._events and (event or (event_at is not None and reached >= event_at)):
+            self._fmu.enterEventMode()
+            self._end_event()
+        return reached
+
+    def _end_event(self) -> None:
+        """Let the discrete states settle, and go on with steps."""
+        for _ in range(MOST_ROUNDS):
+            more, ends, _, _, announced, event_at = self._fmu.updateDiscreteStates()
+            if ends:
+                raise FmuCallError("wants to end the simulation, at an event")
+            if not more:
+                self.memory["next_event"] = event_at if announced else None
+                self._fmu.enterStepMode()
+                return
+        raise FmuCallError(f"its discrete states do not settle in {MOST_ROUNDS} rounds")

@@ -22,8 +22,7 @@ from cosim.coupling.fmu.description import (
     unloadable,
 )
 from cosim.coupling.fmu.errors import FmuCallError, FmuError, one_line
-from cosim.coupling.fmu.fmi2 import Fmi2
-from cosim.coupling.fmu.fmi3 import Fmi3
+from cosim.coupling.fmu.instance import Fmi2, Fmi3
 from cosim.coupling.fmu.log import STATUSES, FmuLog
 from cosim.coupling.fmu.module_conflicts import claim_modules, claim_place, leave_place
 from cosim.coupling.fmu.values import Group, Values
@@ -101,7 +100,7 @@ class FmuParticipant(Closing):
         self._begin_anew()
 
     def _begin_anew(self) -> None:
-        self._values = Values(self._table, self._kind.kinds)
+        self._values = Values(self._table, self._kind.enumeration)
         self._readers: list[Group] = self._values.groups(self._outputs)
         self._states: set[State] = set()
         self._sloped: set[str] = set()
@@ -187,10 +186,10 @@ class FmuParticipant(Closing):
 
     def read(self) -> dict[str, float]:
         """All outputs by name."""
-        calls, found = self._instance(), {}
+        calls = self._instance()
+        found: dict[str, float] = {}
         for group in self._readers:
-            self._call(calls.read, group)
-            found.update(group.got())
+            found |= self._call(calls.read, group)
         return found
 
     def write_waveforms(self, waveforms: Mapping[str, Waveform]) -> None:

@@ -1,98 +1,88 @@
-"""Values of many variables by name: one call of the unit for each type, its memory kept.
+"""Values of many variables by name: one call of the unit for each type.
 
-What FMI 2.0 and 3.0 have in common; which function serves which type they say by their `Kind`s.
+What FMI 2.0 and 3.0 have in common; fmpy has a function for each type.
 """
 
-import ctypes
+from __future__ import annotations
+
+import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from cosim.coupling.fmu.errors import FmuError
-from cosim.coupling.fmu.variables import Scalar
+from cosim.coupling.fmu.variables import REALS, Scalar
 
 #: How many sets of names a table of calls is kept of: those of a run are a handful.
 MOST_PLANS = 256
 
 
-@dataclass(frozen=True)
-class Kind:
-    """A type of variables: of what it is in memory, and what the functions that serve it end in."""
+def converter(kind: str) -> Callable[[Any], Any]:
+    """What makes a value one of a type as fmpy's functions call it: Float64, Int8, Boolean, ..."""
+    if kind in REALS:
+        return float
+    if kind == "String":
+        return str
+    if kind == "Boolean":
+        return lambda value: round(value) != 0  # nearer to 1 than to 0, or beyond
+    bits = int((re.findall(r"\d+", kind) or ["32"])[0])
+    least, most = (0, 2**bits - 1) if kind[0] == "U" else (-(2 ** (bits - 1)), 2 ** (bits - 1) - 1)
 
-    memory: Any
-    function: str
-    convert: Callable[[Any], Any]
-
-
-def whole(memory: Any) -> Callable[[Any], int]:
-    """The nearest whole number, of a type of C that must be able to hold it."""
-    signed = memory(-1).value < 0
-    bits = 8 * ctypes.sizeof(memory) - signed
-    least, most = (-(2**bits) if signed else 0), 2**bits - 1
-
-    def convert(value: Any) -> int:
+    def whole(value: Any) -> int:
+        """The nearest whole number, which the type must be able to hold."""
         number: int = round(value)
         if not least <= number <= most:
             raise FmuError(f"{value:g} is given to an integer from {least} to {most}")
         return number
 
-    return convert
-
-
-def truth(value: Any) -> bool:
-    """Whether a number is nearer to 1 than to 0, or beyond."""
-    found: bool = round(value) != 0
-    return found
-
-
-def encoded(value: str) -> bytes:
-    """A text for C."""
-    return value.encode("utf-8")
+    return whole
 
 
 class Group:
-    """Variables of one kind that are read or written together.
+    """Variables of one type that are read or written together.
 
-    memory: of C, as functions of FMI take it: references of the variables, their number, all their
-    elements, the number of those. discrete: whether they may change at events only.
+    kind: the type, as fmpy's functions call it. references: of the variables; size: number of all
+    their elements. discrete: whether they may change at events only.
     """
 
-    def __init__(self, kind: Kind, members: Sequence[Scalar], discrete: bool) -> None:
-        self.kind = kind
-        self.discrete = discrete
-        self.names = [each.name for each in members]
+    def __init__(self, kind: str, members: Sequence[Scalar], discrete: bool) -> None:
+        self.kind, self.discrete = kind, discrete
+        self._convert = converter(kind)
         offsets: dict[int, int] = {}
-        size = 0
+        self.size = 0
         for each in members:
             if each.variable.valueReference not in offsets:
-                offsets[each.variable.valueReference] = size
-                size += each.size
-        self._values = (kind.memory * size)()
-        count = len(offsets)
-        self.memory = ((ctypes.c_uint * count)(*offsets), count, self._values, size)
-        self._places = [offsets[each.variable.valueReference] + each.place for each in members]
+                offsets[each.variable.valueReference] = self.size
+                self.size += each.size
+        self.references = list(offsets)
+        self.places = {
+            each.name: offsets[each.variable.valueReference] + each.place for each in members
+        }
 
-    def put(self, values: Mapping[str, Any]) -> None:
-        """Fill the memory; all elements of an array are there."""
-        for name, place in zip(self.names, self._places, strict=True):
-            self._values[place] = self.kind.convert(values[name])
+    def elements(self, values: Mapping[str, Any]) -> list[Any]:
+        """Values by name, all elements of an array among them, as the unit takes them."""
+        found: list[Any] = [None] * self.size
+        for name, place in self.places.items():
+            found[place] = self._convert(values[name])
+        return found
 
-    def got(self) -> dict[str, Any]:
-        """Name -> what is in the memory."""
-        found = self._values[:]
-        return {name: found[place] for name, place in zip(self.names, self._places, strict=True)}
+    def named(self, elements: Sequence[Any]) -> dict[str, Any]:
+        """Name -> what the unit gives."""
+        return {name: elements[place] for name, place in self.places.items()}
+
+
+#: What is to be written: of each group its elements.
+Filled = list[tuple[Group, list[Any]]]
 
 
 class Values:
     """The variables of a unit in groups.
 
-    known: element of an array -> the newest value; an array is written as a whole, whichever of
-    its elements are new.
+    enumeration: type of an enumeration's values. known: element of an array -> the newest value;
+    an array is written as a whole, whichever of its elements are new.
     """
 
-    def __init__(self, table: Mapping[str, Scalar], kinds: Mapping[str, Kind]) -> None:
-        self._table = table
-        self._kinds = kinds
+    def __init__(self, table: Mapping[str, Scalar], enumeration: str) -> None:
+        self._table, self._enumeration = table, enumeration
         self._plans: dict[tuple[str, ...], tuple[list[Group], bool]] = {}
         self._arrays: dict[str, list[Scalar]] = {}
         self.known: dict[str, Any] = {}
@@ -107,30 +97,24 @@ class Values:
         members: dict[tuple[str, bool], list[Scalar]] = {}
         for name in names:
             scalar = self._table[name]
-            kind = self._kinds[scalar.variable.type]
+            kind = scalar.variable.type
+            kind = self._enumeration if kind == "Enumeration" else kind
             discrete = scalar.variable.variability == "discrete"
-            members.setdefault((kind.function, discrete), []).append(scalar)
-        return [
-            Group(self._kinds[group[0].variable.type], group, discrete)
-            for (_, discrete), group in members.items()
-        ]
+            members.setdefault((kind, discrete), []).append(scalar)
+        return [Group(kind, group, discrete) for (kind, discrete), group in members.items()]
 
-    def filled(self, values: Mapping[str, Any]) -> list[Group]:
-        """Groups that hold these values, ready to be written."""
+    def filled(self, values: Mapping[str, Any]) -> Filled:
+        """Groups with these values, ready to be written."""
         names = tuple(values)
-        plan = self._plans.get(names)
-        if plan is None:
+        if names not in self._plans:
             if len(self._plans) >= MOST_PLANS:
                 self._plans.clear()
             groups = self.groups(self._with_whole_arrays(names))
-            plan = groups, any(self._table[name].is_array for name in names)
-            self._plans[names] = plan
-        groups, with_arrays = plan
+            self._plans[names] = groups, any(self._table[name].is_array for name in names)
+        groups, with_arrays = self._plans[names]
         if with_arrays:
             values = self._with_known(values, groups)
-        for group in groups:
-            group.put(values)
-        return groups
+        return [(group, group.elements(values)) for group in groups]
 
     def _with_whole_arrays(self, names: Iterable[str]) -> list[str]:
         wanted: dict[str, None] = {}
@@ -143,12 +127,11 @@ class Values:
     def _with_known(self, values: Mapping[str, Any], groups: list[Group]) -> Mapping[str, Any]:
         self.known.update((name, v) for name, v in values.items() if self._table[name].is_array)
         whole = {**self.known, **values}
-        for group in groups:
-            for name in group.names:
-                if name not in whole:
-                    raise FmuError(
-                        f"{name} has no start value: the whole array that it is of must be set"
-                    )
+        for name in (name for group in groups for name in group.places):
+            if name not in whole:
+                raise FmuError(
+                    f"{name} has no start value: the whole array that it is of must be set"
+                )
         return whole
 
 

@@ -3,6 +3,6 @@
 from cosim.coupling.record.folder import RunFolder
 from cosim.coupling.record.keeper import Keep
 from cosim.coupling.record.log import LOG, MessageLog
-from cosim.coupling.record.table import GrowingTable, Place
+from cosim.coupling.record.table import GrowingTable
 
-__all__ = ["LOG", "GrowingTable", "Keep", "MessageLog", "Place", "RunFolder"]
+__all__ = ["LOG", "GrowingTable", "Keep", "MessageLog", "RunFolder"]

@@ -18,7 +18,7 @@ from typing import Any
 from cosim.files import write_bytes
 
 #: Of the file's layout; a file of another one is refused.
-FORMAT = 1
+FORMAT = 2
 _MANIFEST = "manifest.json"
 _DIGEST = 64
 #: How many differences of two set-ups a message names.

@@ -2,7 +2,7 @@
 
 import time as clock
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ from cosim.coupling.record.checkpoint import (
     save_checkpoint,
 )
 from cosim.coupling.record.folder import RunFolder
-from cosim.coupling.record.recording import Recording
+from cosim.coupling.record.recording import Place, Recording
 from cosim.coupling.schemes.scheme import Scheme
 from cosim.coupling.step_control.control import StepControl
 from cosim.coupling.system import CoupledSystem
@@ -81,7 +81,7 @@ class Keeper:
         if place is None:
             self.recording.add(float(exchange.time or 0.0), exchange)
 
-    def _go_on(self, path: Path) -> Sequence[Any]:
+    def _go_on(self, path: Path) -> Place:
         """Put all back to the newest checkpoint; where the rows on disk had come to then."""
         checkpoint = load_checkpoint(path)
         require_same_setup(path, checkpoint, self._setup)
@@ -96,8 +96,7 @@ class Keeper:
         self._scheme.restore(master["scheme"])
         self._counted = master["rows"]
         self._began = clock.perf_counter() - master["seconds"]
-        place: Sequence[Any] = checkpoint.record["place"]
-        return place
+        return checkpoint.record["rows"], checkpoint.record["newest"]
 
     def add(self, time: float, is_row: bool) -> None:
         """A step was accepted and has come to a time (s)."""
@@ -146,7 +145,7 @@ class Keeper:
         return self._keep.also[name] if participant is None else participant
 
     def _checkpoint(self, states: Mapping[str, bytes]) -> Checkpoint:
-        exchange, table = self._exchange, self.recording.table
+        exchange, (rows, newest) = self._exchange, self.recording.place
         return Checkpoint(
             time=float(exchange.time or 0.0),
             setup=self._setup,
@@ -158,7 +157,7 @@ class Keeper:
                 "scheme": self._scheme.state(),
             },
             states=states,
-            record={"file": table.path and table.path.name, "place": table.place},
+            record={"rows": rows, "newest": newest},
         )
 
 

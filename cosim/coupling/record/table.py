@@ -17,7 +17,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from io import FileIO
 from pathlib import Path
-from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -28,32 +27,18 @@ from cosim.files import OutputError
 DIGITS = 16
 _HEADER = 128
 _COUNT_AT = 64
-#: A write that stays within a page of memory is not torn by a kill; one across two can be.
-_PAGE = 4096
 #: How often to see whether the file is still there, s of wall time.
 LOOK_EVERY = 1.0
 
 
-class Place(NamedTuple):
-    """Where a table has come to, for one that goes on from there.
-
-    rows: how many there are; kept: of them those that stay; last: the values of one that does not,
-    and may have been replaced on disk since.
-    """
-
-    rows: int
-    kept: int
-    last: Sequence[float]
-
-
 class GrowingTable:
-    """A table of floats in a file, of which nothing is kept in memory but a row that may not stay.
+    """A table of floats in a file, of which nothing is kept in memory.
 
     columns: how many; path: of the file, which replaces an earlier one; None: a file without a
-    name that is gone when it is closed. single: four bytes a number instead of eight. place: go on
-    there in the file that an earlier process has left, in place of a new one.
-    Raises OutputError, in one line, where the disk refuses, or the file is not that table or ends
-    before the place; what was there stays readable.
+    name that is gone when it is closed. single: four bytes a number instead of eight. rows: go on
+    after so many in the file that an earlier process has left, in place of a new one.
+    Raises OutputError, in one line, where the disk refuses, or the file is not that table or has
+    fewer rows; what was there stays readable.
     """
 
     def __init__(
@@ -61,62 +46,46 @@ class GrowingTable:
         columns: int,
         path: Path | None = None,
         single: bool = False,
-        place: Sequence[Any] | None = None,
+        rows: int | None = None,
     ):
         self.columns, self.path = columns, path
         self._kind = np.dtype("<f4" if single else "<f8")
         self._pack = struct.Struct(f"<{columns}{self._kind.char}").pack
         self._size = columns * self._kind.itemsize
-        self._kept, self._rows, self._last = 0, -1, b""
+        self._rows = rows or 0
         self._looked = time.monotonic()
         with self._refusing():
-            self._file = _opened(path, anew=place is None)
+            self._file = _opened(path, anew=rows is None)
         self._number = self._file.fileno()
         weakref.finalize(self, self._file.close)
         head = _header(self._kind.str, columns)
-        if place is not None:
-            self._go_on(Place(*place), head)
+        if rows is not None:
+            self._go_on(head)
         else:
             self._write(head, 0)
-            self._rows = 0
 
-    def _go_on(self, place: Place, head: bytes) -> None:
-        found = self._file.read(_HEADER)
-        enough = os.fstat(self._number).st_size >= _HEADER + place.kept * self._size
+    def _go_on(self, head: bytes) -> None:
+        found, size = self._file.read(_HEADER), _HEADER + self._rows * self._size
+        enough = os.fstat(self._number).st_size >= size
         if _without_count(found) != _without_count(head) or not enough:
             self.close()
             raise OutputError(
                 f"{self.path}: is not the table of {self.columns} columns and at least "
-                f"{place.kept} rows that was begun here"
+                f"{self._rows} rows that was begun here"
             )
         # shorter before anything is written: at no time is there a row that was not computed
-        self._count(place.kept)
-        self._kept = place.kept
+        self._count()
         with self._refusing():
-            self._file.truncate(_HEADER + place.kept * self._size)
-        if place.rows > place.kept:
-            self.append(place.last, keep=False)
+            self._file.truncate(size)
 
-    @property
-    def place(self) -> Place:
-        """Where the table has come to."""
-        last = np.frombuffer(self._last, self._kind)
-        return Place(self._rows, self._kept, tuple(last.tolist()))
-
-    def append(self, values: Sequence[float] | np.ndarray, keep: bool = True) -> None:
-        """Write a row of (columns,) values; the last one gives way to it where it was not kept.
+    def append(self, values: Sequence[float] | np.ndarray) -> None:
+        """Write a row of (columns,) values.
 
         The row is with the operating system when this returns: it outlives the process.
         """
-        row, kept = self._packed(values), self._kept
-        at = _HEADER + kept * self._size
-        if self._rows > kept and at // _PAGE != (at + self._size - 1) // _PAGE:
-            self._count(kept)  # else a kill could leave half of the one, half of the other
-        self._write(row, at)
-        self._last = b"" if keep else row
-        self._count(kept + 1)
-        if keep:
-            self._kept = kept + 1
+        self._write(self._packed(values), _HEADER + self._rows * self._size)
+        self._rows += 1
+        self._count()
         if time.monotonic() - self._looked > LOOK_EVERY:
             self._look()
 
@@ -125,10 +94,8 @@ class GrowingTable:
             return np.ascontiguousarray(values.reshape(self.columns), self._kind).tobytes()
         return self._pack(*values)
 
-    def _count(self, rows: int) -> None:
-        if rows != self._rows:
-            self._write(b"%*d" % (DIGITS, rows), _COUNT_AT)
-            self._rows = rows
+    def _count(self) -> None:
+        self._write(b"%*d" % (DIGITS, self._rows), _COUNT_AT)
 
     def _write(self, data: bytes, at: int) -> None:
         try:

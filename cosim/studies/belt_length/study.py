@@ -13,8 +13,7 @@ from itertools import product
 from typing import Any
 
 from cosim.processes import processes
-from thermal import Belt, ParameterError
-from thermal.steady_state import NoSteadyState
+from thermal import Belt, NoSteadyState, ParameterError
 
 from .case import AIR, OWN_KEYS, Case, StudyError
 from .changes import changes, friction_effect

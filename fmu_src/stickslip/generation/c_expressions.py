@@ -1,10 +1,10 @@
 """Expressions as C, evaluated in Python's order and with Python's results."""
 
 import ast
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from copy import copy
 from importlib import resources
+from itertools import combinations
 from typing import NamedTuple
 
 from .c_program import BUILTINS, C_TYPES, MATH, RESERVED, Function, Program, assignments, refuse
@@ -41,8 +41,7 @@ class Expressions:
     """The expressions of a function.
 
     Python evaluates operands from left to right; C says nothing of their order. Where it matters,
-    because one writes into an array, those before the last go into constants of their own, in
-    ``before``: lines for before the statement.
+    because one writes into an array, they are refused.
 
     of_names : type of each variable, "float", "int", "bool" or "array": what all that is assigned
         to it is; int and float together are float
@@ -51,13 +50,8 @@ class Expressions:
     def __init__(self, program: Program, function: Function, helpers: set[str]) -> None:
         self.program, self.where = program, function.where
         self.helpers = helpers
-        self.before: list[str] = []
-        self._always = True
-        used = {n.id for n in ast.walk(function.node) if isinstance(n, ast.Name)}
-        self._taken = {*used, *function.parameters, *RESERVED, *HELPERS, *program.constants}
         given = [each for each in assignments(function.node) if each[0] not in function.parameters]
         self.of_names: dict[str, str | None] = {**function.parameters, **dict.fromkeys(dict(given))}
-        self._names = {name: self._spelled(name) for name in self.of_names}
         self._find_types(given)
 
     def _find_types(self, given: Sequence[tuple[str, ast.expr]]) -> None:
@@ -73,36 +67,20 @@ class Expressions:
     def _tried(self, value: ast.expr) -> str | None:
         """Type of an expression; None as long as nothing is known of its variables."""
         trial = copy(self)
-        trial.helpers, trial.before, trial._taken = set(), [], set(self._taken)
+        trial.helpers = set()
         try:
             return trial.made(value).type
         except ValueError:  # which is what comes of it in the end, where it stays so
             return None
 
-    def _spelled(self, name: str) -> str:
+    def name(self, name: str) -> str:
+        """How C spells a variable: with a line behind it where C has the name, or it has one.
+
+        So no variable has a name with a single line behind it but those, and those made here.
+        """
         if not name.isascii():
             refuse(self.where, ast.Name(name), "a name with other letters than a to z")
-        return self.new_name(name + "_") if name in RESERVED | HELPERS.keys() else name
-
-    def new_name(self, wish: str) -> str:
-        """A name that nothing else has."""
-        name, number = wish, 1
-        while name in self._taken:
-            number += 1
-            name = f"{wish}{number}"
-        self._taken.add(name)
-        return name
-
-    def name(self, name: str) -> str:
-        """How C spells a variable."""
-        return self._names[name]
-
-    @contextmanager
-    def only_sometimes(self, sometimes: bool = True) -> Iterator[None]:
-        """What is made within is not evaluated once each time that its statement is."""
-        outer, self._always = self._always, self._always and not sometimes
-        yield
-        self._always = outer
+        return f"{name}_" if name in RESERVED | HELPERS.keys() or name.endswith("_") else name
 
     def made(self, node: ast.expr) -> Made:
         """An expression in C."""
@@ -162,28 +140,17 @@ class Expressions:
             refuse(self.where, node, "an index from an array's end")
         return self.typed(node, "int").text
 
-    def in_order(self, nodes: Sequence[ast.expr]) -> list[Made]:
-        """Operands, those kept before the statement whose order counts."""
-        found = []
-        for i, node in enumerate(nodes):
-            value = self.made(node)
-            if any(self.program.order_matters(node, later) for later in nodes[i + 1 :]):
-                value = self.kept(node, value)
-            found.append(value)
-        return found
-
-    def kept(self, node: ast.expr, value: Made) -> Made:
-        """A value as a constant of its own, made before the statement."""
-        if not self._always:
-            refuse(
-                self.where,
-                node,
-                "what it is evaluated before, or after, writes into an array: "
-                "give it a statement of its own",
-            )
-        name = self.new_name("value")
-        self.before.append(f"const {C_TYPES[value.type]} {name} = {value.text};")
-        return Made(name, value.type)
+    def of_any_order(self, nodes: Sequence[ast.expr]) -> list[Made]:
+        """Operands, in whatever order C evaluates them."""
+        for one, other in combinations(nodes, 2):
+            if self.program.order_matters(one, other):
+                refuse(
+                    self.where,
+                    one,
+                    "what it is evaluated before, or after, writes into an array: "
+                    "give it a statement of its own",
+                )
+        return [self.made(each) for each in nodes]
 
     def _bool(self, node: ast.expr) -> Made:
         return self.typed(node, "bool")
@@ -221,7 +188,7 @@ class Expressions:
         operands = [node.left, node.right]
         values = [
             self._as_number(each, value)
-            for each, value in zip(operands, self.in_order(operands), strict=True)
+            for each, value in zip(operands, self.of_any_order(operands), strict=True)
         ]
         whole = all(value.type == "int" for value in values)
         if isinstance(node.op, ast.Pow) and whole:
@@ -253,17 +220,14 @@ class Expressions:
 
     def _made_boolean(self, node: ast.BoolOp, part: Callable[[ast.expr], Made]) -> Made:
         sign, binds = ("&&", AND) if isinstance(node.op, ast.And) else ("||", OR)
-        texts = []
-        for i, each in enumerate(node.values):
-            with self.only_sometimes(i > 0):
-                texts.append(part(each).within(EQUALITY))
+        texts = (part(each).within(EQUALITY) for each in node.values)
         return Made(f" {sign} ".join(texts), "bool", binds)
 
     def _made_comparison(self, node: ast.Compare) -> Made:
         operands = [node.left, *node.comparators]
         if len(operands) > 2 and any(self.program.writes(each) for each in operands):
             refuse(self.where, node, "a chain of comparisons with a call that writes into an array")
-        values = self.in_order(operands)
+        values = self.of_any_order(operands)
         texts = []
         for i, op in enumerate(node.ops):
             if type(op) not in _COMPARISONS:
@@ -284,8 +248,7 @@ class Expressions:
     def _made_choice(self, node: ast.IfExp) -> Made:
         test = self.condition(node.test).within(OR)
         branches = [node.body, node.orelse]
-        with self.only_sometimes():
-            one, other = self._alike(branches, [self.made(each) for each in branches])
+        one, other = self._alike(branches, [self.made(each) for each in branches])
         return Made(f"{test} ? {one.within(OR)} : {other.within(OR)}", one.type, CHOICE)
 
     def _made_call(self, node: ast.expr, name: str, given: list[ast.expr]) -> Made:
@@ -297,7 +260,7 @@ class Expressions:
             return self._made_math_call(node, name, given)
         if name not in BUILTINS:
             refuse(self.where, node, f"{name} is unknown")
-        values = self.in_order(given)
+        values = self.of_any_order(given)
         if name in ("max", "min") and len(values) > 1:
             return self._made_extreme(name, given, values)
         if len(values) != 1:
@@ -333,7 +296,7 @@ class Expressions:
         function = MATH[name]
         if len(given) != function.arguments:
             refuse(self.where, node, f"{len(given)} arguments instead of {function.arguments}")
-        values = self._floats(given, self.in_order(given))
+        values = self._floats(given, self.of_any_order(given))
         if name in HELPERS:
             self.helpers.add(name)
         text = function.form.format(*(value.text for value in values))
@@ -346,7 +309,7 @@ class Expressions:
             )
         kinds = list(function.parameters.values())
         scalars = [each for each, kind in zip(given, kinds, strict=True) if kind != "array"]
-        made = iter(zip(scalars, self.in_order(scalars), strict=True))
+        made = iter(zip(scalars, self.of_any_order(scalars), strict=True))
         texts = []
         for each, kind in zip(given, kinds, strict=True):
             texts.append(

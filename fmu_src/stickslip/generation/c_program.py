@@ -117,43 +117,34 @@ class Program:
         while grows:
             before = sum(map(len, found.values()))
             for name, function in self.functions.items():
-                for callee, parameter, given in self._passed_on(function):
-                    if parameter in found[callee]:
-                        found[name].add(given)
+                given = self._given(function.node)
+                found[name] |= {own for callee, array, own in given if array in found[callee]}
             grows = sum(map(len, found.values())) > before
         return found
 
-    def _passed_on(self, function: Function) -> Iterator[tuple[str, str, str]]:
-        """Callee, name of its array, and name of the caller's that is given for it."""
-        for node in ast.walk(function.node):
-            match node:
-                case ast.Call(func=ast.Name(id=callee), args=given) if callee in self.functions:
-                    for parameter, each in zip(
-                        self.functions[callee].parameters, given, strict=False
-                    ):
-                        if isinstance(each, ast.Name):
-                            yield callee, parameter, each.id
-
-    def touches(self, node: ast.AST) -> bool:
-        """Whether an expression reads or writes elements of arrays."""
-        return any(isinstance(each, ast.Subscript) for each in ast.walk(node)) or any(
-            "array" in function.parameters.values() for function in self._called(node)
-        )
-
-    def writes(self, node: ast.AST) -> bool:
-        """Whether an expression calls what writes elements of arrays."""
-        return any(self.written[function.name] for function in self._called(node))
-
-    def order_matters(self, one: ast.AST, other: ast.AST) -> bool:
-        """Whether two operands may give something else in another order; any arrays may be one."""
-        writes = self.writes(one) or self.writes(other)
-        return writes and self.touches(one) and self.touches(other)
-
-    def _called(self, node: ast.AST) -> Iterator[Function]:
+    def _given(self, node: ast.AST) -> Iterator[tuple[str, str, str]]:
+        """Of calls: the function, a name of its head, and the variable that is given for it."""
         for each in ast.walk(node):
             match each:
-                case ast.Call(func=ast.Name(id=name)) if name in self.functions:
-                    yield self.functions[name]
+                case ast.Call(func=ast.Name(id=callee), args=given) if callee in self.functions:
+                    for own, one in zip(self.functions[callee].parameters, given, strict=False):
+                        if isinstance(one, ast.Name):
+                            yield callee, own, one.id
+
+    def writes(self, node: ast.AST) -> set[str]:
+        """Arrays that calls in an expression write into."""
+        return {given for callee, own, given in self._given(node) if own in self.written[callee]}
+
+    def order_matters(self, one: ast.AST, other: ast.AST) -> bool:
+        """Whether two operands may give something else in another order; no two arrays are one."""
+        pairs = ((one, other), (other, one))
+        return any(self.writes(first) & self._touched(second) for first, second in pairs)
+
+    def _touched(self, node: ast.AST) -> set[str]:
+        """Variables that an expression takes elements of, or gives to functions."""
+        read = (each.value for each in ast.walk(node) if isinstance(each, ast.Subscript))
+        own = {array.id for array in read if isinstance(array, ast.Name)}
+        return own | {given for _, _, given in self._given(node)}
 
 
 def _constant(node: ast.stmt, value: ast.expr) -> bool | int | float | tuple[float, ...]:

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from copy import deepcopy
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, NoReturn
 
 from ..effects.effect import Effect
 
@@ -71,25 +71,32 @@ class EffectFunctions:
         """By which the text calls a function."""
         return f"{self.effect.id}_{function.__name__}"
 
+    def wanted(self, functions: Iterable[Callable[..., object]]) -> dict[str, ast.FunctionDef]:
+        """The functions with those that they call, which use nothing else than they may."""
+        names = list(dict.fromkeys(getattr(each, "__name__", repr(each)) for each in functions))
+        for name in names:  # grows as it goes
+            if name not in self._defined:
+                self.refuse(None, f"{name!r} is no function")
+            for node in names_in(self._defined[name]):
+                if node.id in self._defined:
+                    names += [] if node.id in names else [node.id]
+                elif node.id not in {*self._numbers, *self._imported, *NAMES}:
+                    self.refuse(node, f"{name} uses `{node.id}`")
+        return {name: self._defined[name] for name in names}
+
+    def refuse(self, node: ast.AST | None, what: str) -> NoReturn:
+        """A function uses what no text of a kernel has."""
+        self.effect.refuse(
+            f'{what}: a term may use numbers, functions of its file and "from math import ..."'
+        )
+
     def text(self, functions: Iterable[Callable[..., object]]) -> tuple[str, set[str]]:
         """The functions with those that they call, in the file's order; and what of `math` they
         import."""
-        wanted, imports = list(dict.fromkeys(each.__name__ for each in functions)), set()
-        for name in wanted:  # grows as it goes
-            if name not in self._defined:
-                self.effect.refuse(f"{name} is no function of its file")
-            for used in dict.fromkeys(node.id for node in names_in(self._defined[name])):
-                if used in self._defined:
-                    wanted += [] if used in wanted else [used]
-                elif used in self._imported:
-                    imports.add(used)
-                elif used not in self._numbers and used not in NAMES:
-                    self.effect.refuse(
-                        f"term {name} uses {used}: a term may use numbers, functions of its file "
-                        'and "from math import ..."'
-                    )
+        wanted = self.wanted(functions)
+        used = {node.id for function in wanted.values() for node in names_in(function)}
         parts = [self._renamed(node) for name, node in self._defined.items() if name in wanted]
-        return "\n\n\n".join(parts), imports
+        return "\n\n\n".join(parts), used & self._imported
 
     def _renamed(self, function: ast.FunctionDef) -> str:
         used = {node.id for node in names_in(function)}

@@ -12,6 +12,7 @@ from ..effects import EFFECTS
 from ..effects.effect import Effect
 from ..kernel import MODULES, terms
 from ..kernel.tables import constants, value_names
+from ..words import SAID, WHY_NOT
 from .places import ARRAY
 from .terms import terms_source
 
@@ -22,8 +23,9 @@ _FOR_FILES_ONLY = re.compile(r"(?m)^from (?:\.[\w.]*|__future__) import (?:\([^)
 
 #: Beside the kernel's text: files of the package as they are, but for where the kernel's names come
 #: from.
-AS_THEY_ARE = ("draws", "packing", "contradictions", "status")
+AS_THEY_ARE = ("draws", "packing", "contradictions")
 _OF_NAMES = "Names of the parameters in the order of the kernel's array ``v``."
+_OF_WORDS = "What is said of contradictions, and of a motion that cannot go on, by their numbers."
 _KERNEL = re.compile(r"(?m)^from (\.|stickslip\.)kernel\.[\w.]+ import")
 _MODULE = re.compile(
     r"(?m)^from (\.|stickslip)\.?kernel(?:\.\w+)* import (?:\w+ as )?(layout|codes)$"
@@ -53,7 +55,12 @@ def travelling(effects: Sequence[Effect] = EFFECTS) -> dict[str, str]:
     """Module -> text of all that travels inside a unit of the block: the kernel, and how named
     parameters and random numbers enter it. In the order in which each imports those before it."""
     names = f"NAMES = {value_names(effects)}\n"
-    texts = {"kernel": kernel_source(effects), "names": f'"""{_OF_NAMES}"""\n\n{names}'}
+    told = f"SAID = {SAID}\nWHY_NOT = {WHY_NOT}\n"
+    texts = {
+        "kernel": kernel_source(effects),
+        "names": f'"""{_OF_NAMES}"""\n\n{names}',
+        "words": f'"""{_OF_WORDS}"""\n\n{told}',
+    }
     for name in AS_THEY_ARE:
         texts[name] = (resources.files("stickslip") / f"{name}.py").read_text("utf-8")
     return {name: one_kernel(text) for name, text in texts.items()}

@@ -49,8 +49,8 @@ def show(p: Floats, u: Floats, z: Floats, w: Floats, o: Floats, at: int) -> None
     o[at + O_ENERGY_RESIDUAL] = energy_residual(p, z)
     o[at + O_TRAVEL] = z[SHOWN + TRAVEL]
     o[at + O_DAMPED] = z[SHOWN + DAMPED]
-    o[at + O_SURFACE_WORK] = z[SHOWN + WORK_SURFACE]
-    o[at + O_EXTERNAL_WORK] = z[SHOWN + WORK_EXTERNAL]
+    o[at + O_WORK_SURFACE] = z[SHOWN + WORK_SURFACE]
+    o[at + O_WORK_EXTERNAL] = z[SHOWN + WORK_EXTERNAL]
     o[at + O_SLIP_TIME] = z[SHOWN + SLIP_TIME]
     o[at + O_SURFACE_SPEED] = surface_speed(p, u, w, z[SHOWN + TIME])
 

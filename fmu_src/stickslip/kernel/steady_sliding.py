@@ -193,7 +193,8 @@ def slides_quasi_steadily(p: Floats, u: Floats, w: Floats, before: float) -> boo
     if speed > (1.0 + before) * QUASI_STEADY_SPEED * speed_scale(p, u):
         return False
     a = set_steady_direction(p, u, w, sqrt(sliding_energy(p, w)))
-    grip = onset_coefficient(p, u, w) * p[P_NORMAL_FORCE] / sliding_inertia(p, w, W_STEADY)
+    grip = onset_coefficient(p, u, w) * p[P_NORMAL_FORCE]
+    grip /= sliding_inertia(p, w, W_STEADY)
     if abs(a) > (1.0 + before) * QUASI_STEADY_ACCELERATION * grip:
         return False
     if before == 1.0 or speed <= rest_speed(p, u):

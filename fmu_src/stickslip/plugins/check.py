@@ -2,14 +2,14 @@
 
 import ast
 import re
-from collections.abc import Callable, Iterator
+from functools import cached_property
 from pathlib import Path
 from typing import Any, NoReturn
 
 from ..effects.effect import Effect
 from ..generation.c import c_source
 from ..generation.c_program import BUILTINS, MATH, MATH_NUMBERS
-from ..generation.functions import NAMES, named_numbers, names_in
+from ..generation.functions import EffectFunctions, named_numbers
 from ..generation.slots import functions_in_kernel, packed_terms
 from .errors import PluginError
 
@@ -22,35 +22,41 @@ ALLOWED = (
 _REFUSED = re.compile(r"kernel(?: function \w+)?, line (\d+): (.*?)(?:: )?not in the subset .*")
 
 
+class _OfFile(EffectFunctions):
+    """Functions of a file from outside, whose faults are said with their lines."""
+
+    def __init__(self, effect: Effect, file: Path, text: str) -> None:
+        super().__init__(effect)
+        self._path, self._text = file, text
+
+    @cached_property
+    def _file(self) -> ast.Module:
+        """It alone."""
+        return ast.parse(self._text)
+
+    def refuse(self, node: ast.AST | None, what: str) -> NoReturn:
+        """PluginError."""
+        if node is None:
+            raise PluginError(f"{self._path}: {what} at the top of this file")
+        _refuse(self._path, node, what)
+
+
 def check_translatable(effect: Effect, file: Path, text: str) -> None:
     """That the kernel can call all terms of an effect in every way it runs; else PluginError.
 
     text : of the file. The translator itself has the last word, on the file's own lines.
     """
+    called = [*functions_in_kernel(effect), *effect.derived, *packed_terms(effect)]
+    wanted = _OfFile(effect, file, text).wanted(called)
+    for function in wanted.values():
+        _check_signature(function, file)
     tree = ast.parse(text)
-    defined = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
-    numbers = set(named_numbers(tree))
-    imported = set(_imported(tree, file))
-    wanted = [_name(function, defined, file) for function in _called_by_kernel(effect)]
-    wanted = list(dict.fromkeys(wanted))
-    for name in wanted:  # grows as it goes
-        for node in names_in(defined[name]):
-            if node.id in defined:
-                wanted += [] if node.id in wanted else [node.id]
-            elif node.id not in {*numbers, *imported, *NAMES}:
-                _refuse(file, node, f"{name} uses `{node.id}`")
-    for name in wanted:
-        _check_signature(defined[name], file)
-    kept: list[ast.stmt] = [defined[name] for name in wanted]
-    kept += [node for node in tree.body if _is_kept(node, numbers)]
+    numbers = named_numbers(tree)
+    kept = [node for node in tree.body if _is_kept(node, {*numbers})]
     try:
-        c_source(_only(text, kept))
+        c_source(_only(text, [*wanted.values(), *kept]))
     except ValueError as error:
         _translate(error, file)
-
-
-def _called_by_kernel(effect: Effect) -> list[Callable[..., float]]:
-    return [*functions_in_kernel(effect), *effect.derived, *packed_terms(effect)]
 
 
 def _refuse(file: Path, node: ast.AST, what: str) -> NoReturn:
@@ -68,13 +74,6 @@ def _translate(error: ValueError, file: Path) -> NoReturn:
     _refuse(file, ast.Pass(lineno=int(said[1])), said[2])
 
 
-def _name(function: Callable[..., float], defined: dict[str, Any], file: Path) -> str:
-    name = getattr(function, "__name__", "")
-    if name not in defined:
-        raise PluginError(f"{file}: {name or function!r} is no function at the top of this file")
-    return name
-
-
 def _check_signature(node: ast.FunctionDef, file: Path) -> None:
     if node.args.vararg or node.args.kwarg or node.args.kwonlyargs or node.args.defaults:
         _refuse(file, node, f"{node.name} has arguments with defaults, * or **")
@@ -83,15 +82,6 @@ def _check_signature(node: ast.FunctionDef, file: Path) -> None:
         if spelled is None or ast.unparse(spelled) != "float":
             what = f"what {node.name} returns" if part is None else f"{part.arg} of {node.name}"
             _refuse(file, part or node, f"{what} is not declared as float")
-
-
-def _imported(tree: ast.Module, file: Path) -> Iterator[str]:
-    for node in tree.body:
-        if isinstance(node, ast.ImportFrom) and node.module == "math":
-            for alias in node.names:
-                if alias.asname:
-                    _refuse(file, node, f"{alias.name} of math has another name here")
-                yield alias.name
 
 
 def _is_kept(node: ast.stmt, numbers: set[str]) -> bool:

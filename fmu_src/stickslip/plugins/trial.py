@@ -14,31 +14,9 @@ from types import FrameType
 from typing import Any
 
 from ..effects.effect import Effect, Term
-from ..generation.places import CONSTANTS, PACKED, PLACES, WORDS, Place
+from ..generation.places import PACKED, PLACES, TRIED, Place
 from .errors import PluginError
 
-#: At which a word is tried, in SI units, degC: from rest to faster than any rig.
-TRIED: dict[str, Sequence[float]] = {
-    "speed": (0.0, 1e-6, 1e-3, 0.03, 0.3, 3.0),
-    "hold": (0.0, 1e-3, 1.0, 1e3),
-    "temperature": (-40.0, -8.0, 0.0),
-    "place": (-0.1, 0.0, 1.0),
-    "travel": (0.0, 0.1, 10.0),
-    "slid": (0.0, 0.1, 10.0),
-    "film_thickness": (0.0, 1e-6, 1e-4),
-    "mu": (0.05, 0.3),
-    "flooded": (0.0, 0.5, 1.0),
-    "extension": (-0.01, 0.0, 0.05),
-    "time": (0.0, 0.1, 10.0),
-    "steady_speed": (-0.15, 0.0, 0.15),
-    "steady_acceleration": (0.0, 0.015),
-    "mass": (0.67,),
-    "normal_force": (6.57,),
-    "radius": (0.04,),
-    "stiffness": (20.17,),
-    "mu_s": (0.28,),
-    "mu_k": (0.21,),
-}
 #: Lines that a term may take; it is called some thousand times a second of motion.
 LINES = 200_000
 
@@ -57,18 +35,10 @@ def try_terms(effect: Effect, file: Path) -> None:
     places = {place.name: place for place in (*PLACES, *PACKED)}
     for term in effect.terms:
         names = list(inspect.signature(term).parameters)
-        if not all(name in size or _is_word(name) for name in names):
+        if not all(name in size or name in TRIED for name in names):
             continue
         for values in product(*(_tried(name, size) for name in names)):
             _try(term, dict(zip(names, values, strict=True)), places[term.__name__], file)
-
-
-def _is_word(name: str) -> bool:
-    return name in TRIED and (name in {**WORDS, **CONSTANTS} or _is_local(name))
-
-
-def _is_local(name: str) -> bool:
-    return any(name in place.local for place in PLACES)
 
 
 def _tried(name: str, size: Mapping[str, Any]) -> Sequence[float]:

@@ -163,20 +163,19 @@ def both(a: float, b: float) -> float:
     return 3.0 * a + b
 
 def order(w: "float[:]", i: int) -> float:
-    x = push(w, i) - push(w, i + 1) * w[1] + peek(w, i) / (push(w, i) + 5.0)
-    y = both(w[0], push(w, 7)) + max(peek(w, 2), push(w, 1), w[2])
-    w[int(push(w, 3)) % 8] = push(w, 3) + w[3]
-    w[4] += push(w, 4)
-    w[5], w[6] = push(w, 6), push(w, 5)
+    x = push(w, i)
+    x -= push(w, i + 1) * i
+    w[4] += peek(w, i) / (x * x + 5.0)
+    w[5], w[6] = w[6], w[5]
     w[0] = z = push(w, 2)
-    if w[1] < push(w, 1):
-        y += 1.0
-    elif push(w, 2) * w[2] > 5.0:
-        y -= 1.0
-    return x + y + z if push(w, 1) > w[1] - 1.0 and push(w, 2) > 0.0 else push(w, 3)
+    if 1.0 < push(w, 1):
+        z += 1.0
+    elif push(w, 2) > 5.0:
+        z -= 1.0
+    return x + z if push(w, 1) > 1.0 and push(w, 2) > 0.0 else push(w, 3)
 
 def two_arrays(p: "float[:]", w: "float[:]") -> float:
-    return push(w, 1) * p[1] + p[1] * push(p, 1)
+    return push(w, 1) * p[1] + p[2] * peek(p, 1)
 
 def nothing(unused: float, w: "float[:]"):
     if w[0] > 0.0:

@@ -17,7 +17,7 @@ EXAMPLE = Checkpoint(
     setup={"rig.mass": 0.67, "unit": "{1234}", "order": ["a", "b"]},
     master={"outputs": {"a": {"x": 1 / 3, "n": 3, "on": True}}, "past": [[0.1, None], []]},
     states={"a": bytes(range(256)) * 5, "b/../ü": b"", "c": b"c"},
-    record={"rows": 7, "kept": 6, "last": [5e-324, -0.0, 1.7976931348623157e308]},
+    record={"rows": 6, "newest": [5e-324, -0.0, 1.7976931348623157e308]},
 )
 
 
@@ -29,7 +29,9 @@ def saved(tmp_path):
 def test_comes_back_as_it_was(saved):
     found = load_checkpoint(saved)
     assert found == EXAMPLE
-    assert np.array(found.record["last"]).tobytes() == np.array(EXAMPLE.record["last"]).tobytes()
+    assert (
+        np.array(found.record["newest"]).tobytes() == np.array(EXAMPLE.record["newest"]).tobytes()
+    )
     assert type(found.master["outputs"]["a"]["n"]) is int
     assert type(found.master["outputs"]["a"]["on"]) is bool
 
@@ -62,7 +64,7 @@ def test_another_format_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr("cosim.coupling.record.checkpoint.FORMAT", 99)
     path = save_checkpoint(tmp_path / "c.zip", EXAMPLE)
     monkeypatch.undo()
-    with pytest.raises(CheckpointError, match="format 99, this version goes on from format 1"):
+    with pytest.raises(CheckpointError, match="format 99, this version goes on from format 2"):
         load_checkpoint(path)
 
 

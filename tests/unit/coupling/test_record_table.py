@@ -11,10 +11,10 @@ import pytest
 from command_line import python
 from refusals import one_line
 
-from cosim.coupling.record import GrowingTable, Place
+from cosim.coupling.record import GrowingTable
 from cosim.files import OutputError
 
-#: Writes rows of (n, n, ...) for ever; every third stays. argv: path, columns.
+#: Writes rows of (n, n, ...) for ever. argv: path, columns.
 WRITER = """
 import sys
 from pathlib import Path
@@ -23,7 +23,7 @@ columns = int(sys.argv[2])
 table = GrowingTable(columns, Path(sys.argv[1]))
 n = 0
 while True:
-    table.append([float(n)] * columns, keep=n % 3 == 0)
+    table.append([float(n)] * columns)
     n += 1
     if n == 3:
         print("begun", flush=True)
@@ -44,33 +44,6 @@ def test_numpy_reads_it_after_every_row(tmp_path):
         assert found[-1].tolist() == [n, 0.1 * n, -1.0]
     assert table.path.stat().st_size % 8 == 0
     np.testing.assert_array_equal(np.load(table.path), table.rows())
-
-
-def test_a_row_that_is_not_kept_gives_way_to_the_next(tmp_path):
-    table = GrowingTable(1, tmp_path / "t.npy")
-    seen = []
-    for n in range(8):
-        table.append([n], keep=n % 3 == 0)
-        seen.append(loaded(table.path)[:, 0].tolist())
-    assert seen[-4:] == [[0, 3, 4], [0, 3, 5], [0, 3, 6], [0, 3, 6, 7]]
-    assert len(table) == 4 and table.rows()[:, 0].tolist() == [0, 3, 6, 7]
-
-
-def test_a_row_across_two_pages_is_not_counted_while_another_takes_its_place(tmp_path, monkeypatch):
-    """A kill in the middle of it could leave half of the one, half of the other."""
-    table = GrowingTable(100, tmp_path / "t.npy")
-    for n in range(5):
-        table.append([n] * 100, keep=n < 4)
-    assert len(loaded(table.path)) == 5
-
-    def killed(file, data, at):
-        assert len(data) < 100, "the row itself"
-        return os.pwrite(file, data, at)
-
-    monkeypatch.setattr("cosim.coupling.record.table._write_at", killed)
-    with pytest.raises(AssertionError, match="the row itself"):
-        table.append([5.0] * 100)
-    assert len(loaded(table.path)) == 4
 
 
 def test_every_number_comes_back_as_it_was(tmp_path):
@@ -95,19 +68,16 @@ def test_without_a_path_there_is_no_file_and_the_rows_are_there(tmp_path, monkey
 def test_goes_on_at_a_place_that_it_has_passed(tmp_path):
     whole, cut = (GrowingTable(2, tmp_path / name) for name in ("whole.npy", "cut.npy"))
     for n in range(20):
-        whole.append([n, 0.1 * n], keep=n % 4 == 0)
+        whole.append([n, 0.1 * n])
     for n in range(17):
-        cut.append([n, 0.1 * n], keep=n % 4 == 0)
-        if n == 10:
-            place = cut.place
-    assert place == Place(4, 3, (10.0, 1.0))
+        cut.append([n, 0.1 * n])
     cut.close()
-    cut = GrowingTable(2, tmp_path / "cut.npy", place=place)
-    assert loaded(cut.path)[:, 0].tolist() == [0, 4, 8, 10], "later rows are gone"
+    cut = GrowingTable(2, tmp_path / "cut.npy", rows=11)
+    assert loaded(cut.path)[:, 0].tolist() == [*range(11)], "later rows are gone"
     for n in range(11, 20):
-        cut.append([n, 0.1 * n], keep=n % 4 == 0)
+        cut.append([n, 0.1 * n])
     assert cut.path.read_bytes() == whole.path.read_bytes()
-    assert cut.place == whole.place
+    assert len(cut) == len(whole)
 
 
 @pytest.mark.parametrize(
@@ -124,10 +94,9 @@ def test_another_file_is_refused(tmp_path, spoil):
     table = GrowingTable(2, tmp_path / "t.npy")
     for n in range(3):
         table.append([n, n])
-    place = table.place
     table.close()
     spoil(table.path)
-    line = one_line(OutputError, lambda: GrowingTable(2, table.path, place=place))
+    line = one_line(OutputError, lambda: GrowingTable(2, table.path, rows=3))
     assert "t.npy: " in line
 
 
@@ -142,7 +111,7 @@ def test_an_earlier_table_is_replaced_and_stays_with_who_reads_it(tmp_path):
 
 
 def test_whole_rows_whenever_it_is_killed(tmp_path):
-    """0, 3, 6, ..., and a last one that may be any that follows; each row of one value."""
+    """0, 1, 2, ...; each row of one value."""
     random = np.random.default_rng(7)
     for number in range(4):
         path = tmp_path / f"{number}.npy"
@@ -154,9 +123,7 @@ def test_whole_rows_whenever_it_is_killed(tmp_path):
         writer.communicate()
         rows = np.array(loaded(path))
         assert (rows == rows[:, :1]).all(), "a torn row"
-        first = rows[:, 0]
-        assert (first[:-1] == 3 * np.arange(first.size - 1)).all()
-        assert 3 * (first.size - 2) < first[-1] <= 3 * (first.size - 1)
+        assert (rows[:, 0] == np.arange(len(rows))).all()
 
 
 FULL = """

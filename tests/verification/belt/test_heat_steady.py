@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from settled_belt import settle
 
-from thermal import Belt, BeltIceModel, ThermalParameters
+from thermal import Belt, BeltIceModel, NoSteadyState, ThermalParameters
 from thermal.steady_sliding import SteadySliding
-from thermal.steady_state import NoSteadyState, settle
 
 SENSES = (
     "belt_entry_temperature",

@@ -1,4 +1,4 @@
-"""The periodic steady state of steady sliding, without stepping to it.
+"""The periodic steady state of `BeltIceModel`, without stepping to it: a second way to it.
 
 When the belt moves by whole cells in every step, a step maps temperatures onto temperatures in the
 same way each time, seen from the ice. Its fixed point follows coefficient by coefficient: with
@@ -7,32 +7,12 @@ that go with it solve the conditions of the contact as in any step.
 """
 
 import numpy as np
+from numpy.fft import irfft
 
-from .contact.exchange import IceFace, exchange
-from .model import BeltIceModel
-
-#: A step after which nothing changes any more, s: its mean differs from its end by the part of it
-#: that the slowest change (hours) takes.
-FOREVER = 1e13
-
-#: Rates below this are those of a belt that keeps its heat, 1/s: a year is 3e7 s.
-_KEEPS_HEAT = 1e-9
-
-#: A travel is whole cells when it is so up to this part of a cell.
-_ROUNDING = 1e-9
-
-
-class NoSteadyState(ValueError):
-    """The belt gives no heat away, so it warms for ever; or the ice melts for ever."""
-
-
-def check_gives_heat(slowest_rate: float, to_supports: bool) -> None:
-    """NoSteadyState when a belt gives its heat neither to the air nor to supports."""
-    if slowest_rate < _KEEPS_HEAT and not to_supports:
-        raise NoSteadyState(
-            "belt.air_heat_transfer = 0: a belt that gives its heat to nothing warms for ever and"
-            " has no steady state; allowed is above 0, or a railing or rollers that take heat"
-        )
+from thermal import BeltIceModel
+from thermal.belt.material_frame import BeltField, Response
+from thermal.contact.exchange import IceFace, exchange
+from thermal.steady_sliding import FOREVER, NoSteadyState, check_gives_heat
 
 
 def settle(model: BeltIceModel, duration: float, heat: float, displacement: float) -> None:
@@ -42,17 +22,22 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
     not; NoSteadyState when there is none. The ledger begins with the heat that is stored then.
     """
     shift = displacement / model.belt.cell
-    if abs(shift - round(shift)) > _ROUNDING or abs(displacement) > model.longest_movement:
+    if abs(shift - round(shift)) > 1e-9 or abs(displacement) > model.longest_movement:
         raise ValueError(
             f"displacement = {displacement:g} m: the steady state needs whole cells of"
             f" {model.belt.cell:g} m in a step, at most {model.longest_movement:g} m"
         )
     check_gives_heat(float(model.belt.rates[0, 0]), model.supported_belt.places.take_heat)
     parameters, area = model.parameters, model.footprint.area
-    response = model.belt.periodic_response(duration, round(shift))
-    found = model.supported_belt.step_response(
-        duration, model.contact_position, -displacement, displacement, response
+    response, of_a_step = (
+        _periodic_response(model.belt, duration, round(shift)),
+        model.belt.response,
     )
+    model.belt.response = lambda _: response
+    found = model.supported_belt.step_response(
+        duration, model.contact_position, -displacement, displacement
+    )
+    model.belt.response = of_a_step
     ice_end = model.ice.face_response(FOREVER)[1] * area
     fluxes = exchange(
         found.contact.face,
@@ -73,3 +58,21 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
     model.ledger.restore(np.zeros_like(model.ledger.array()))
     model.ledger.received = model.belt.heat() + model.ice.heat()
     model.step(duration, heat, displacement)
+
+
+def _periodic_response(belt: BeltField, duration: float, shift: int) -> Response:
+    """Of a step before and after which the field is the same, `shift` nodes further back.
+
+    Without memory: `forced` gives the field before the step, which the loads sustain.
+    """
+    once = belt.response(duration)
+    turn = 2j * np.pi * shift / belt.cells * np.arange(belt.rates.shape[1])
+    # exp(turn) - decay, without cancelling
+    kept = once.forced / (np.expm1(turn) - np.expm1(-belt.rates * duration))
+    pairs = np.einsum("amk,bmk->abk", once.free_mean, kept)
+    return once._replace(
+        decay=np.zeros_like(once.decay),
+        free_mean=np.zeros_like(once.free_mean),
+        forced=kept,
+        kernels=once.kernels + irfft(pairs, belt.cells, axis=-1),
+    )
