@@ -131,10 +131,10 @@ def write_unless_owned(texts: Mapping[str, str], folder: Path, force: bool = Fal
 
 
 def _differs(path: Path, text: str) -> bool:
-    """Whether a file is there that holds anything else."""
+    """Whether a file is there that holds anything else; a pipe, which may never end, does."""
+    if not path.is_file():
+        return path.exists()
     try:
         return path.read_bytes().decode("utf-8").splitlines() != text.splitlines()
-    except FileNotFoundError:
-        return False
     except (OSError, UnicodeDecodeError):
         return True

@@ -25,6 +25,8 @@ __all__ = ["BrokenProcessPool", "Map", "apart", "as_finished", "pool", "processe
 
 #: A process that has not stopped after this time (s) is killed; one that was just started imports.
 STOP_SECONDS = 10.0
+#: One whose parent was killed has this time (s) to tidy up: nobody waits for it, or kills it.
+ORPHAN_SECONDS = 0.25
 ONE_THREAD = dict.fromkeys(
     (
         "OMP_NUM_THREADS",
@@ -208,10 +210,14 @@ def _answer() -> None:
 
 def _listen(calls: SimpleQueue[bytes]) -> None:
     """Take calls until the pipe breaks; by what is then under way nobody is waited for."""
+    parent = os.getppid()
     with suppress(EOFError):
         while True:
             calls.put(pickle.load(sys.stdin.buffer))
     _STOPPED.set()
     calls.put(b"")
-    time.sleep(STOP_SECONDS)
+    until = time.monotonic() + STOP_SECONDS
+    while os.getppid() == parent and time.monotonic() < until:
+        time.sleep(ORPHAN_SECONDS)
+    time.sleep(ORPHAN_SECONDS)
     os._exit(1)

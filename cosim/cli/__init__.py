@@ -25,6 +25,8 @@ _BLAS_THREADS = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 #: Standard output that takes nothing: a full disk or device, one that is broken, or not for this.
 _REFUSED = (ENOSPC, EIO, EBADF)
+#: Characters of an error that are shown, half of them from its end, which says what is allowed.
+_SHOWN = 2000
 _CLOSED = "standard output: is closed, allowed is a file, a pipe, or >/dev/null for none"
 
 
@@ -118,7 +120,10 @@ def _give_up(error: BaseException, status: int, debug: bool, message: str = "") 
         import traceback
 
         traceback.print_exception(error)
-    print(f"error: {message or error}", file=sys.stderr)
+    text = message or str(error)
+    if len(text) > _SHOWN:  # a name in a file can be megabytes
+        text = f"{text[: _SHOWN // 2]} ... {text[-_SHOWN // 2 :]}"
+    print(f"error: {text}", file=sys.stderr)
     return status
 
 

@@ -31,9 +31,12 @@ def require_own(file: Path, force: bool) -> None:
     writable(file.parent, [file.name])
     if force or not file.exists():
         return
-    with file.open(encoding="utf-8", errors="replace") as there:
-        if not made_here(there.read(BEGINNING)):
-            raise OutputRefused(
-                f"{file}: was not made by stickslip explore, allowed is another name, or --force "
-                "to overwrite it"
-            )
+    begins = ""
+    if file.is_file():  # a pipe may never end
+        with file.open(encoding="utf-8", errors="replace") as there:
+            begins = there.read(BEGINNING)
+    if not made_here(begins):
+        raise OutputRefused(
+            f"{file}: was not made by stickslip explore, allowed is another name, or --force "
+            "to overwrite it"
+        )

@@ -93,7 +93,8 @@ def _opened(
     refused: type[ValueError] = FmuError,
 ) -> Iterator[zipfile.ZipFile]:
     if not path.is_file():
-        raise refused(f"{path}: no such file; expected an FMU")
+        what = "is no regular file" if path.exists() else "no such file"
+        raise refused(f"{path}: {what}; expected an FMU")
     try:
         with zipfile.ZipFile(path) as archive:
             yield archive

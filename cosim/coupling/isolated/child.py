@@ -35,7 +35,7 @@ CLOSE = "close"
 BEGIN = "enter_initialisation"
 #: How often (s) it looks whether the process that it serves is still there, and how long it then
 #: lets its participant close.
-LOOK_SECONDS = 1.0
+LOOK_SECONDS = 0.25
 
 
 def packed(what: Any) -> bytes:

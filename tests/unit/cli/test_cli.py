@@ -121,6 +121,14 @@ def test_a_fault_of_ours_is_one_line_and_no_bad_input(capsys, monkeypatch):
     assert capsys.readouterr().err == "error: spring broke (--debug shows where)\n"
 
 
+def test_an_error_is_short_however_long_a_name_in_a_file_is(capsys, tmp_path):
+    """Its beginning names the file, its end what is allowed."""
+    (tmp_path / "long.toml").write_text(f"{'y' * 1_000_000} = 1\n", encoding="utf-8")
+    line = refusal(capsys, "simulate", "long.toml")
+    assert line.startswith("long.toml: yyy") and ": no such key, known: " in line
+    assert len(line) < 2100
+
+
 def test_our_warnings_are_one_line_each_and_come_once(capsys):
     import warnings
 

@@ -200,3 +200,21 @@ def test_results_of_another_command_are_not_replaced_without_a_word(tmp_path, ca
         monkeypatch.setattr("sys.argv", ["stickslip", *argv])
         assert main(argv) == 0
         assert (replaced in capsys.readouterr().err.splitlines()) == said
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
+@pytest.mark.parametrize(
+    "name, argv",
+    [
+        ("page.html", ["explore", "-o", "page.html", "--no-open"]),
+        ("brush.py", ["effect", "new", "brush.py"]),
+        ("mine.toml", ["new", "mine"]),
+    ],
+)
+def test_a_pipe_that_has_a_files_name_is_refused_and_not_read(
+    capsys, tmp_path, monkeypatch, name, argv
+):
+    """Nobody may ever write to it."""
+    monkeypatch.chdir(tmp_path)
+    os.mkfifo(tmp_path / name)
+    assert refusal(capsys, *argv).startswith(f"{name}: ")

@@ -65,4 +65,6 @@ def test_borders_within_a_third_are_told_with_the_side_on_which_they_are():
     told = border_sentence(numbers() | {"nearest_borders": [near]})
     assert "slides without ever sticking with surface.speed above 0.157 m/s (0.15 here)" in told
     assert "well inside" in border_sentence(numbers())
+    assert "a third, none of" in border_sentence(numbers())
+    assert "mu_s/mu_k - 1 makes" in border_sentence(numbers()), "a third of what is above its least"
     assert "too many steps" in border_sentence(numbers() | {"nearest_borders": None})

@@ -134,6 +134,7 @@ def test_sticks_do_not_show_that_friction_is_dry(quick):
     """C16: a block on melting asperities sticks, too; C18: holds of a Coulomb oscillator."""
     dry, strengthening = quick["C16"], quick["C18"]
     assert dry.checks[1].margin.value < 1.0 and dry.rows[2].exact < 0.5
+    assert "whether the friction is dry is undecided" in dry.scope
     assert {check.verdict for check in strengthening.checks} == {"undecided", "does not hold"}
     expected = closed_form(DATASET_1.mu_s, DATASET_1.mu_k)
     assert strengthening.rows[1].exact == pytest.approx(expected.stick_time, rel=5e-3)

@@ -61,7 +61,8 @@ def judge_dry_friction(claim: Claim) -> dict[str, float]:
     for case in DATASET_1.over("speed", SPEEDS[1:3]):
         faster = cases.exact_figures(case, **MELTING)["slip_share"]
         claim.turn("speed", faster, sound=faster == 1.0, v=case.speed)
-    return {"sticks": 100.0 * (1.0 - share), "part": 100.0 * part}
+    told = {"sticks": 100.0 * (1.0 - share), "part": 100.0 * part}
+    return told | {"law": part * DRY, "measured": DATASET_1.mu_k}
 
 
 def judge_falling_friction(claim: Claim) -> dict[str, float]:
