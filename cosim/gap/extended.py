@@ -355,17 +355,19 @@ def contact_numbers(campaign: Campaign, fastest: float) -> list[Number]:
     ]
 
 
-def friction_of_runs(scatter: float) -> Number:
-    """Each run's own friction. scatter : standard deviation, relative"""
-    return Number("offset.friction", 0.0, scatter, -4.0 * scatter, 4.0 * scatter, "run")
+def scatter_numbers(campaign: Campaign, scatter: float) -> list[Number]:
+    """What differs from run to run: friction, and the surface's speed from its set-point.
+
+    scatter : standard deviation of friction, relative. Over three cycles 1 % of the speed adds up
+    to a tenth of a cycle's stick, far more than the noise; held-out runs have errors of their own,
+    which no fitted run can tell.
+    """
+    friction = Number("offset.friction", 0.0, scatter, -4.0 * scatter, 4.0 * scatter, "run")
+    return [friction, set_point(campaign)]
 
 
 def set_point(campaign: Campaign) -> Number:
-    """By which part each run's surface is faster than stated.
-
-    Over three cycles 1 % of the speed adds up to a tenth of a cycle's stick, far more than the
-    noise; held-out runs have errors of their own, which no fitted run can tell.
-    """
+    """By which part each run's surface is faster than stated."""
     sd = campaign.errors.surface_speed
     return Number("offset.speed", 0.0, sd, -3.0 * sd, 3.0 * sd, "run")
 

@@ -13,9 +13,8 @@ from cosim.gap.extended import (
     TRANSITION_SPEED,
     Part,
     contact_numbers,
-    friction_of_runs,
     rounding_of,
-    set_point,
+    scatter_numbers,
     started_from,
 )
 from cosim.gap.report_of_findings import text_of
@@ -41,8 +40,6 @@ LOST = 1.5
 #: feel what else its law has.
 HARDLY = 0.02
 
-#: Name of the rung that lets surfaces run off their set-points.
-SET_POINTS = "set-points"
 #: Numbers of a model, and its settings.
 _Free = tuple[list[Number], dict[str, float]]
 
@@ -78,7 +75,7 @@ class Models:
         cls, campaign: Campaign, system: System, parts: Sequence[Part], *,
         step: Callable[[], None], jobs: int, others: Models | None = None, is_shown: bool = True,
     ) -> Models:  # fmt: skip
-        """The user's model, set-points where they are felt, the findings, and a contact.
+        """The user's model, then the findings, then a contact where it is felt.
 
         others : whose windows and fits these have as well; is_shown :
         each finding by itself; else all of them and a contact in one rung
@@ -87,7 +84,6 @@ class Models:
         models = cls(campaign, system, windows, parts, jobs, known=others.known if others else {})
         models._add_plain()
         step()
-        models._try_set_points()
         models.before = len(models.ladder) - 1
         if is_shown:
             models._add_parts()
@@ -121,18 +117,6 @@ class Models:
         numbers, settings, _ = self.free[0]
         text = f"{text_of(rounding)}; what rounding adds counts as noise from here on"
         self._add(rounding.effect, text, (numbers, settings), rows, fitted, across=gain)
-
-    def _try_set_points(self) -> None:
-        """Speeds of the runs' surfaces, which their sticks show."""
-        numbers, settings, _ = self.free[-1]
-        free = [*numbers, set_point(self.campaign)], settings
-        rows = self.system.rung(contact=False, scatter=False)
-        if self._try(SET_POINTS, "", free, rows):
-            values = self.fits[-1].values.items()
-            off = [value for label, value in values if label.startswith("offset.speed@")]
-            worst = 100.0 * max(map(abs, off), default=0.0)
-            text = f"surfaces run off their set-points, by {worst:.2g} % at most"
-            self.ladder[-1] = replace(self.ladder[-1], text=text)
 
     def let_scatter(self) -> None:
         """Once: friction scatters, as the rows with all findings have it, where that is felt."""
@@ -179,9 +163,7 @@ class Models:
         spread = scatter.expected[2]  # a run may lie at the far end of what is probable
         text = scatter_text(scatter.seen)
         numbers, settings, _ = self.free[-1]
-        speed = [set_point(self.campaign)]  # where set-points alone were not felt
-        has_speed = speed[0].key in {number.key for number in numbers}
-        more = [*numbers, friction_of_runs(spread), *speed[has_speed:]]
+        more = [*numbers, *scatter_numbers(self.campaign, spread)]
         settings = {**settings, BREAK_AWAY: STICK_SCATTER}
         if self._try("scatter", text, (more, settings), self.system.rung(self._added), spread):
             sticks = 100.0 * self.fits[-1].stick_scatter

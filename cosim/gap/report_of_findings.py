@@ -25,8 +25,6 @@ from cosim.gap.windows.run_model import HEIGHT
 
 #: Whether a piece of a finding's setting is a figure.
 _FIGURE = re.compile(r"\d").search
-#: Rungs of the ladder that are no effect's.
-NUISANCES = ("set-points", "contact", "scatter")
 _SAYS: dict[str, str] = WORDS["findings"]
 
 
@@ -62,7 +60,7 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
     if gap.verdict in ("named", "class"):
         return f"{found}."
     if gap.verdict == "partial":
-        nuisances = [rung.name for rung in gap.ladder if rung.name in NUISANCES]
+        nuisances = [rung.name for rung in gap.ladder if rung.name in ("contact", "scatter")]
         this = " and ".join(["this", *nuisances])
         takes = f"explain{'s' * (not nuisances)} {percent(gap.share)} of the misfit"
         return f"{found}; {this} {takes}, and something else is missing."

@@ -56,7 +56,7 @@ class Rung:
 
     Attributes
     ----------
-    name : "user's model", "set-points", "contact", "scatter", an effect's id, or a fault
+    name : "user's model", "contact", "scatter", an effect's id, or a measurement fault
     text : what it is, with its number, in a sentence
     gap : of the simulated model over windows of several cycles
     weak : of the equation of motion tested against the tracks (`weak_form`)
