@@ -92,6 +92,8 @@ def _balances(track: SmoothTrack) -> np.ndarray:
     """
     force = track.place + track.acceleration / track.run.natural_frequency**2
     medians = [float(np.median(force[first:last])) for first, last in track.slips]
+    if not medians:
+        return np.zeros(0)
     lengths = [last - first for first, last in track.slips]
     middles = [0.5 * (first + last) for first, last in track.slips]
     degree = min(len(medians) // SLIPS_OF_A_POWER, 3)
