@@ -44,8 +44,8 @@ LONGEST_DELAY = 0.05
 
 #: Springs are at most so many times as stiff as stated.
 STIFFER = (0.2, 5.0)
-#: Of a curve that is the law its height is fitted.
-_AS_HIGH = (Number(HEIGHT, 1.0, None, 0.0, 2.0),)
+#: What is fitted of a curve that is the law.
+CURVE_NUMBERS = (Number(HEIGHT, 1.0, None, 0.0, 2.0),)
 #: A fault is at most so many times as large as is expected of one.
 MOST_FAULT = 5.0
 
@@ -152,7 +152,7 @@ def part_of(
         fits.sort(key=lambda fit: fit.law != law.law)
     best = fits[0]
     if not (law or best.follows) and (points := _points(campaign, finding, curve, scales)):
-        return Part(finding, curve, tuple(fits), _AS_HIGH, points)
+        return Part(finding, curve, tuple(fits), CURVE_NUMBERS, points)
     settings = dict(best.candidate.settings)
     numbers = [_number(free, best.values.get(free.key, free.start))
                for free in best.candidate.free_parameters]  # fmt: skip
@@ -170,7 +170,7 @@ def part_of(
         numbers.append(Number(f"{best.effect}.relaxation_time", memory, None, 0.05, 1e3, log=True))
         settings[f"{best.effect}.diffusion"] = unknown.settings["diffusion"]
         if unknown.settings["per_weight"]:
-            settings[f"per_weight.{best.effect}.per_joule"] = scales.force
+            settings[f"{PER_WEIGHT}.{best.effect}.per_joule"] = scales.force
     shifts = {}
     if finding.name == "static_strengthening":  # the rows' mu_s is that of the shortest hold
         shifts[f"friction.{rig.MU_S}"] = level.static * best.level
@@ -183,7 +183,7 @@ def as_points(campaign: Campaign, system: System, part: Part) -> Part:
         return part
     scales = scales_of(campaign, system.runs, system.level.kinetic)
     points = _points(campaign, part.finding, part.curve, scales)
-    return replace(part, numbers=_AS_HIGH, settings=points, shifts={}) if points else part
+    return replace(part, numbers=CURVE_NUMBERS, settings=points, shifts={}) if points else part
 
 
 def _points(
@@ -225,7 +225,7 @@ def _of_load(finding: Finding, numbers: Sequence[Number], force: float) -> dict[
 def _scaled(how: str, numbers: Sequence[Number], typical: float) -> dict[str, float]:
     """A law's strengths, which are what they say at a typical weight or stiffness."""
     strengths = [n.key for n in numbers if n.key.rpartition(".")[2] in STRENGTHS]
-    return {f"{how}{key}": typical for key in strengths}
+    return {f"{how}.{key}": typical for key in strengths}
 
 
 def own_effects(campaign: Campaign) -> frozenset[str]:

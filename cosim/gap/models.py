@@ -10,6 +10,7 @@ import numpy as np
 
 from cosim.gap.data import Campaign
 from cosim.gap.extended import (
+    ROUNDING,
     TRANSITION_SPEED,
     Part,
     contact_numbers,
@@ -51,7 +52,7 @@ class Models:
     system : rows of the fitted runs; jobs : runs simulated at a time
     fits, ladder : one a rung; free : its numbers, its settings and how much friction scatters
     scatter : of friction, with its 90 % interval, as the rows alone have it
-    last : ln evidence of the last rung's rows; before : number of the rung before the findings
+    last : ln evidence of the last rung's rows
     is_scattered : whether friction has been let scatter, if it is to
     known : what was fitted to these windows before, by its numbers, settings and scatter
     """
@@ -66,7 +67,6 @@ class Models:
     ladder: list[Rung] = field(default_factory=list)
     scatter: tuple[float, float, float] | None = None
     last: float | None = None
-    before: int = 0
     is_scattered: bool = False
     known: dict[frozenset[object], Fitted] = field(default_factory=dict)
 
@@ -84,7 +84,6 @@ class Models:
         models = cls(campaign, system, windows, parts, jobs, known=others.known if others else {})
         models._add_plain()
         step()
-        models.before = len(models.ladder) - 1
         if is_shown:
             models._add_parts()
             step()
@@ -117,6 +116,11 @@ class Models:
         numbers, settings, _ = self.free[0]
         text = f"{text_of(rounding)}; what rounding adds counts as noise from here on"
         self._add(rounding.effect, text, (numbers, settings), rows, fitted, across=gain)
+
+    @property
+    def _plain(self) -> int:
+        """Number of the rung before the findings."""
+        return int(any(rung.name == ROUNDING for rung in self.ladder))
 
     def let_scatter(self) -> None:
         """Once: friction scatters, as the rows with all findings have it, where that is felt."""
@@ -173,7 +177,7 @@ class Models:
     @property
     def is_lost(self) -> bool:
         """Whether the findings make it much worse."""
-        return self.unscattered.fit > LOST * self.ladder[self.before].gap.fit
+        return self.unscattered.fit > LOST * self.ladder[self._plain].gap.fit
 
     def is_lost_beside(self, other: Models) -> bool:
         """Whether it is much worse than another, in fitted runs or in those that judge."""
@@ -183,8 +187,8 @@ class Models:
     @property
     def is_felt(self) -> bool:
         """Whether the findings take anything of the gap by themselves."""
-        with_parts = self.before + len(self.parts)
-        before, after = (self.ladder[n].gap.fit for n in (self.before, with_parts))
+        first = self._plain
+        before, after = (self.ladder[n].gap.fit for n in (first, first + len(self.parts)))
         return before**2 - after**2 > FELT_PART * max(before**2 - 1.0, 0.0)
 
     @property

@@ -88,7 +88,7 @@ def _balances(track: SmoothTrack) -> np.ndarray:
     """(slips,) where springs and kinetic friction balance, m: m x'' / K + x, its median in a slip.
 
     A slip has much noise, which its neighbours must not share, and friction may drift over a run:
-    a cubic of the time, a line where slips are few.
+    a cubic of the time, less where slips are few.
     """
     force = track.place + track.acceleration / track.run.natural_frequency**2
     medians = [float(np.median(force[first:last])) for first, last in track.slips]

@@ -54,7 +54,7 @@ ROUNDING = 1e-9
 #: of the overshoot is the belt's, and what the contact held is the small difference of two numbers.
 MOST_OVERSHOOT = 0.8
 #: Slips for each power of the time by which kinetic friction is followed over a run: the error of
-#: the course is then half of a slip's at most.
+#: the course is then half of a slip's in the mean.
 SLIPS_OF_A_POWER = 5
 #: A stick shorter than this part of a period may be none.
 SHORTEST_STICK = 0.08

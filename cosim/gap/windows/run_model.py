@@ -44,9 +44,9 @@ BREAK_AWAY = "scatter.break_away"
 #: Time by which a contact lets go sooner, s: mu_s N falls by this times the rate of the load.
 LOADING = "offset.loading"
 #: ``with_weight.block.parameter``: the weight, N, at which that parameter is what it says; in other
-#: runs it goes in proportion to theirs; ``per_weight.`` inversely; ``with_stiffness.`` as the
+#: runs it goes in proportion to theirs; ``per_weight`` inversely; ``with_stiffness`` as the
 #: stiffness of their springs, N/m.
-WITH_WEIGHT, PER_WEIGHT, WITH_STIFFNESS = "with_weight.", "per_weight.", "with_stiffness."
+WITH_WEIGHT, PER_WEIGHT, WITH_STIFFNESS = "with_weight", "per_weight", "with_stiffness"
 
 
 def uneven(catalogue: Catalogue) -> list[str]:
@@ -73,11 +73,11 @@ def parameters_of(run: MeasuredRun, values: Mapping[str, float]) -> dict[str, fl
         flat["friction.mu_s"] = max(flat["friction.mu_s"] - values[LOADING] * rate, 0.0)
     for key, typical in values.items():
         scaled_by, _, parameter = key.partition(".")
-        if scaled_by == "per_weight":
+        if scaled_by == PER_WEIGHT:
             flat[parameter] *= typical / weight
-        elif scaled_by == "with_weight":
+        elif scaled_by == WITH_WEIGHT:
             flat[parameter] *= weight / typical
-        elif scaled_by == "with_stiffness":
+        elif scaled_by == WITH_STIFFNESS:
             flat[parameter] *= run.stiffness / typical
     height, force = values.get(HEIGHT, 1.0), -math.inf
     for key in [key for key in flat if key.startswith((TABLE_PART, FORCE_PART))]:

@@ -63,6 +63,10 @@ def test_no_run_alone_shows_that_nothing_is_missing():
     assert "no run is held out" in sentence_of(gap, [])
 
 
+#: An effect, and what no effect stands for, within twenty to one.
+TWO_NEAR = {"film_drag": -2.9, "other.time": -1.0}
+
+
 @pytest.mark.parametrize(
     ("names", "before", "after", "share", "others", "told"),
     [
@@ -73,14 +77,7 @@ def test_no_run_alone_shows_that_nothing_is_missing():
         (["run_in"], 5.0, 2.0, 0.81, {}, ("partial", ("run_in",))),
         # twenty to one tells two apart
         (["run_in"], 5.0, 1.0, 1.0, {"film_drag": -2.9}, ("class", ("run_in", "film_drag"))),
-        (
-            ["run_in"],
-            5.0,
-            1.0,
-            1.0,
-            {"film_drag": -2.9, "other.time": -1.0},
-            ("class", ("run_in", "film_drag")),
-        ),
+        (["run_in"], 5.0, 1.0, 1.0, TWO_NEAR, ("class", ("run_in", "film_drag"))),
         (["run_in"], 5.0, 1.0, 1.0, {"other.time": -1.0}, ("class", ("run_in", "other.time"))),
         (["run_in"], 5.0, 1.0, 1.0, {"film_drag": -3.1}, ("named", ("run_in",))),
         # held-out runs judge where there are some: fitted ones have 9 before and after; worse
