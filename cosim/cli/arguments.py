@@ -13,8 +13,9 @@ from importlib.metadata import version
 from types import ModuleType
 from typing import Any, NoReturn
 
+from stickslip.packaged import packaged_tables
+
 from cosim.cli import argument_types
-from cosim.packaged import packaged_tables
 
 #: What `commands.toml` says: of arguments that several commands have, and of each command.
 _DECLARED = packaged_tables(__package__, "commands.toml")

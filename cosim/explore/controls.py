@@ -12,10 +12,10 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from stickslip import Parameters
 from stickslip.catalogue import CATALOGUE, Catalogue
+from stickslip.packaged import packaged_tables
 from stickslip.quantity import details
 
 from cosim.fmu.variables import bounds_of
-from cosim.packaged import packaged_tables
 from cosim.report.page import unit_text
 from cosim.scenario import Scenario
 from cosim.scenario.validation import allowed, unit_of

@@ -34,7 +34,7 @@ host's wish, `loggingOn != 0`, becomes `true`; the unit says little that is no e
 import warnings
 from typing import Any
 
-from cosim.packaged import packaged_tables
+from stickslip.packaged import packaged_tables
 
 #: First bytes of a library of Linux, of Windows.
 ELF, DLL = b"\x7fELF", b"MZ"

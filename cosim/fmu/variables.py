@@ -10,11 +10,11 @@ from pydantic.fields import FieldInfo
 from stickslip import Parameters, ports
 from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.kernel import layout
+from stickslip.packaged import packaged_tables
 from stickslip.quantity import details
 from stickslip.units import UNITS
 
 import cosim
-from cosim.packaged import packaged_tables
 
 Entry = dict[str, Any]
 

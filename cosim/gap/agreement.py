@@ -308,21 +308,23 @@ class Fitting:
         if not rivals:
             return {}
         without = self._without(lone, parts, named)
-        own = without.gained(lone) - price_of(finding.name) if lone.in_kernel else 0.0
-        return {name: (rival, self._more(rival, finding.others[name], without, named) - own)
+        return {name: (rival, self._more(rival, lone, without, named))
                 for name, rival in rivals.items() if rival.in_kernel}  # fmt: skip
 
-    def _more(self, rival: Part, rows: float, without: Models, named: Named) -> float:
-        """What simulated runs gain by a rival; by any form of its law, where rows hardly tell it.
+    def _more(self, rival: Part, lone: Part, without: Models, named: Named) -> float:
+        """ln of how much more probable simulated runs are with a rival than with the finding.
 
-        rows : ln of how much more probable it is by them than the finding
+        By any form of its law, where rows hardly tell it.
         """
-        forms = [rival]
-        if rows > -ALIKE:
+        finding, forms = lone.finding, [rival]
+        if finding.others[rival.finding.name] > -ALIKE:
             there = _with_alone(named, rival.finding)
             forms += [self.part(there, rival.finding, law) for law in rival.rivals(self.campaign)
                       if law.effect == rival.effect]  # fmt: skip
-        return max(map(without.gained, forms)) - price_of(rival.finding.name)
+        over, price = (lone, price_of(finding.name)) if lone.in_kernel else (None, 0.0)
+        return (
+            max(without.gained(form, over) for form in forms) - price_of(rival.finding.name) + price
+        )
 
     def overruled(self, parts: Sequence[Part], named: Named, rivals: _Rivals) -> Rejected | None:
         """A lone finding that simulated runs put so far behind a rival that the rows must err.

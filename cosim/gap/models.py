@@ -196,12 +196,21 @@ class Models:
         """The gap before friction may scatter."""
         return [rung for rung in self.ladder if rung.name != "scatter"][-1].gap
 
-    def gained(self, part: Part) -> float:
+    def gained(self, part: Part, over: Part | None = None) -> float:
         """ln of how much more probable the runs are with a finding beside all that the ladder has.
 
-        From where the ladder ended, scatters of friction and of zeros averaged over. A number that
-        is less known with the finding is less probable beforehand, in every run.
+        over : than with this one in its place; else than without it. Scatters of friction and of
+        zeros are averaged over.
         """
+        found, wider = self._beside(part)
+        near, before = self._beside(over) if over else (self.fits[-1], 0.0)
+        scatter, expected = self.free[-1][2], self.campaign.errors.friction
+        less, more = (averaged_over(each, scatter, expected) for each in (near, found))
+        return found.gain_over(near) - len(near.runs) * (wider - before) + more - less
+
+    def _beside(self, part: Part) -> tuple[Fitted, float]:
+        """With one more finding, from where the ladder ended; and ln of how much less probable
+        every run is beforehand, where a number of it is less known with the finding."""
         (numbers, settings, scatter), near = self.free[-1], self.fits[-1]
         # from next to nothing of it, where no run is lost; else as the rows have it all
         rows = self.system.rung([*self._added, *part.finding.added])
@@ -210,16 +219,12 @@ class Models:
             {**near.values, **part.starts, **self._by_rows(rows, part)},
         ]
         free = [*part.numbers, *numbers], {**settings, **part.settings}
-        found = self._fitted_once(free, scatter, starts, near)
         known = {number.key: number.prior for number in numbers}
         wider = sum(
             math.log(number.prior / before) for number in part.numbers
             if number.prior and (before := known.get(number.key))
         )  # fmt: skip
-        gain = found.gain_over(near) - len(near.runs) * wider
-        expected = self.campaign.errors.friction
-        less, more = (averaged_over(each, scatter, expected) for each in (near, found))
-        return gain + more - less
+        return self._fitted_once(free, scatter, starts, near), wider
 
     def _fit(self, free: _Free, scatter: float, rows: Rows) -> Fitted:
         near = self.fits[-1] if self.fits else None

@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 from stickslip.catalogue import CATALOGUE, Catalogue
+from stickslip.packaged import packaged_tables
 
 from cosim.gap.result import NINETY, Gap
-from cosim.packaged import packaged_tables
 from cosim.report.page import unit_text
 from cosim.scenario import Scenario
 from cosim.scenario.validation import known_keys, unit_of

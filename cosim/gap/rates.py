@@ -53,10 +53,10 @@ class Option:
 
 def options_of(variants: Sequence[Unknown], runs: int) -> list[Option]:
     """Every variant of an argument, over scales and bends as `Rung.offered` has them."""
-    found = []
+    found, weights = [], sum(unknown.weight for unknown in variants)
     for unknown in variants:
         factors = tuple(factors_of(unknown, runs))
-        price = float(np.log(len(variants) * len(factors) * len(SCALES_ASKED)))
+        price = float(np.log(weights / unknown.weight * len(factors) * len(SCALES_ASKED)))
         found.append(Option((unknown,), factors, SCALES_ASKED, price + price_of(unknown.name)))
     return found
 

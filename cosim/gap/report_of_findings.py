@@ -56,7 +56,10 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
     each = [text_of(part) + _size(part, gap) for part in parts]
     found = "; ".join([*each[:1], *map(_lower, each[1:])])
     if gap.verdict in ("named", "class", "partial"):
-        found += "".join(f"; these runs cannot tell {' from '.join(one)}" for one in gap.classes)
+        found += "".join(
+            f"; these runs cannot tell {first} from {' or '.join(others)}"
+            for first, *others in gap.classes
+        )
     if gap.verdict in ("named", "class"):
         return f"{found}."
     if gap.verdict == "partial":
@@ -107,7 +110,10 @@ def _first_number(part: Part, gap: Gap) -> str:
     parameters, intervals, _ = _numbers_of(part, gap.extended)
     for key in (number.key for number in part.numbers if number.key in intervals):
         number = quantity(key, parameters[key], intervals[key], "", gap.campaign.catalogue)
-        return f", {number.text.removeprefix(f'{part.effect}.')}"
+        text = number.text.removeprefix(f"{part.effect}.")
+        if (speed := part.settings.get(f"{key}_speed")) and number.unit == "N":  # of a power law
+            text = f"{text.removeprefix('power = ')} at {speed:.3g} m/s"
+        return f", {text}"
     if part.finding.name == ROUNDING:
         step = quantity(ROUNDING, part.settings[ROUNDING], None)
         return f", {step.value} {step.unit}"

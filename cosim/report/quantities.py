@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from cosim.packaged import packaged_tables
+from stickslip.packaged import packaged_tables
 
 from .page import unit_text
 

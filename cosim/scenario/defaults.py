@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from functools import cache
 from typing import Any
 
-from cosim.packaged import packaged_tables
+from stickslip.packaged import packaged_tables
 
 #: The sets that a file may name: the stated one, and none.
 RIG, PLAIN = "rig", "plain"

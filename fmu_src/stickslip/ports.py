@@ -3,9 +3,9 @@
 They are declared in ``ports.toml``.
 """
 
-import tomllib
 from dataclasses import dataclass
-from pathlib import Path
+
+from .packaged import packaged_tables
 
 
 @dataclass(frozen=True)
@@ -26,7 +26,7 @@ class Port:
     start: float | None = None
 
 
-_DECLARED = tomllib.loads(Path(__file__).with_name("ports.toml").read_text("utf-8"))
+_DECLARED = packaged_tables(__package__, "ports.toml")
 INPUTS, OUTPUTS = (
     tuple(Port(name, **{"unit": None, "nominal": None, **told}) for name, told in ports.items())
     for ports in (_DECLARED["inputs"], _DECLARED["outputs"])

@@ -2,10 +2,10 @@
 written into a file."""
 
 import re
-import tomllib
-from pathlib import Path
 
-_DECLARED = tomllib.loads(Path(__file__).with_name("units.toml").read_text("utf-8"))
+from .packaged import packaged_tables
+
+_DECLARED = packaged_tables(__package__, "units.toml")
 #: FMI 2 unit name -> exponents of its base units, factor and offset; None: the exponents are not
 #: whole numbers, which FMI cannot state.
 UNITS: dict[str, dict[str, float] | None] = {

@@ -3,13 +3,11 @@
 It is in ``words.toml``, by the kernel's names; in the FMU these tables stand by themselves.
 """
 
-import tomllib
-from pathlib import Path
-
 from .kernel import layout
 from .kernel.packing import contradictions as codes
+from .packaged import packaged_tables
 
-_WORDS = tomllib.loads(Path(__file__).with_name("words.toml").read_text("utf-8"))
+_WORDS = packaged_tables(__package__, "words.toml")
 #: What `kernel.packing.contradictions` returns -> sentence.
 SAID: dict[int, str] = {getattr(codes, n): text for n, text in _WORDS["contradictions"].items()}
 #: What `advance` returns where it gives up -> why.

@@ -25,7 +25,7 @@ FILES = [(name, file) for name, folder in PACKAGES.items() for file in folder.rg
 #: Parts of cosim that compute and write without knowing what.
 LEAVES = (
     *("cosim.files", "cosim.interrupts", "cosim.manifest", "cosim.names", "cosim.processes"),
-    *("cosim.cores", "cosim.lazy", "cosim.packaged", "cosim.result", "stickslip.scratch"),
+    *("cosim.cores", "cosim.lazy", "stickslip.packaged", "cosim.result", "stickslip.scratch"),
 )
 PRODUCT = ("stickslip", "thermal", "cosim")
 #: Part -> what of the product it may import beside itself. What a part is not named for, the

@@ -4,9 +4,10 @@ from argparse import Action, ArgumentParser, Namespace, _SubParsersAction
 from collections.abc import Iterator
 from typing import Any
 
+from stickslip.packaged import packaged_tables
+
 from cosim.cli import DONE, BadInput
 from cosim.cli.arguments import COMMANDS, parser
-from cosim.packaged import packaged_tables
 from cosim.scenario import packaged_scenarios
 from cosim.scenario.keys import all_keys
 

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
 
+from stickslip.packaged import packaged_tables
+
 from cosim.fmu.variables import Variable
-from cosim.packaged import packaged_tables
 
 NAME = "BeltIceThermal"
 DESCRIPTION = (

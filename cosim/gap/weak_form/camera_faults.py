@@ -343,14 +343,19 @@ def _filter(kind: str, width: float) -> Unknown:
 
 
 def _among(rung: Rung, unknown: Unknown, in_some: bool = True) -> list[Unknown]:
-    """In all runs; and in those where it is largest, or most negative by itself: one, two, ..."""
+    """In all runs; and in those where it is largest, or most negative by itself: one, two, ...
+
+    In all runs is as probable beforehand as in any of some.
+    """
     names = [run.track.run.name for run in rung.system.fitted]
-    found = [names]
-    if in_some:
-        mean, sd = _sizes(rung, replace(unknown, per_run=True))
-        order = [names[number] for number in np.argsort(-mean / sd)]
-        found += [each[:n] for each in (order, order[::-1]) for n in range(1, len(order))]
-    return [_in_runs(rung, unknown, some) for some in found]
+    in_all = _in_runs(rung, unknown, names)
+    if not in_some or len(names) < 2:
+        return [in_all]
+    mean, sd = _sizes(rung, replace(unknown, per_run=True))
+    order = [names[number] for number in np.argsort(-mean / sd)]
+    found = [_in_runs(rung, unknown, each[:n])
+             for each in (order, order[::-1]) for n in range(1, len(order))]  # fmt: skip
+    return [in_all, *(replace(one, weight=unknown.weight / len(found)) for one in found)]
 
 
 def _in_runs(rung: Rung, unknown: Unknown, some: Collection[str]) -> Unknown:

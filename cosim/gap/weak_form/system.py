@@ -240,12 +240,12 @@ class Rung:
         totals, best = [], []
         for unknown in variants:
             values = self._with(unknown)
-            totals.append(logsumexp(values))
+            totals.append(logsumexp(values) + np.log(unknown.weight))
             scale, bend = np.unravel_index(int(np.argmax(values)), values.shape)
             bends = BENDS_ASKED if unknown.bends is not None else (0.0,)
             best.append((totals[-1], Added(unknown, SCALES_ASKED[scale], bends[bend])))
         return (
-            float(logsumexp(totals) - np.log(len(totals))),
+            float(logsumexp(totals) - np.log(sum(unknown.weight for unknown in variants))),
             max(best, key=lambda pair: pair[0])[1],
         )
 

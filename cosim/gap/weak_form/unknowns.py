@@ -61,6 +61,7 @@ class Unknown:
     curve : axis, where they are values of a curve
     settings : the variant in numbers, for who fits the law
     wave : of what is periodic (`periodic.Wave`)
+    weight : how probable it is among the variants of its name, beside one of 1
     """
 
     name: str
@@ -72,6 +73,7 @@ class Unknown:
     settings: dict[str, float] = field(default_factory=dict)
     bends: np.ndarray | None = field(default=None, repr=False)
     wave: Any = field(default=None, repr=False)
+    weight: float = 1.0
 
     @classmethod
     def over(

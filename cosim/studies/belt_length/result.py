@@ -7,8 +7,8 @@ from importlib import import_module
 from typing import Any
 
 import pandas as pd
+from stickslip.packaged import packaged_tables
 
-from cosim.packaged import packaged_tables
 from cosim.report.files import without_nan
 from cosim.report.page import PageResult
 

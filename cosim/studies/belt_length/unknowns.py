@@ -21,8 +21,8 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from stickslip.packaged import packaged_tables
 
-from cosim.packaged import packaged_tables
 from thermal import Belt, Layer
 from thermal.contact.footprint import Footprint
 

@@ -6,9 +6,8 @@ import math
 from typing import Any
 
 from stickslip.effects.melting.asperity_melting import carrying_speed, conducting
+from stickslip.packaged import packaged_tables
 from stickslip.packing import GRAVITY
-
-from cosim.packaged import packaged_tables
 
 from .map import FrictionMap
 

@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from stickslip import friction_coefficient
+from stickslip.packaged import packaged_tables
 
-from cosim.packaged import packaged_tables
 from cosim.scenario import packaged_scenarios, read_scenario
 
 from .map import FrictionMap

@@ -14,9 +14,9 @@ from itertools import combinations
 from typing import Any, NamedTuple
 
 import numpy as np
+from stickslip.packaged import packaged_tables
 from stickslip.reference.scheme_errors import DESCRIPTIONS, PRINTED, Faults
 
-from cosim.packaged import packaged_tables
 from cosim.report.page import Picture
 
 CLAIM_IDS = tuple(f"C{n}" for n in range(1, 19))

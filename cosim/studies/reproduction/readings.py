@@ -12,9 +12,8 @@ from functools import cache
 from typing import Any
 
 import numpy as np
+from stickslip.packaged import packaged_tables
 from stickslip.reference.scheme_errors import PRINTED, Faults
-
-from cosim.packaged import packaged_tables
 
 from .cases import DATASETS, SEEDS, scheme
 from .claim import STUDY

@@ -15,10 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 from stickslip import Trajectory
+from stickslip.packaged import packaged_tables
 from stickslip.packing import GRAVITY
 from stickslip.trajectory import break_away_frequency, slip_share
-
-from cosim.packaged import packaged_tables
 
 Array = NDArray[np.float64]
 

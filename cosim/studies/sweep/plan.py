@@ -12,8 +12,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from stickslip import Parameters
-
-from cosim.packaged import packaged_tables
+from stickslip.packaged import packaged_tables
 
 from .axis import axis, labelled_axis
 from .combination import Run, with_changes

@@ -7,11 +7,11 @@ from dataclasses import replace
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
+from stickslip.packaged import packaged_tables
 
 from cosim.coupling import Ledger
 from cosim.coupling.conversion import NO_UNIT
 from cosim.names import unknown_name
-from cosim.packaged import packaged_tables
 from cosim.report.columns import Column, Columns
 from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.page import Picture, number, unit_text

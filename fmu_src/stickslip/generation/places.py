@@ -7,10 +7,10 @@ out where all the switches among its arguments are zero; one that takes no switc
 switches of its effect are. Places and words are declared in ``places.toml``.
 """
 
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
+
+from ..packaged import packaged_tables
 
 #: How the text spells an array of floats: one that needs no import.
 ARRAY = '"float[:]"'
@@ -52,7 +52,7 @@ class Place:
         return "w" in self.arrays.split()
 
 
-_DECLARED = tomllib.loads(Path(__file__).with_name("places.toml").read_text("utf-8"))
+_DECLARED = packaged_tables(__package__, "places.toml")
 
 
 def _in_kernel(kind: str) -> dict[str, str]:

@@ -28,22 +28,16 @@ Nobody numbers by hand: ``layout.toml`` names what stands in each array and how 
 the effects' declarations name theirs, and `constants` counts.
 """
 
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from math import cos, pi, prod, sin, sqrt
-from pathlib import Path
 from typing import Any
 
 from ..effects import EFFECTS
 from ..effects.effect import Effect
 from ..generation.slots import draw_slots, effect_slots, seed_of, state_slots, value_slot
+from ..packaged import packaged_tables
 
 Slots = Sequence[tuple[str, int]]
-
-
-def _beside(file: str) -> dict[str, Any]:
-    """A file of tables that is here."""
-    return tomllib.loads(Path(__file__).with_name(file).read_text("utf-8"))
 
 
 def _size(said: Any, known: Mapping[str, Any]) -> Any:
@@ -53,7 +47,7 @@ def _size(said: Any, known: Mapping[str, Any]) -> Any:
     return known[said] if isinstance(said, str) else said
 
 
-_LAYOUT = _beside("layout.toml")
+_LAYOUT = packaged_tables(__package__, "layout.toml")
 #: Numbers that are no places.
 NUMBERS: dict[str, Any] = {}
 for _name, _said in _LAYOUT["numbers"].items():
@@ -106,7 +100,7 @@ def drawn(effects: Sequence[Effect], places: Mapping[str, int]) -> dict[str, tup
 
 def tableau() -> dict[str, tuple[float, ...]]:
     """The method's coefficients, row after row; each stage's row is filled up with zeros."""
-    found = _beside("dormand_prince.toml")
+    found = packaged_tables(__package__, "dormand_prince.toml")
     found["STAGE_WEIGHTS"] = [
         row + [0.0] * (NUMBERS["ALL_STAGES"] - len(row)) for row in [[], *found["STAGE_WEIGHTS"]]
     ]

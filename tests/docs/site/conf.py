@@ -63,4 +63,4 @@ html_theme_options = {"navigation_with_keys": True}
 # boxes that scroll can be reached with the keyboard, as on the pages of the commands
 html_static_path = ["static", str(CHECKOUT / "cosim" / "report" / "templates" / "page.js")]
 html_js_files = [("page.js", {"defer": "defer"})]
-html_css_files = ["tables.css"]
+html_css_files = ["site.css"]

@@ -79,8 +79,8 @@ def agreed(
         def let_scatter(self):
             pass
 
-        def gained(self, part):
-            return gained[part.finding.name]
+        def gained(self, part, over=None):
+            return gained[part.finding.name] - (gained[over.finding.name] if over else 0.0)
 
     fitting = agreement.Fitting(None, lambda: None, 1)
     monkeypatch.setattr(fitting, "fitted", lambda named, parts, **_: Models(parts))
@@ -210,7 +210,9 @@ def test_rivals_of_a_finding_are_simulated(monkeypatch, gain, rows, gained, told
     fitting = agreement.Fitting(None, lambda: None, 1)
     gains = {"run_in": 20.0, "film_drag": gained}
     ends = [SimpleNamespace(gap=Score(1.0, 1.0))]
-    models = SimpleNamespace(gained=lambda part: gains[part.finding.name], ladder=ends)
+    models = SimpleNamespace(
+        gained=lambda part, over: gains[part.finding.name] - gains[over.finding.name], ladder=ends
+    )
     monkeypatch.setattr(fitting, "fitted", lambda named, parts, **_: models)
     parts = list(map(part, found))
     rivals = fitting.rivals(parts, named, models)
@@ -408,6 +410,19 @@ def test_what_noise_does_not_explain_counts_as_noise():
     """A likelihood ratio, priors of the numbers included; in units of what the better one leaves"""
     assert fitted(1.0, 10.0).gain_over(fitted(1.0, 30.0)) == 10.0
     assert fitted(2.0, 10.0).gain_over(fitted(3.0, 30.0)) == 2.5
+
+
+def test_two_findings_are_compared_in_units_of_one_noise(monkeypatch):
+    """Beside the model without either, ten thousand would be divided by two noises: 100 of it."""
+    fits = {"film_drag": fitted(1.02, 14283.0), "run_in": fitted(1.03, 14281.0)}
+    monkeypatch.setattr(models, "averaged_over", lambda *given: 0.0)
+    monkeypatch.setattr(Models, "_beside", lambda self, one: (fits[one.finding.name], 0.0))
+    campaign = SimpleNamespace(errors=SimpleNamespace(friction=0.02))
+    ladder = Models(campaign, None, {}, [], 1, [fitted(2.0, 36000.0)], [([], {}, 0.0)])
+    drag, worn = part(finding("film_drag", 30.0)), part(finding("run_in", 30.0))
+    assert ladder.gained(worn, drag) == pytest.approx(1.0 / 1.02**2)
+    assert ladder.gained(drag, worn) == -ladder.gained(worn, drag)
+    assert ladder.gained(drag) - ladder.gained(worn) > 100.0
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 from gap_campaigns import RIG, motion, noisy, write_campaign
+from scipy.special import logsumexp
 
 from cosim.gap.data import read_campaign
 from cosim.gap.find import find_gap
@@ -131,6 +132,17 @@ def test_sign_and_size_are_recovered(tmp_path, fault, size, within):
     whole = next(v for v in variants if v.variant in ("all runs", "root, all runs"))
     value, sd = size_of(made, whole)
     assert abs(value - size) < within * abs(size) + 3.0 * sd
+
+
+def test_a_fault_is_as_probable_in_all_runs_as_in_any_of_some(tmp_path):
+    """Else rows that hardly tell which runs have it would take some: there are more of these."""
+    rung = system(tmp_path, "clock", 0.03, **KNOWN_WELL).rung()
+    variants = camera_faults(rung)["measurement.clock"]
+    weights = [one.weight for one in variants]
+    assert variants[0].variant == "all runs"
+    assert weights[0] == 1.0 == pytest.approx(sum(weights[1:]))
+    each = [rung.offered([one])[0] for one in variants]
+    assert rung.offered(variants)[0] == pytest.approx(logsumexp(each, b=weights) - np.log(2.0))
 
 
 @pytest.mark.parametrize("fault", FILTERED)

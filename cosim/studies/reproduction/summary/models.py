@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 from stickslip import Parameters, simulate
+from stickslip.packaged import packaged_tables
 from stickslip.packing import GRAVITY
 from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme_effects import SchemeEffects
 from stickslip.reference.scheme_errors import PRINTED
 
 from cosim.gap.data import Campaign, MeasuredRun
-from cosim.packaged import packaged_tables
 
 from ..cases import CYCLES, SAMPLE, SCATTER, SETTLING, STEADY, Case, longest
 from ..motion import WINDOW, Motion
