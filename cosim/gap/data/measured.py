@@ -54,9 +54,17 @@ class Track:
 
     def until(self, time: float) -> Track:
         """The rows up to a time, s."""
-        count = int(np.searchsorted(self.time, time, side="right"))
-        cut: dict[str, Any] = {name: self[name][:count] for name in self.channels}
-        return replace(self, time=self.time[:count], **cut)
+        return self._rows(slice(int(np.searchsorted(self.time, time, side="right"))))
+
+    def since(self, time: float) -> Track:
+        """The rows from a time on, s; the first of them is the first row then."""
+        cut = self._rows(slice(int(np.searchsorted(self.time, time)), None))
+        begin = float(cut.time[0])
+        return replace(cut, time=cut.time - begin, time_offset=self.time_offset + begin)
+
+    def _rows(self, rows: slice) -> Track:
+        cut: dict[str, Any] = {name: self[name][rows] for name in self.channels}
+        return replace(self, time=self.time[rows], **cut)
 
     @property
     def duration(self) -> float:

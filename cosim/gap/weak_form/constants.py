@@ -34,6 +34,9 @@ STICK_SIGMAS, STICK_AHEAD = 4.0, 0.15
 #: Swings faster than stated by this factor are those of other springs: noise and rubbing do not
 #: make them so, and their noise is weighed as that of the springs that are there.
 FAR_STIFFER = 1.25
+#: Standard deviation of x, in those of the noise, from which the block swings at all: smoothing
+#: leaves a tenth of the noise's squares, then a hundredth of those of the swings.
+MOVES = 3.0
 
 #: Rounds in which a linear fit and what it is linear about follow one another - phases and shape of
 #: a wave; numbers, sliding direction and turn in the plane -: 1e-3 of the change is left.

@@ -25,6 +25,7 @@ from cosim.gap.weak_form.constants import (
     LEAST_FINE,
     LEAST_SLIDING,
     LEAST_SLIDING_SHARE,
+    MOVES,
     QUINTIC_REACH,
     SLIP_PERCENTILE,
     SLIP_SIGMAS,
@@ -274,9 +275,12 @@ def _sliding_threshold(run: MeasuredRun, interval: float, velocity: np.ndarray) 
 def _frequency(x: np.ndarray, interval: float, run: MeasuredRun) -> float:
     """Frequency of the swings, rad/s: as stated, or as they are where springs are far stiffer.
 
-    From the slope of x'' over x where the block moves against the surface.
+    From the slope of x'' over x where the block moves against the surface: of noise alone, as a
+    block has that slides at rest, it is that of the smoothing.
     """
     stated = run.natural_frequency
+    if np.std(x) < MOVES * run.noise["x"]:
+        return stated
     place, velocity, acceleration = derivatives(x, interval, 0.5 * CUBIC_REACH / stated, 3)
     moving = np.abs(run.surface_speed - velocity) > 0.5 * abs(run.surface_speed)
     if moving.sum() < 10 or np.ptp(place[moving]) == 0.0:

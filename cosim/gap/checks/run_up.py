@@ -1,0 +1,76 @@
+"""A surface that runs up to its speed while the tracker already sees the block.
+
+All that is asked of a run takes its surface to move at the set-point: a run counts from there. The
+first rise of x tells: a block that is held follows the surface. On one whose speed grows by a, x
+goes as a (t - t0)^2 / 2, and the surface has its speed V at t0 + V / a.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.data.units import swing
+from cosim.gap.windows.sticks import smoothed
+
+#: Levels of the first rise, parts of it, between which its time is taken.
+LOW, HIGH = 0.25, 0.9
+#: Part of the swings by which x falls after its first rise.
+FALLS = 0.3
+#: Part of a free vibration that the rise takes at least on a surface that runs up, and of the
+#: surface's speed that it has at most: a block that slides past rises in 0.23 of a vibration, one
+#: that is held by a steady surface has its speed, half of it where that ripples as much.
+LONG, SLOW = 0.5, 0.5
+#: How many times as long as read off a run-up may be: that of 3 and of 10 s is read to 6 %.
+LONGER = 1.1
+#: Cuts in a row: where a record begins within a run-up, the first is too short.
+CUTS = 4
+
+
+def after_run_up(campaign: Campaign) -> Campaign:
+    """With runs that begin where the surface has its speed, and a remark for each that is cut."""
+    runs, remarks = [], list(campaign.remarks)
+    for run in campaign.runs:
+        kept = _cut(run) if run.track is not None else run
+        if kept is not run:
+            left_out = kept.motion.time_offset - run.motion.time_offset
+            remarks.append(
+                f"{run.name}: the surface runs up to its speed: the first {left_out:.3g} s are "
+                "left out"
+            )
+        runs.append(kept)
+    return replace(campaign, runs=tuple(runs), remarks=tuple(remarks))
+
+
+def _cut(run: MeasuredRun) -> MeasuredRun:
+    for _ in range(CUTS):
+        end = run_up(run)
+        if not 0.0 < end < 0.9 * run.motion.duration:
+            break
+        run = replace(run, track=run.motion.since(end))
+    return run
+
+
+def run_up(run: MeasuredRun) -> float:
+    """When the surface has its speed, s from the first row, by the first rise of x; 0: at once."""
+    track = smoothed(run)
+    x = np.sign(run.surface_speed) * track.place
+    fallen = np.flatnonzero(np.maximum.accumulate(x) - x > FALLS * swing(run.motion.x))
+    if not fallen.size:
+        return 0.0
+    top = int(np.argmax(x[: fallen[0]]))
+    rise = float(x[top] - x[: top + 1].min())
+    levels = x[top] - rise * (1.0 - np.array([LOW, HIGH]))
+    low, high = (
+        track.time[np.flatnonzero(x[: top + 1] < level).max(initial=0)] for level in levels
+    )
+    lasts, way = float(high - low), (HIGH - LOW) * rise
+    period = 2.0 * math.pi / run.natural_frequency
+    if lasts < LONG * period or way > SLOW * abs(run.surface_speed) * lasts:
+        return 0.0
+    growth = 2.0 * rise * ((math.sqrt(HIGH) - math.sqrt(LOW)) / lasts) ** 2
+    begin = low - math.sqrt(2.0 * LOW * rise / growth)
+    return float(begin + LONGER * abs(run.surface_speed) / growth)
