@@ -1,8 +1,8 @@
 """A surface that runs up to its speed while the tracker already sees the block.
 
 All that is asked of a run takes its surface to move at the set-point: a run counts from there. The
-first rise of x tells: a block that is held follows the surface. On one whose speed grows by a, x
-goes as a (t - t0)^2 / 2, and the surface has its speed V at t0 + V / a.
+first rise of x tells: a block that is held follows the surface, in a parabola where its speed grows
+evenly, and where the parabola is as steep as the set-point says the surface has its speed.
 """
 
 from __future__ import annotations
@@ -26,32 +26,22 @@ FALLS = 0.3
 LONG, SLOW = 0.5, 0.5
 #: How many times as long as read off a run-up may be: that of 3 and of 10 s is read to 6 %.
 LONGER = 1.1
-#: Cuts in a row: where a record begins within a run-up, the first is too short.
-CUTS = 4
+#: Part of a record in which the surface comes to its speed: else there is nothing to keep.
+LATEST = 0.9
 
 
 def after_run_up(campaign: Campaign) -> Campaign:
     """With runs that begin where the surface has its speed, and a remark for each that is cut."""
     runs, remarks = [], list(campaign.remarks)
     for run in campaign.runs:
-        kept = _cut(run) if run.track is not None else run
-        if kept is not run:
-            left_out = kept.motion.time_offset - run.motion.time_offset
+        end = run_up(run) if run.track is not None else 0.0
+        if 0.0 < end < LATEST * run.motion.duration:
+            run = replace(run, track=run.motion.since(end))
             remarks.append(
-                f"{run.name}: the surface runs up to its speed: the first {left_out:.3g} s are "
-                "left out"
+                f"{run.name}: the surface runs up to its speed: the first {end:.3g} s are left out"
             )
-        runs.append(kept)
+        runs.append(run)
     return replace(campaign, runs=tuple(runs), remarks=tuple(remarks))
-
-
-def _cut(run: MeasuredRun) -> MeasuredRun:
-    for _ in range(CUTS):
-        end = run_up(run)
-        if not 0.0 < end < 0.9 * run.motion.duration:
-            break
-        run = replace(run, track=run.motion.since(end))
-    return run
 
 
 def run_up(run: MeasuredRun) -> float:
@@ -71,6 +61,8 @@ def run_up(run: MeasuredRun) -> float:
     period = 2.0 * math.pi / run.natural_frequency
     if lasts < LONG * period or way > SLOW * abs(run.surface_speed) * lasts:
         return 0.0
-    growth = 2.0 * rise * ((math.sqrt(HIGH) - math.sqrt(LOW)) / lasts) ** 2
-    begin = low - math.sqrt(2.0 * LOW * rise / growth)
-    return float(begin + LONGER * abs(run.surface_speed) / growth)
+    there = (track.time >= low) & (track.time <= high)
+    bent, slope, _ = np.polyfit(track.time[there] - low, x[there], 2)
+    if bent <= 0.0:
+        return 0.0
+    return float(low + LONGER * (abs(run.surface_speed) - slope) / (2.0 * bent))

@@ -11,14 +11,14 @@ RIG = {"spring_natural_length": 0.17}
 
 def motion(
     speed=0.06, mass=0.87, mu_s=0.3, mu_k=0.2, duration=20.0, interval=0.01, creep=0.0,
-    stiffness=KNOWN["stiffness"], **blocks,
+    stiffness=KNOWN["stiffness"], run_up=0.0, **blocks,
 ):  # fmt: skip
-    """The exact motion of a block that sticks and slips; creep: in stick, m/s."""
+    """The exact motion of a block that sticks and slips; creep: in stick, m/s; run_up: s."""
     parameters = Parameters(
         rig={"mass": mass, **RIG},
         springs={"stiffness": stiffness},
         friction={"mu_s": mu_s, "mu_k": mu_k, "stick_creep": creep},
-        surface={"speed": speed},
+        surface={"speed": speed, "run_up_time": run_up},
         **blocks,
     )
     return simulate(parameters, duration, interval)
