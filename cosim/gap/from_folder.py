@@ -271,11 +271,16 @@ def _run(found: Found, known: Mapping[str, float], reading: Reading, last: bool)
     yield ""
 
 
-def shown(found: Sequence[Found]) -> list[str]:
-    """A line for each run: file, length, settings, what the columns were taken for."""
-    rows = [("file", "rows", "s", *SETTINGS, "columns")]
+def shown(found: Sequence[Found], known: Mapping[str, float]) -> list[str]:
+    """A line for each run: file, length, settings, what the columns were taken for.
+
+    known : settings of every run whose file's name does not say them
+    """
+    columns = [f"{key} [{unit}]" for key, (unit, _, _) in SETTINGS.items()]
+    rows = [("file", "rows", "time [s]", *columns, "columns")]
     for each in found:
-        told = [f"{each.settings[key]:g}" if key in each.settings else "?" for key in SETTINGS]
+        settings = {**known, **each.settings}
+        told = [f"{settings[key]:g}" if key in settings else "?" for key in SETTINGS]
         named = ", ".join(f"{key} = {name}" for key, name in each.reading.columns.items())
         record = each.file, str(each.rows), f"{each.seconds:.3g}"
         rows.append((*record, *told, named or "as named"))

@@ -38,6 +38,9 @@ WRONG = {
 }
 
 
+#: A number and a unit, as `in_unit` reads them where the unit fits.
+_WITH_UNIT = re.compile(r"\s*[-+]?[\d.]+(e[-+]?\d+)?\s*[^\W\d].*", re.IGNORECASE)
+
 Model = TypeVar("Model", bound=BaseModel)
 #: An entry of pydantic's report.
 Fault = Mapping[str, Any]
@@ -130,6 +133,8 @@ def _describe(key: str, faults: list[Fault], keys: dict[str, FieldInfo]) -> str:
     if fault["type"] == "extra_forbidden":
         return f"{key}: no such key, {_known_instead(key, keys)}"
     wrong = WRONG.get(fault["type"], "not possible") if len(faults) == 1 else "not possible"
+    if wrong == "not a number" and _WITH_UNIT.fullmatch(str(fault["input"])):
+        wrong = f"not in a unit of {unit_of(keys[key])}"
     return f"{key}: {wrong} ({_shown(fault['input'])}), allowed is {allowed(key, keys[key])}"
 
 

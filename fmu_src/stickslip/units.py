@@ -27,8 +27,9 @@ def in_unit(text: str, unit: str) -> float | None:
 
     >>> in_unit("870 g", "kg"), in_unit("60 mm/s", "m/s"), in_unit("2 N/mm", "N/m")
     (0.87, 0.06, 2000.0)
-    >>> in_unit("1.2 g/cm**3", "kg/m3"), in_unit("265.15 K", "degC"), in_unit("3 mm", "kg")
-    (1200.0, -8.0, None)
+    >>> in_unit("1.2 g/cm**3", "kg/m3"), in_unit("265.15 K", "degC"), in_unit("14 degF", "degC")
+    (1200.0, -8.0, -10.0)
+    >>> in_unit("3 mm", "kg")
     """
     found, wanted = _QUANTITY.fullmatch(text), UNITS.get(unit)
     written = _composed(found[2]) if found and wanted else None

@@ -18,7 +18,7 @@ def execute(arguments: Namespace) -> int:
     length = None if pixel is None else _quantity("--pixel", pixel, "m")
     folder = Path(arguments.folder)
     file, found = campaign_of(folder, known, frames=frames, pixel=length, force=arguments.force)
-    print("\n".join(shown(found)))
+    print("\n".join(shown(found, known)))
     print(f"{file}: correct what was guessed wrong or is missing, then: stickslip gap {folder}")
     return DONE
 

@@ -53,7 +53,12 @@ def tiles(plan: Plan) -> list[tuple[str, str]]:
     ]
     if plan.pairs:
         truth, other, share = plan.pairs[0]
-        told.append((f"of 100 campaigns take {truth} for {other}, at worst", f"{100 * share:.0f}"))
+        told.append(
+            (
+                f"of 100 campaigns take {truth} for {other}, or for a class with it, at worst",
+                f"{100 * share:.0f}",
+            )
+        )
     return told
 
 

@@ -112,6 +112,7 @@ def assumptions(gap: Gap) -> list[str]:
     estimated = campaign.noise_estimated
     return [
         "masses and geometry of the rig, exactly as stated",
+        "no damping and no effect, but what is said here",
         f"stiffness of the springs, as stated within {100.0 * errors.stiffness:.3g} %",
         f"surface speeds, as stated within {100.0 * errors.surface_speed:.3g} %",
         *(

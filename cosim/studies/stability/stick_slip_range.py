@@ -31,9 +31,10 @@ def stick_slip_range(
 ) -> dict[str, Any]:
     """``key``, ``unit``, ``value``, ``searched`` (two values), ``ramp`` (s) and ``stick_slip``.
 
-    The last is start -> windows (from, to) in which the block sticks and slips; None is beyond what
-    was searched. Every border of such a window is bisected to a ten-thousandth. word: of `NUMBERS`.
-    NotAMotion for a number that the rig does not have. look: called after each step.
+    The last is start -> windows (from, to) in which the block sticks and slips, the scenario's own
+    start first; None is beyond what was searched. Every border of such a window is bisected to a
+    ten-thousandth. word: of `NUMBERS`. NotAMotion for a number that the rig does not have. look:
+    called after each step.
     """
     known = {number.key: number for number in rig.numbers_of(case.parameters)}
     if NUMBERS[word] not in known:
@@ -42,7 +43,9 @@ def stick_slip_range(
     number = known[NUMBERS[word]]
     starts = other_starts(case.parameters)
     windows = {}
-    for start in (RAMP,) if number.key == rig.RAMP else MAPPED:
+    has_ramp = case.parameters.surface.run_up_time > 0.0
+    first = sorted(MAPPED, key=lambda start: start != (RAMP if has_ramp else REST))
+    for start in (RAMP,) if number.key == rig.RAMP else first:
         parameters = disturbed(starts[start])
         duration = run_length(parameters)
         borders = all_borders(parameters, number, duration, case.interface, look)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -154,14 +154,24 @@ def page(found: Stability, command: str = "") -> tuple[str, list[Picture]]:
 
 
 def tiles(found: Stability) -> list[tuple[str, str]]:
-    """Four figures: how fast disturbances grow, what would help, and what the run does."""
+    """Four figures: where stick-slip stops if that is asked, how disturbances grow, what would
+    help, and what the run does."""
     numbers = found.summary()
     stability, own = numbers["stability"], numbers["regimes"][OWN]
     growth, least = stability.get("growth"), stability.get("least_pretension")
     there = [
-        ("growth of a disturbance in a cycle", growth and f"{number(growth, 3)} times"),
+        *_stops(numbers["stick_slip_range"]),
+        ("size of a disturbance after a cycle", growth and f"{number(growth, 3)} times"),
         ("least pretension for stability", least and f"{number(1e3 * least, 3)} mm"),
         ("break-aways", own["frequency"] and f"{number(own['frequency'], 3)} Hz"),
         ("of the time in slip", f"{number(100.0 * own['slip_share'], 3)} %"),
     ]
-    return [(words, value) for words, value in there if value]
+    return [(words, value) for words, value in there if value][:4]
+
+
+def _stops(asked: Mapping[str, Any] | None) -> Iterator[tuple[str, str]]:
+    """Of the scenario's own start, the value beyond which the block does not stick and slip."""
+    windows = next(iter(asked["stick_slip"].values())) if asked else []
+    if asked and windows and windows[-1][1] is not None:
+        unit = "" if asked["unit"] == "1" else f" {asked['unit']}"
+        yield f"{asked['key']} above which stick-slip stops", f"{number(windows[-1][1], 4)}{unit}"

@@ -266,7 +266,7 @@ def test_by_keyboard_alone(page):
     field.send_keys(Keys.CONTROL, "a")
     field.send_keys("12 kg", Keys.ENTER)
     assert page.text("fault").startswith(
-        'surface.speed: not a number ("12 kg"), allowed is a number'
+        'surface.speed: not in a unit of m/s ("12 kg"), allowed is a number'
     )
     field.send_keys(Keys.TAB)
     driver.switch_to.active_element.send_keys(Keys.ENTER)  # back to where it began

@@ -52,7 +52,7 @@ def test_decimal_commas_in_millimetres(tmp_path):
     assert [run.hold_out for run in campaign.runs] == [False, False, True]
     assert campaign.runs[0].track.x == pytest.approx(X, abs=1e-6)
     assert "by the file's name" in file.read_text("utf-8")
-    assert "x = pos_mm" in "\n".join(shown(found))
+    assert "x = pos_mm" in "\n".join(shown(found, {}))
 
 
 def test_a_table_of_tracker(tmp_path):

@@ -60,7 +60,7 @@ def test_nothing_is_left_out_of_a_steady_run(speed, blocks):
     [(0.48, 0.7, True), (0.52, 0.7, False), (0.3, 0.53, True), (0.3, 0.47, False)],
 )
 def test_a_first_rise_that_is_slow_and_long_is_of_a_run_up(part, vibrations, is_cut):
-    """At this part of the set-point, for so many vibrations, from a quarter of it to nine tenths."""
+    """At this part of the set-point, for so many vibrations, from a quarter to nine tenths."""
     rise = vibrations * PERIOD / (np.sqrt(0.9) - np.sqrt(0.25))
     time = np.arange(0.0, 30.0, 0.005)
     top = part * 0.1 * vibrations * PERIOD / 0.65

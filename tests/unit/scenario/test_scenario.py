@@ -142,6 +142,7 @@ NUMBER = "allowed is a number greater than 0 kg"
         ("[rig]\nmass = 0", f"rig.mass: out of range (0), {NUMBER}"),
         ("[rig]\nmass = nan", f"rig.mass: not a finite number (nan), {NUMBER}"),
         ("[rig]\nmass = '1'", f'rig.mass: not a number ("1"), {NUMBER}'),
+        ("[rig]\nmass = '870 N'", f'rig.mass: not in a unit of kg ("870 N"), {NUMBER}'),
         ("[rig]\nmass = true", f"rig.mass: not a number (true), {NUMBER}"),
         ("[belt]\nelements = 6.0", "belt.elements: not a whole number (6.0), allowed is a whole"),
         ("[rig]\nmass = 1e308", f"rig.mass: 1e+308: {COMPUTABLE}"),

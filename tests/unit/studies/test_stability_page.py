@@ -62,6 +62,7 @@ def test_one_sentence_then_a_picture_then_four_figures():
         "stability": {"verdict": "unstable", "growth": 1.42061, "least_pretension": 0.0083211},
         "regimes": {"own": regime},
         "starts": {"own": "as the scenario starts"},
+        "stick_slip_range": None,
     }
     low = PretensionMap(np.array([0.0]), np.array([0.1]), np.ones((1, 1)), np.ones((1, 1)))
     sentences = ["It is unstable. It is stable from 8.32 mm on.", "More."]
@@ -74,8 +75,13 @@ def test_one_sentence_then_a_picture_then_four_figures():
         page.index(each) for each in ("<h1>", "<figure", 'class="tiles"', "8.32 mm on", "<h2")
     ]
     assert places == sorted(places)
-    assert study.tiles(found)[0] == ("growth of a disturbance in a cycle", "1.42 times")
+    assert study.tiles(found)[0] == ("size of a disturbance after a cycle", "1.42 times")
     assert '<td class="start">' in page and "td.start { min-width" in page
+    windows = {"ramp": [(None, 0.15708)], "rest": [(None, 0.18)]}
+    numbers["stick_slip_range"] = {"key": "surface.speed", "unit": "m/s", "stick_slip": windows}
+    first, *others = study.tiles(found)
+    assert first == ("surface.speed above which stick-slip stops", "0.1571 m/s")
+    assert len(others) == 3
 
 
 def test_a_range_says_how_far_was_looked():
