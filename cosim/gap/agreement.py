@@ -56,7 +56,7 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
             continue
         named = fitting.with_likeliest_filter(named)
         parts = [fitting.part(named, finding) for finding in named.findings]
-        if judge.is_beyond_all(named.findings, named.ladder.rung.gap):
+        if fitting.is_beyond_all(named):
             return Agreed(named, parts, fitting.fitted(named, parts), tuple(rejected))
         most = max((part.finding.gain for part in parts), default=0.0)
         faint = {part.finding.name for part in parts
@@ -120,6 +120,12 @@ class Fitting:
         chosen = min(forms, key=missed)
         rung = named.ladder.system.rung(chosen.findings[0].added)
         return replace(chosen, ladder=replace(named.ladder, findings=chosen.findings, rung=rung))
+
+    def is_beyond_all(self, named: Named) -> bool:
+        """Whether no doubt of single findings leads to a name: simulated runs miss something, too."""
+        return judge.is_beyond_all(named.findings, named.ladder.rung.gap) and judge.leaves(
+            self.fitted(named, [], is_shown=False).ladder[-1].gap
+        )
 
     def unsure(self, named: Named) -> list[Rejected]:
         """Beside coarse steps, whose errors go together from sample to sample, what is not sure."""

@@ -16,7 +16,7 @@
     rows prefer the first by e^200 at most, or by a 200th of its own if it does not explain the
     runs, the first goes, if no effect stands for it only where the second explains the runs.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`; with
-    three that leave twice the noise in the rows nothing is doubted.
+    three that leave twice the noise in the rows, and runs that miss something, nothing is doubted.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
     windows of runs that no fit has seen; 1 is noise.
  8. A finding below e^500, or beside a greater one, or that does not explain the runs or takes

@@ -53,7 +53,9 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
     severe = [doubt.text for doubt in gap.doubts if doubt.severe]
     if severe:
         return f"Nothing is named while the data are in doubt. {severe[0]}"
-    each = [text_of(part) + _size(part, gap) for part in parts]
+    # numbers of what does not explain the runs make up for what is missing
+    sizes = gap.verdict != "unknown"
+    each = [text_of(part) + (_size(part, gap) if sizes else "") for part in parts]
     found = "; ".join([*each[:1], *map(_lower, each[1:])])
     if gap.verdict in ("named", "class", "partial"):
         found += "".join(

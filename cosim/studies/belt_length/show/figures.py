@@ -164,18 +164,14 @@ def draw_doubt(row: Row, doubt: Uncertainty) -> Figure:
     left.axvline(row.drift.run, color=INK, linewidth=1.0, label="as the case is")
     left.set_yticks(places, [f"{one.says}\n{_span_of(one)}" for one in single], fontsize=7.5)
     where = f"{row.case.length:g} m at {row.case.speed:g} m/s"
-    left.set_title(
-        f"{where}, what each unknown does\nalone, from the low to the high end of its range"
-    )
+    left.set_title(f"{where}: what each unknown does\nby itself over its range")
     left.set_xlabel("belt's rise at entry [K]")
     figure.legend(*left.get_legend_handles_labels(), ncols=3, loc="outside upper center")
     totals = [indices[one.key].total for one in single]
     errors = [indices[one.key].total_half_width for one in single]
     right.barh(places, totals, xerr=errors, color=GREY, ecolor=INK, height=0.6)
-    right.set_title(
-        "How much of the doubt it has a hand in\n(total Sobol index, with 95 % interval)"
-    )
-    right.set_xlabel("part of the drift's variance [1]")
+    right.set_title("total Sobol index of each unknown,\nwith 95 % interval")
+    right.set_xlabel("part of the variance of the rise [1]")
     right.set_xlim(left=0.0)
     return figure
 
