@@ -122,7 +122,7 @@ class Fitting:
         return replace(chosen, ladder=replace(named.ladder, findings=chosen.findings, rung=rung))
 
     def is_beyond_all(self, named: Named) -> bool:
-        """Whether no doubt of single findings leads to a name; simulated runs miss something too."""
+        """Whether no doubt of single findings leads to a name: runs miss something, too."""
         return judge.is_beyond_all(named.findings, named.ladder.rung.gap) and judge.leaves(
             self.fitted(named, [], is_shown=False).ladder[-1].gap
         )
