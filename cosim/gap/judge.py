@@ -11,8 +11,8 @@
     taken all of that, e^12 times, or goes from run to run as scatter does; the best joins, all
     others are asked again.
  5. Findings within e^3 of one another in the same place, and within e^6 in simulated runs, cannot
-    be told apart: a class, of effects alone where two are among them; so are two within e^12, the
-    first below e^500, of which simulated runs prefer the second; where they do so by e^500, and
+    be told apart: a class, of effects alone where two are among them; so are two within e^12 of
+    which simulated runs prefer the second; where they do so by e^500, and
     rows prefer the first by e^200 at most, or by a 200th of its own if it does not explain the
     runs, the first goes, if no effect stands for it only where the second explains the runs.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`; with
@@ -189,7 +189,7 @@ def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
 
     does_explain : whether the model with the finding is near enough to the runs
     """
-    within = max(ALIKE, 0.0 if does_explain else TURNED_PART * finding.gain)
+    within = max(UNDECIDED, 0.0 if does_explain else TURNED_PART * finding.gain)
     within = TURNED if finding.gain < SURE else within
     near = {name: less for name, less in finding.others.items()
             if less > -within and finding.gain + less > ALIKE}  # fmt: skip
@@ -199,13 +199,13 @@ def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
 def told_by_both(finding: Finding, name: str, simulated: float) -> float:
     """ln of how much more probable a rival is: as rows have it, 0 where simulated runs prefer it.
 
-    What the rows do not tell apart simulated runs may; and what is not sure they may contradict.
+    What the rows do not tell apart simulated runs may; and what they do not decide these may
+    contradict.
     """
     rows = finding.others[name]
     if rows > -ALIKE:
         return simulated if simulated < -LEAST_GAIN else rows
-    contradicts = simulated > 0.0 and rows > -UNDECIDED and finding.gain < SURE
-    return 0.0 if contradicts else rows
+    return 0.0 if simulated > 0.0 and rows > -UNDECIDED else rows
 
 
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:

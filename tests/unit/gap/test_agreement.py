@@ -190,7 +190,7 @@ def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monke
         (30.0, -3.1, 19.9, -3.1),
         (499.0, -11.9, 20.1, 0.0),  # they contradict the rows
         (2e4, -2.9, 13.9, -6.1),
-        (2e4, -11.9, 20.1, -11.9),
+        (2e4, -11.9, 20.1, 0.0),
         (30.0, -12.1, 40.0, -12.1),
     ],
 )

@@ -132,7 +132,7 @@ def test_rivals_are_the_best_few_that_rows_do_not_rule_out():
     assert rivals_of(finding("run_in", **many), True) == ["e0", "e1", "e2"]
     faint = Finding("run_in", (), 8.0, {"film_drag": -4.9, "other.time": -5.1})
     assert rivals_of(faint, True) == ["film_drag"]  # the other is not asked for by itself
-    sure = Finding("run_in", (), 501.0, {"film_drag": -2.9, "other.time": -3.1})
+    sure = Finding("run_in", (), 501.0, {"film_drag": -11.9, "other.time": -12.1})
     assert rivals_of(sure, True) == rivals_of(sure, False) == ["film_drag"]
     clear = Finding("run_in", (), 2e4, {"film_drag": -99.0, "other.time": -101.0})
     assert rivals_of(clear, True) == [] and rivals_of(clear, False) == ["film_drag"]
