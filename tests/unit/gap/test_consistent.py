@@ -107,7 +107,8 @@ def contradictions(gap):
             undetermined = data["extended"]["undetermined"]
             yield f"{key} vague", (key in undetermined) == (key in row.undetermined)
             size = numbers[key].text.partition(".")[2]
-            yield f"{key} size", (size in said) == (not vague and row.effect in said)
+            is_answer = gap.verdict != "unknown" and row.effect in said
+            yield f"{key} size", (size in said) == (not vague and is_answer)
             yield f"{key} shown", numbers[key].text in page
     yield "one size", "N at" not in said or not any(row.intervals for row in gap.ranking)
     for row in gap.rejected:
