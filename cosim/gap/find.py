@@ -6,13 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from cosim.gap.agreement import Agreed, Fitting, confirmed_findings
-from cosim.gap.checks import (
-    after_run_up,
-    blocking,
-    digits_evidence,
-    doubts_of,
-    with_rounding,
-)
+from cosim.gap.checks import blocking, digits_evidence, doubts_of, with_rounding
 from cosim.gap.data import Campaign
 from cosim.gap.extended import ROUNDING, Part, rounding_of
 from cosim.gap.judge import explains, judge, with_steps
@@ -51,7 +45,7 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     jobs : runs that are simulated at a time; progress : called with the parts done and of all
     """
     step = _Steps(progress)
-    campaign = with_rounding(after_run_up(campaign))
+    campaign = with_rounding(campaign)
     doubts = doubts_of(campaign)
     campaign = replace(campaign, runs=tuple(thinned(run) for run in campaign.runs))
     step()

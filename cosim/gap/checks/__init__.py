@@ -17,13 +17,9 @@ from cosim.gap.windows.windows import cycle
 
 from . import motion
 from .level import LEVEL
-from .run_up import after_run_up
 from .tracker import digits_evidence, doubts_of_noise, doubts_of_sampling, with_rounding
 
-__all__ = [
-    "ANSWERABLE", "LEVEL", "after_run_up", "blocking", "digits_evidence", "doubts_of",
-    "with_rounding",
-]  # fmt: skip
+__all__ = ["ANSWERABLE", "LEVEL", "blocking", "digits_evidence", "doubts_of", "with_rounding"]
 
 #: Severe doubts that findings may answer: swings that springs alone have not, and sticks at the
 #: crests or the troughs of a drive that is not steady.

@@ -24,6 +24,7 @@ from cosim.gap.data.errors import CampaignError, within
 from cosim.gap.data.friction_table import read_friction_table
 from cosim.gap.data.measured import Campaign, MeasuredRun
 from cosim.gap.data.noise import with_noise
+from cosim.gap.data.run_up import after_run_up
 from cosim.gap.data.track_file import read_track, regime_remarks
 from cosim.gap.data.units import check_units
 from cosim.scenario.validation import checked
@@ -66,6 +67,7 @@ def read_campaign(path: str | Path) -> Campaign:
     kept, copies = without_duplicates(_unique_names(runs), str(path))
     kept, held = with_hold_outs(kept, str(path))
     kept, cut = shortened(kept)
+    kept, run_ups = after_run_up(kept)
     kept, noise, estimated, differs = with_noise(kept, table.noise.given)
     regimes = [f"{run.name}: {remark}" for run in kept for remark in regime_remarks(run)]
     if any(run.track is not None for run in kept):
@@ -73,7 +75,7 @@ def read_campaign(path: str | Path) -> Campaign:
         regimes += [f"{name}: summary: ignored beside runs with a file" for name in unused]
     return replace(
         campaign, noise=noise, noise_estimated=estimated, runs=kept,
-        remarks=(*remarks, *copies, *held, *cut, *differs, *regimes),
+        remarks=(*remarks, *copies, *held, *cut, *run_ups, *differs, *regimes),
     )  # fmt: skip
 
 

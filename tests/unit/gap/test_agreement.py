@@ -403,7 +403,6 @@ class Campaign:
     """One without runs."""
 
     runs: tuple = ()
-    remarks: tuple = ()
 
 
 def fitted(residual, cost):

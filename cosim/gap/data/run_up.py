@@ -8,13 +8,14 @@ evenly, and where the parabola is as steep as the set-point says the surface has
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from scipy.signal import savgol_filter
 
-from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.data.measured import MeasuredRun
 from cosim.gap.data.units import swing
-from cosim.gap.windows.sticks import smoothed
 
 #: Levels of the first rise, parts of it, between which its time is taken.
 LOW, HIGH = 0.25, 0.9
@@ -30,39 +31,48 @@ LONGER = 1.1
 LATEST = 0.9
 
 
-def after_run_up(campaign: Campaign) -> Campaign:
-    """With runs that begin where the surface has its speed, and a remark for each that is cut."""
-    runs, remarks = [], list(campaign.remarks)
-    for run in campaign.runs:
+def after_run_up(
+    runs: Sequence[MeasuredRun],
+) -> tuple[tuple[MeasuredRun, ...], list[str]]:
+    """Runs that begin where the surface has its speed, and a remark on each that is cut."""
+    kept, remarks = [], []
+    for run in runs:
         end = run_up(run) if run.track is not None else 0.0
         if 0.0 < end < LATEST * run.motion.duration:
             run = replace(run, track=run.motion.since(end))
             remarks.append(
                 f"{run.name}: the surface runs up to its speed: the first {end:.3g} s are left out"
             )
-        runs.append(run)
-    return replace(campaign, runs=tuple(runs), remarks=tuple(remarks))
+        kept.append(run)
+    return tuple(kept), remarks
 
 
 def run_up(run: MeasuredRun) -> float:
     """When the surface has its speed, s from the first row, by the first rise of x; 0: at once."""
-    track = smoothed(run)
-    x = np.sign(run.surface_speed) * track.place
+    time, x = _smoothed(run)
     fallen = np.flatnonzero(np.maximum.accumulate(x) - x > FALLS * swing(run.motion.x))
     if not fallen.size:
         return 0.0
     top = int(np.argmax(x[: fallen[0]]))
     rise = float(x[top] - x[: top + 1].min())
     levels = x[top] - rise * (1.0 - np.array([LOW, HIGH]))
-    low, high = (
-        track.time[np.flatnonzero(x[: top + 1] < level).max(initial=0)] for level in levels
-    )
+    low, high = (time[np.flatnonzero(x[: top + 1] < level).max(initial=0)] for level in levels)
     lasts, way = float(high - low), (HIGH - LOW) * rise
     period = 2.0 * math.pi / run.natural_frequency
     if lasts < LONG * period or way > SLOW * abs(run.surface_speed) * lasts:
         return 0.0
-    there = (track.time >= low) & (track.time <= high)
-    bent, slope, _ = np.polyfit(track.time[there] - low, x[there], 2)
+    there = (time >= low) & (time <= high)
+    bent, slope, _ = np.polyfit(time[there] - low, x[there], 2)
     if bent <= 0.0:
         return 0.0
     return float(low + LONGER * (abs(run.surface_speed) - slope) / (2.0 * bent))
+
+
+def _smoothed(run: MeasuredRun) -> tuple[np.ndarray, np.ndarray]:
+    """(n,) even times, s, and places along the surface's motion, m, smoothed over a radian."""
+    track = run.motion
+    seen = np.isfinite(track.x)
+    time = np.arange(track.time[0], track.time[-1], track.interval)
+    x = np.sign(run.surface_speed) * np.interp(time, track.time[seen], track.x[seen])
+    size = 2 * max(2, round(0.5 / run.natural_frequency / track.interval)) + 1
+    return time, savgol_filter(x, size, 2) if size < x.size else x
