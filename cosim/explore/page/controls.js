@@ -62,7 +62,11 @@ class Controls {
     input.addEventListener("change", () => {
       const { key, allowed } = control, value = valueOfText(control, input.value);
       if (value !== undefined) this.turned(key, value);
-      else this.refused(key, `${key}: not a number ("${input.value.trim()}"), allowed is ${allowed}`);
+      else {
+        const written = input.value.trim(), has_unit = /^[-+]?[\d.]+(e[-+]?\d+)?\s*[^\W\d]/i.test(written);
+        const wrong = has_unit ? `not in a unit of ${control.unit}` : "not a number";
+        this.refused(key, `${key}: ${wrong} ("${written}"), allowed is ${allowed}`);
+      }
     });
     return input;
   }
