@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeVar, get_args, get_origin
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 from stickslip.quantity import details
-from stickslip.units import in_unit
+from stickslip.units import QUANTITY, in_unit
 
 from cosim.names import nearest_key
 
@@ -37,9 +37,6 @@ WRONG = {
     "string_pattern_mismatch": "not fit for the name of a folder",
 }
 
-
-#: A number and a unit, as `in_unit` reads them where the unit fits.
-_WITH_UNIT = re.compile(r"\s*[-+]?[\d.]+(e[-+]?\d+)?\s*[^\W\d].*", re.IGNORECASE)
 
 Model = TypeVar("Model", bound=BaseModel)
 #: An entry of pydantic's report.
@@ -133,7 +130,7 @@ def _describe(key: str, faults: list[Fault], keys: dict[str, FieldInfo]) -> str:
     if fault["type"] == "extra_forbidden":
         return f"{key}: no such key, {_known_instead(key, keys)}"
     wrong = WRONG.get(fault["type"], "not possible") if len(faults) == 1 else "not possible"
-    if wrong == "not a number" and _WITH_UNIT.fullmatch(str(fault["input"])):
+    if wrong == "not a number" and QUANTITY.fullmatch(str(fault["input"])):
         wrong = f"not in a unit of {unit_of(keys[key])}"
     return f"{key}: {wrong} ({_shown(fault['input'])}), allowed is {allowed(key, keys[key])}"
 

@@ -15,7 +15,8 @@ UNITS: dict[str, dict[str, float] | None] = {
 PREFIXES: dict[str, float] = _DECLARED["prefixes"]
 #: What a unit is put together of, beside those of `UNITS` that are a word: name -> as there.
 _WRITTEN: dict[str, dict[str, float]] = _DECLARED["written"]
-_QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\W\d].*|°.*)")
+#: A number, and a unit of whatever kind.
+QUANTITY = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([^\W\d].*|°.*)")
 #: Operator, bracket that opens, name, exponent, bracket that closes.
 _PART = re.compile(r"\s*([*/.·]?)\s*(\(?)\s*([^\W\d]+|°C?)(?:(?:\^|\*\*)?(-?\d))?\s*(\)?)")
 
@@ -31,7 +32,7 @@ def in_unit(text: str, unit: str) -> float | None:
     (1200.0, -8.0, -10.0)
     >>> in_unit("3 mm", "kg")
     """
-    found, wanted = _QUANTITY.fullmatch(text), UNITS.get(unit)
+    found, wanted = QUANTITY.fullmatch(text), UNITS.get(unit)
     written = _composed(found[2]) if found and wanted else None
     if found is None or not wanted or written is None:
         return None
