@@ -100,7 +100,9 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
         plain=models.fits[0],
         extended=extended,
         laws=tuple(law for law in curves if law is not None),
-        exponents=tuple(one for part in parts for one in exponents_of(part)),
+        exponents=tuple(
+            one for part in parts for one in exponents_of(part, rung, named.unknowns)
+        ),
         scatter=models.scatter,
         rig=rig_numbers(campaign, extended),
         rates=rates and by_direction(rates, known),

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 from scipy.optimize import least_squares
-from scipy.special import logsumexp
+from scipy.special import logsumexp, softmax
+from scipy.stats import norm
 
 from cosim.gap.data import Campaign
 from cosim.gap.extended import ROUNDING, Part
@@ -19,7 +20,7 @@ from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
 from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.rows import BREAK_AWAY, SLIP, STICK
 from cosim.gap.weak_form.system import Rung, System
-from cosim.gap.weak_form.unknowns import Curve
+from cosim.gap.weak_form.unknowns import Curve, Unknown
 from cosim.gap.windows import Fitted
 from cosim.gap.windows.run_model import HEIGHT
 
@@ -179,13 +180,38 @@ def _points(
 _POWERS = {"film_drag": 1.0, "structural_damping": 1.0}
 
 
-def exponents_of(part: Part) -> Iterator[Exponent]:
-    """The power a u^n that follows a curve, where it starts at nothing."""
+def exponents_of(
+    part: Part, rung: Rung, unknowns: Mapping[str, Sequence[Unknown]]
+) -> Iterator[Exponent]:
+    """The power a u^n that follows a curve, where it starts at nothing.
+
+    Over all forms of the curve, as probable as the rows have each: how smooth it is, and over what,
+    is not known. rung : with the finding; unknowns : the forms of every argument
+    """
     axis = _axis_of(part)
     if part.finding.name not in _POWERS or part.curve is None or axis is None:
         return
-    at, mean = part.curve.at[1:], part.curve.mean[1:]
-    covariance = part.curve.covariance[1:, 1:]
+    main = part.finding.main
+    rest = rung.system.rung([one for one in rung.added if one is not main])
+    forms = [form for unknown in unknowns[main.unknown.name] for form in rest.forms(unknown)]
+    weights = softmax([evidence for evidence, _ in forms])
+    likely = [(weight, added) for weight, (_, added) in zip(weights, forms, strict=True)
+              if weight > 1e-3]  # fmt: skip
+    powers = [_power_of(rest.with_more([added]), added) for _, added in likely]
+    each = norm.ppf((np.arange(99) + 0.5) / 99.0)
+    at = np.concatenate([value + sd * each for value, sd in powers])
+    order = np.argsort(at)
+    shares = np.cumsum(np.repeat([weight for weight, _ in likely], each.size)[order])
+    value, low, high = np.interp([0.5, 0.05, 0.95], shares / shares[-1], at[order]).tolist()
+    yield Exponent(part.effect, axis.quantity, value, low, high, _POWERS[part.finding.name])
+
+
+def _power_of(rung: Rung, added: Added) -> tuple[float, float]:
+    """n of a u^n beside one form of a curve, and its standard deviation."""
+    curve, place = added.unknown.curve, rung.part_of(added)
+    assert curve is not None  # of a force over a speed
+    at, mean = curve.nodes[1:], rung.posterior[0][place][1:]
+    covariance = rung.posterior[1][place, place][1:, 1:]
     lower = np.linalg.cholesky(covariance + 1e-12 * np.trace(covariance) * np.eye(at.size))
 
     def rows(p: np.ndarray) -> np.ndarray:
@@ -193,9 +219,7 @@ def exponents_of(part: Part) -> Iterator[Exponent]:
 
     found = least_squares(rows, [mean[-1], 1.0], x_scale=[abs(mean[-1]) + 1e-12, 1.0])
     inverse = np.linalg.pinv(found.jac.T @ found.jac)
-    value, sd = float(found.x[1]), float(np.sqrt(inverse[1, 1]))
-    low, high = value - NINETY * sd, value + NINETY * sd
-    yield Exponent(part.effect, axis.quantity, value, low, high, _POWERS[part.finding.name])
+    return float(found.x[1]), float(np.sqrt(inverse[1, 1]))
 
 
 def ranking_of(

@@ -116,7 +116,7 @@ class Arguments:
 
             def respond(run: RunRows, per_spring: bool = per_spring) -> Response:
                 unit = farthest * (stiffness[run.track.run.name] if per_spring else typical)
-                place = run.track.x  # as measured: a stiff spring feels what smoothing leaves
+                place = run.track.cause  # a stiff spring feels what smoothing leaves
                 force = -unit * np.sign(place)[:, None] * curve.at(np.abs(place))
                 turned = [abs(event.force) / stiffness[run.track.run.name] for event in run.events]
                 return Response(force=force, static=-unit * curve.at(np.array(turned)))

@@ -52,6 +52,14 @@ KNOTS = 0.3
 #: of finely sampled tracks make neighbouring rows all but one.
 ROUNDING = 1e-9
 
+#: Root mean square of x about its mean, in noise, up to which a block is at rest: of noise alone
+#: it is 1 +- 0.09 over two periods of 30 samples each.
+AT_REST = 1.25
+
+#: Standard deviation of what damps the swings, a part of what is critical: it multiplies the noise
+#: of speeds. A film of 1.5 N s/m under 0.67 kg on springs of 80 N/m makes 0.1.
+DAMPED = 0.1
+
 # Break-aways.
 #: Of the largest deflection, the part that the surface's own speed may make: beyond it nearly all
 #: of the overshoot is the belt's, and what the contact held is the small difference of two numbers.

@@ -11,7 +11,9 @@ phi are B-splines inside one slip or stick; x'' and x' go over to phi by parts.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 import numpy as np
 from scipy import sparse
@@ -23,7 +25,7 @@ from stickslip.packing import GRAVITY
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import Plane
 from cosim.gap.weak_form.breakaway import BreakAway, break_aways
-from cosim.gap.weak_form.constants import KNOTS, ROUNDING
+from cosim.gap.weak_form.constants import DAMPED, KNOTS, ROUNDING
 from cosim.gap.weak_form.rig_geometry import spring_loads
 from cosim.gap.weak_form.track import SmoothTrack
 
@@ -161,42 +163,45 @@ def rows_of(
     slip = _block(track, track.slips, _slip_weights(track, knots), run.noise["x"])
     stick = _block(track, track.sticks, _stick_weights(track, knots), run.noise["x"])
     drive = np.full(track.time.size, run.surface_speed)
-    if plane is None:
-        along = spring_loads(rig, run.stiffness, track.x)[0]
-    else:
-        along, drive = plane.loads(rig, run.stiffness, track.x)[0], plane.drive(run.surface_speed)
+    loads: Callable[[np.ndarray], np.ndarray] = partial(spring_loads, rig, run.stiffness)
+    if plane is not None:
+        loads, drive = partial(plane.loads, rig, run.stiffness), plane.drive(run.surface_speed)
     events = break_aways(track, rig, plane) if events is None else events
     values = [
-        slip.whitened(slip.inertia @ track.x - slip.force @ along),
+        slip.whitened(slip.inertia @ track.x - slip.force @ loads(track.x)[0]),
         stick.whitened(stick.place @ track.x - stick.force @ drive),
         np.array([event.force / event.sd for event in events]),
     ]
     kinds = np.repeat([SLIP, STICK, BREAK_AWAY], [part.size for part in values])
     return RunRows(track, rig, events, slip, stick, np.concatenate(values), kinds,
-                   -along, np.ones(kinds.size))  # fmt: skip
+                   -loads(track.cause)[0], np.ones(kinds.size))  # fmt: skip
 
 
-#: Weights of the samples of one spline: of a force, of the places, of the part m x'', of the noise.
-_Weights = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]
+#: Weights of the samples of one spline: of a force, of the places, of the part m x'', of the noise
+#: and of what damping makes of it.
+_Weights = tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]
 
 
 def _slip_weights(track: SmoothTrack, knots: int) -> _Weights:
     """phi, m phi'' + K phi, m phi'' of a quintic spline at its inner samples.
 
     Noise weighs as it does on the springs that are there: what they are stiffer by than stated is
-    on the right-hand side, at places that have the same noise.
+    on the right-hand side, at places that have the same noise. So is what friction grows by with
+    the speed, at speeds that have its derivative: in a slip of many swings next to nothing else is
+    left of the noise at their frequency.
     """
     run = track.run
-    value, _, second = _spline(5, knots, track.interval)
+    value, first, second = _spline(5, knots, track.interval)
     inertia = run.mass * second
     stated = inertia + run.total_stiffness * value
-    return value, stated, inertia, inertia + track.stiffness * value
+    damping = 2.0 * DAMPED * np.sqrt(track.stiffness * run.mass)
+    return value, stated, inertia, inertia + track.stiffness * value, damping * first
 
 
 def _stick_weights(track: SmoothTrack, knots: int) -> _Weights:
     """phi, -phi' of a cubic spline."""
     value, first, _ = _spline(3, knots, track.interval)
-    return value, -first, np.zeros_like(value), -first
+    return value, -first, np.zeros_like(value), -first, np.zeros_like(value)
 
 
 def _spline(degree: int, knots: int, interval: float) -> list[np.ndarray]:
@@ -219,9 +224,9 @@ def _block(
     at = (np.repeat(np.arange(begin.size), size), (begin[:, None] + np.arange(size)).ravel())
     shape = (begin.size, track.time.size)
     rows = [sparse.csr_array((np.tile(w, begin.size), at), shape=shape) for w in weights]
-    force, place, inertia, noisy = rows
-    noisy = noisy if track.errors is None else noisy @ track.errors
-    return _Block(force, place, inertia, _factor(noise**2 * (noisy @ noisy.T)))
+    force, place, inertia, *noisy = rows
+    noisy = [each if track.errors is None else each @ track.errors for each in noisy]
+    return _Block(force, place, inertia, _factor(noise**2 * sum(each @ each.T for each in noisy)))
 
 
 def _factor(covariance: sparse.csr_array) -> np.ndarray:

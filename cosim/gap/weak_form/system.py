@@ -11,7 +11,7 @@ few values. With unit priors, X scaled by the standard deviations,
 from __future__ import annotations
 
 import weakref
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -248,6 +248,13 @@ class Rung:
             float(logsumexp(totals) - np.log(sum(unknown.weight for unknown in variants))),
             max(best, key=lambda pair: pair[0])[1],
         )
+
+    def forms(self, unknown: Unknown) -> Iterator[tuple[float, Added]]:
+        """ln evidence with one more argument and that, for each bend of its curve."""
+        bends = BENDS_ASKED if unknown.bends is not None else (0.0,)
+        for bend, values in zip(bends, self._with(unknown).T, strict=True):
+            scale = SCALES_ASKED[int(np.argmax(values))]
+            yield float(logsumexp(values)), Added(unknown, scale, bend)
 
     def _with(self, unknown: Unknown) -> np.ndarray:
         """(scales, bends) ln evidence with one more unknown, each with its weight."""

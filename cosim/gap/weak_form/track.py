@@ -11,10 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.polynomial import Polynomial
 from scipy import sparse
+from scipy.ndimage import uniform_filter1d
 from scipy.signal import savgol_coeffs
 
 from cosim.gap.data import MeasuredRun
 from cosim.gap.weak_form.constants import (
+    AT_REST,
     COARSEST,
     CUBIC_REACH,
     EVEN,
@@ -46,13 +48,15 @@ class SmoothTrack:
     errors : (n, m) sparse, in units of the noise: of the values on the grid by the samples' own and
         by interpolation's; None: the samples are the grid
     x, y, phi : (n,) values on the grid (m, m, rad), not smoothed; None where not measured
-    place, velocity, acceleration : (n,) of x, smoothed by local polynomials
+    place, velocity, acceleration : (n,) of x, smoothed by local polynomials; of a block at rest
+        its course, 0 and 0: what noise pretends there would be motion that no damping damps
     place_y, velocity_y : (n,) of y; zeros where it was not measured
     surface_speed : (n,) of the surface, m/s: the set-point, and what sticks show it to vary by
     sliding : (n,) speed of the surface less that of the block, m/s
     seen : (n,) whether there are samples about it
     slips, sticks : (first, last + 1) of their grid points
     stiffness : along x, N/m, as stated, or as the swings show it where it is far above that
+    at_rest : (n,) whether the block swings by no more than noise pretends
     part : (n,) of friction, the part that acts along x, with its sign; None: all of it
     """
 
@@ -74,6 +78,7 @@ class SmoothTrack:
     slips: tuple[tuple[int, int], ...]
     sticks: tuple[tuple[int, int], ...]
     stiffness: float
+    at_rest: np.ndarray
     part: np.ndarray | None = None
 
     @property
@@ -85,6 +90,14 @@ class SmoothTrack:
     def slips_mask(self) -> np.ndarray:
         """(n,) whether the block slips."""
         return mask(self.slips, self.time.size)
+
+    @property
+    def cause(self) -> np.ndarray:
+        """(n,) m: x as what it brings about is asked for: as measured, without the noise at rest.
+
+        That noise is in the rows, too, and would bring itself about.
+        """
+        return np.where(self.at_rest, self.place, self.x)
 
     @property
     def surface_place(self) -> np.ndarray:
@@ -195,11 +208,33 @@ class GridTrack:
         for first, last in slips:
             if min(last - first, _window(reach, interval)) > 6:
                 fine[:, first:last] = derivatives(x[first:last], interval, reach, 5)
+        at_rest = self._at_rest
+        fine[0, at_rest], fine[1:, at_rest] = self._course(at_rest), 0.0
         return SmoothTrack(
             run, time, interval, self.errors, x, self.y, self.phi, fine[0], fine[1], fine[2],
             self.across[0], self.across[1], surface, surface - fine[1], seen,
-            slips, sticks, run.mass * self.omega**2,
+            slips, sticks, run.mass * self.omega**2, at_rest,
         )  # fmt: skip
+
+    @property
+    def _at_rest(self) -> np.ndarray:
+        """(n,) where x, less its mean over a period, is no more than noise: over two periods."""
+        swing = self.x - uniform_filter1d(self.x, self._period)
+        square = uniform_filter1d(swing**2, 2 * self._period)
+        return np.asarray(square < (AT_REST * self.run.noise["x"]) ** 2)
+
+    @property
+    def _period(self) -> int:
+        """Samples in a period of the swings."""
+        return max(round(2.0 * np.pi / self.omega / self.interval), 1)
+
+    def _course(self, at_rest: np.ndarray) -> np.ndarray:
+        """(k,) m: x in the stretches at rest, a cubic of the time, less in one of a few periods."""
+        courses = [np.zeros(0)]
+        for first, last in _stretches(at_rest):
+            time, degree = np.arange(last - first), min((last - first) // (2 * self._period), 3)
+            courses.append(Polynomial.fit(time, self.x[first:last], degree)(time))
+        return np.concatenate(courses)
 
 
 def smooth(run: MeasuredRun) -> SmoothTrack:

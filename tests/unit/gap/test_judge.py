@@ -293,7 +293,7 @@ def test_what_moves_the_block_across_has_a_name_and_no_curve():
     )  # fmt: skip
     said = "turning_surface, curvature = 0.995 1/m (0.985 to 1.005)."
     assert sentence_of(gap, [part]).endswith(said)
-    assert law_of(None, None, part, 1.0) is None and list(exponents_of(part)) == []
+    assert law_of(None, None, part, 1.0) is None and list(exponents_of(part, None, {})) == []
 
 
 def test_data_in_doubt_are_said_to_be_the_reason():
