@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -116,7 +115,7 @@ def draw_sizes(plan: Plan) -> Figure:
         axis.text(1.05 * size.percent, place - 0.02, text, **label)
     logarithmic_x(axis)
     axis.set_xlim(left, right)
-    axis.set_yticks(range(len(sizes)), [_name(size, sizes) for size in sizes])
+    axis.set_yticks(range(len(sizes)), [data.name_of(size, sizes) for size in sizes])
     axis.set_ylim(len(sizes) - 0.4, -0.6)
     axis.grid(visible=False, axis="y")
     axis.set_xlabel("smallest size, percent of friction")
@@ -124,13 +123,3 @@ def draw_sizes(plan: Plan) -> Figure:
         axis.barh([0], [0], color=colour, label=what)
     figure.legend(loc="outside upper right", ncols=2)
     return figure
-
-
-def _name(size: Size, sizes: Sequence[Size]) -> str:
-    """Its parameter, of a wave its length, and of two directions which."""
-    law = size.law
-    if law.wave:
-        return f"{law.key}, {law.unknown.variant}"
-    if sum(other.law.key == law.key for other in sizes) == 1:
-        return str(law.key)
-    return f"{law.key} {'>' if law.most > law.neutral else '<'} {law.neutral:g}"
