@@ -165,13 +165,13 @@ def draw_doubt(row: Row, doubt: Uncertainty) -> Figure:
     left.axvline(row.drift.run, color=INK, linewidth=1.0, label="as the case is")
     left.set_yticks(places, [f"{one.says}\n{_span_of(one)}" for one in single], fontsize=8.5)
     where = f"{row.case.length:g} m at {row.case.speed:g} m/s"
-    left.set_title(f"{where}: what each unknown does\nby itself over its range")
+    left.set_title(f"{where}:\neach unknown over its range")
     left.set_xlabel("belt's rise at entry [K]")
     figure.legend(*left.get_legend_handles_labels(), ncols=3, loc="outside upper center")
     totals = [100.0 * indices[one.key].total for one in single]
     errors = [100.0 * indices[one.key].total_half_width for one in single]
     right.barh(places, totals, xerr=errors, color=GREY, ecolor=INK, height=0.6)
-    right.set_title("total Sobol index of each unknown,\nwith 95 % interval")
+    right.set_title("total Sobol index of each,\nwith 95 % interval")
     right.set_xlabel("part of the variance of the rise [%]")
     right.set_xlim(left=0.0)
     return figure
