@@ -151,7 +151,7 @@ def _filled(known: Mapping[str, Mapping[str, float]]) -> tuple[dict[str, float],
             found[key], told[key] = part * found[other], f"not known: {part:.3g} {other}"
     groups: dict[str, list[str]] = {}
     for key in ("mu_k", "mu_s"):
-        groups.setdefault(told[key], []).append(f"{key} = {found[key]:.3g}")
+        groups.setdefault(told[key], []).append(f"{key} = {found[key]:.4g}")
     return found, "; ".join(f"{', '.join(keys)} ({where})" for where, keys in groups.items())
 
 
