@@ -33,6 +33,8 @@ from cosim.scenario.validation import ScenarioError, checked
 TYPICAL, BREAK_AWAY = 0.10, 1.3
 #: Of a tracker that nothing is known of, m.
 NOISE = 2e-4
+#: Less than any contact: what moves there is no block in slip.
+LEAST = 0.01
 COEFFICIENTS = {"mu_k", "mu_s"}
 #: What `gap` leaves in its folder.
 MODEL = "model.toml"
@@ -83,7 +85,7 @@ def known_friction(
         known["read off the runs that were made"] = {} if doubts else _seen_in(made)
     found, source = _filled(known)
     if found["mu_s"] < found["mu_k"]:
-        fault = f"mu_s = {found['mu_s']:.3g} is below mu_k = {found['mu_k']:.3g}"
+        fault = f"{source}: mu_s is below mu_k"
         raise CampaignError(f"{path}: friction: {fault}, allowed is as much or more")
     return found, source, doubts
 
@@ -100,16 +102,18 @@ def friction_of(model: Path, campaign: Campaign, speed: float) -> dict[str, Mapp
         tables = parsed(text_of(file), file)
     except ScenarioError as fault:
         raise CampaignError(str(fault)) from None
-    given = dict(tables.get("friction", {}))
+    stated = tables.get("friction")
+    given = dict(stated) if isinstance(stated, dict) else {}
     if given.get("table"):
-        given["table"] = str(file.parent / given["table"])
+        given["table"] = str(file.parent / str(given["table"]))
     with within(f"{file}: friction"):
         read = checked(Friction, given)
     values = {key: getattr(read, key) for key in COEFFICIENTS & read.model_fields_set}
     if read.has_table and not read.table_temperature_degC:
         values["mu_k"] = FrictionTable(file, read.table_speed, read.table_mu, speed).level
-    if not values:
-        raise CampaignError(f"{file}: friction: neither mu_k nor mu_s, allowed is one of them")
+    if not values or min(values.values()) <= 0.0:
+        none = "no mu_k or mu_s above 0, allowed is one of them"
+        raise CampaignError(f"{file}: friction: {none}")
     left = [effect.id for effect in campaign.catalogue.effects if tables.get(effect.id)]
     return {f"{file}" + (f", without its {', '.join(left)}" if left else ""): values}
 
@@ -129,7 +133,7 @@ def _seen_in(made: Campaign) -> dict[str, float]:
     """Friction in slip and at break-away, of those that the runs have."""
     rows = [rows_of_run(made, run) for run in made.runs]
     level, seen = Level.of(rows), {}
-    if any(run.track.slips_mask.any() for run in rows):
+    if level.kinetic > LEAST and any(run.track.slips_mask.any() for run in rows):
         seen["mu_k"] = level.kinetic
     if any(run.events for run in rows):
         seen["mu_s"] = max(level.static, seen.get("mu_k", 0.0))

@@ -129,6 +129,22 @@ def test_a_model_with_a_table_has_its_level(tmp_path):
     assert read_plan(written(tmp_path), model).friction["mu_k"] == pytest.approx(0.2)
 
 
+@pytest.mark.parametrize(
+    ("model", "said"),
+    [
+        ("mu_k = 0.4\nmu_s = 0.3\n", "mu_s is below mu_k"),
+        ("mu_k = 0.0\n", "model.toml: friction: no mu_k or mu_s above 0"),
+        ("", "model.toml: friction: no mu_k or mu_s above 0"),
+        ('table = "away.csv"\n', "away.csv"),
+        ("mu_k = -1\n", "mu_k: out of range"),
+    ],
+)
+def test_a_model_that_says_no_friction_is_refused(tmp_path, model, said):
+    with pytest.raises(CampaignError) as refused:
+        read_plan(written(tmp_path), answered(tmp_path, tmp_path, model) / "example-gap")
+    assert said in str(refused.value) and "\n" not in str(refused.value)
+
+
 def test_doubtful_runs_are_not_asked_for_their_friction(measured, tmp_path):
     """Millimetres read as metres; why is said."""
     for file in measured.iterdir():
