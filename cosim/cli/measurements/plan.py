@@ -33,7 +33,7 @@ def execute(arguments: Namespace) -> int:
         return DONE
     if arguments.campaign is None:
         raise CampaignError("no campaign given, allowed is a file or folder, or --write-example")
-    planned = read_plan(arguments.campaign)
+    planned = read_plan(arguments.campaign, arguments.model, Path(RESULTS))
     place = arguments.output or Path(RESULTS) / f"{safe_name(planned.campaign.name)}-plan"
     folder = own_folder(place, (RESULT, PAGE), arguments.force)
     asked = numbers_asked(arguments, KEYS)

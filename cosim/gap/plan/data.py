@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from cosim.gap.plan.next_run import SETTINGS
@@ -20,6 +21,7 @@ def as_data(plan: Plan) -> dict[str, Any]:
         "power": plan.wanted,
         "false_names": plan.false,
         "friction": planned.friction,
+        "friction_source": planned.source,
         "noise": planned.campaign.noise,
         "runs": [
             {name: getattr(run.setting, name) for name in SETTINGS}
@@ -60,6 +62,16 @@ def percent_text(size: Size) -> str:
     return f"{size.percent:.2g} % of {of}" if size.percent is not None else "–"
 
 
+def name_of(size: Size, sizes: Sequence[Size]) -> str:
+    """Its parameter, of a wave its length, and of two directions which."""
+    law = size.law
+    if law.wave:
+        return f"{law.key}, {law.unknown.variant}"
+    if sum(other.law.key == law.key for other in sizes) == 1:
+        return str(law.key)
+    return f"{law.key} {'>' if law.most > law.neutral else '<'} {law.neutral:g}"
+
+
 def sentence(plan: Plan) -> str:
     """The answer in a sentence."""
     runs = len(plan.planned.runs)
@@ -77,13 +89,15 @@ def sentence(plan: Plan) -> str:
 def closing_lines(plan: Plan) -> list[str]:
     """What is said at the end, on a terminal."""
     lines = [f"{plan.planned.campaign.name}: {sentence(plan)}"]
-    width = max(map(len, [*(size.law.key for size in plan.sizes), *plan.silent]), default=0)
-    for size in plan.sizes:
+    lines += [f"  friction  {plan.planned.source}"]
+    names = [name_of(size, plan.sizes) for size in plan.sizes]
+    width = max(map(len, [*names, *plan.silent]), default=0)
+    for name, size in zip(names, plan.sizes, strict=True):
         said = percent_text(size) if size.value is not None else "whatever its size"
         if size.value is not None and size.alone != size.value:
             alone = value_text(size.alone, size)
             said += ", never by itself" if size.alone is None else f", by itself from {alone}"
-        lines.append(f"  {size.law.key:{width}}  {value_text(size.value, size):>16}  {said}")
+        lines.append(f"  {name:{width}}  {value_text(size.value, size):>16}  {said}")
     for effect, why in plan.silent.items():
         lines.append(f"  {effect:{width}}  {'not tried':>16}  {why}")
     for truth, other, share in plan.pairs[:3]:

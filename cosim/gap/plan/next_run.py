@@ -14,8 +14,9 @@ import numpy as np
 
 from cosim.gap.data import Campaign
 from cosim.gap.data.errors import CampaignError
+from cosim.gap.plan.known import rows_of_run
 from cosim.gap.plan.laws import Law, laws_of
-from cosim.gap.plan.planned import PlannedRun, rows_of_run, simulated
+from cosim.gap.plan.planned import PlannedRun, simulated
 from cosim.gap.plan.sizes import Design
 from cosim.gap.weak_form.arguments import Arguments
 from cosim.gap.weak_form.constants import ALIKE

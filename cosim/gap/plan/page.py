@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ from cosim.gap.plan import data
 from cosim.gap.plan.plan import Plan
 from cosim.gap.plan.sizes import Size
 from cosim.report.page import Picture, number, render, unit_text
-from cosim.report.palette import BLUE, INK, ORANGE, RED
+from cosim.report.palette import BLUE, ORANGE, RED
 from cosim.report.style import logarithmic_x, panels, picture
 
 #: Pairs on the first screens of the page; the rest is folded.
@@ -94,43 +93,32 @@ def _at(size: Size) -> str:
     "bar, its size in the parameter's unit."
 ))  # fmt: skip
 def draw_sizes(plan: Plan) -> Figure:
-    """A row for each effect and direction."""
+    """A row for each effect and direction: its name over its bar, so that a phone can show it."""
     sizes = plan.sizes
-    figure, axes = panels(1, 1, height=1.2 + 0.42 * max(len(sizes), 1), width=9.0)
+    figure, axes = panels(1, 1, height=1.2 + 0.5 * max(len(sizes), 1), width=5.6)
     axis = axes[0, 0]
-    label: dict[str, Any] = {"va": "center", "fontsize": 8.5}
+    label: dict[str, Any] = {"va": "center", "fontsize": 9.5}
     ends = [(size, end) for size in sizes for end in (size.value, size.alone)]
     every = [size.law.percent(end) for size, end in ends if end is not None]
-    left, right = 0.5 * min(every, default=1.0), 4.0 * max(every, default=1.0)
+    left, right = 0.5 * min(every, default=1.0), 8.0 * max(every, default=1.0)
     for place, size in enumerate(sizes):
+        axis.text(1.05 * left, place - 0.34, data.name_of(size, sizes), **label)
         if size.percent is None:
-            axis.text(1.1 * left, place, "not seen, whatever its size", va="center", color=RED)
+            axis.text(1.05 * left, place, "not seen, whatever its size", color=RED, **label)
             continue
         alone = math.inf if size.alone is None else size.law.percent(size.alone)
-        axis.barh(place, size.percent - left, left=left, height=0.36, color=BLUE)
+        axis.barh(place, size.percent - left, left=left, height=0.26, color=BLUE)
         if MORE * size.percent < alone < math.inf:
-            axis.barh(place + 0.3, alone - left, left=left, height=0.2, color=ORANGE)
-            axis.text(1.05 * alone, place + 0.32, _value(size.alone, size), color=INK, **label)
-        never = "" if math.isfinite(alone) else "  (never by itself)"
-        text = _value(size.value, size) + never
-        axis.text(1.05 * size.percent, place - 0.02, text, **label)
+            axis.barh(place + 0.23, alone - left, left=left, height=0.16, color=ORANGE)
+            axis.text(1.05 * alone, place + 0.24, _value(size.alone, size), **label)
+        never = "" if math.isfinite(alone) else ", never by itself"
+        axis.text(1.05 * size.percent, place - 0.02, _value(size.value, size) + never, **label)
     logarithmic_x(axis)
     axis.set_xlim(left, right)
-    axis.set_yticks(range(len(sizes)), [_name(size, sizes) for size in sizes])
-    axis.set_ylim(len(sizes) - 0.4, -0.6)
-    axis.grid(visible=False, axis="y")
+    axis.set_yticks([])
+    axis.set_ylim(len(sizes) - 0.6, -0.6)
     axis.set_xlabel("smallest size, percent of friction")
     for what, colour in (("named", BLUE), ("named by itself", ORANGE)):
         axis.barh([0], [0], color=colour, label=what)
     figure.legend(loc="outside upper right", ncols=2)
     return figure
-
-
-def _name(size: Size, sizes: Sequence[Size]) -> str:
-    """Its parameter, of a wave its length, and of two directions which."""
-    law = size.law
-    if law.wave:
-        return f"{law.key}, {law.unknown.variant}"
-    if sum(other.law.key == law.key for other in sizes) == 1:
-        return str(law.key)
-    return f"{law.key} {'>' if law.most > law.neutral else '<'} {law.neutral:g}"

@@ -17,15 +17,9 @@ from cosim.gap.data.campaign_file import RunTable
 from cosim.gap.data.errors import CampaignError, within
 from cosim.gap.data.units import COARSEST
 from cosim.gap.naming import Unknowns, asked_of
-from cosim.gap.weak_form.rows import RunRows, rows_of
+from cosim.gap.plan.known import NOISE, answer_of_gap, known_friction, rows_of_run, runs_made
 from cosim.gap.weak_form.system import System
-from cosim.gap.weak_form.track import smooth, thinned
 
-#: Ice on steel or ice at the temperatures and speeds of a cold room slides at about 0.1 (Marmo et
-#: al. 2005); a usual break-away takes 1.3 times as much.
-EXPECTED = {"mu_s": 0.13, "mu_k": 0.10}
-#: Of a tracker that the file says nothing of, m.
-NOISE = 2e-4
 #: Over so much sliding speed friction falls from mu_s to mu_k, m/s: dry contacts have 1 to 8 mm/s.
 TRANSITION = 2e-3
 #: A run of more samples is a slip of the pen: a minute to the second is 6000.
@@ -55,58 +49,71 @@ class PlannedCampaign:
     campaign : rig, noise and what is known of the friction; its runs have no track
     runs : all, those that are held out too
     friction : coefficient -> value that is expected; mu_k of a table, whose level it is
+    source : where each of them is from, in a line
     """
 
     campaign: Campaign
     runs: tuple[PlannedRun, ...]
     friction: Mapping[str, float]
+    source: str
 
 
-def read_plan(path: str | Path) -> PlannedCampaign:
+def read_plan(
+    path: str | Path, model: str | Path | None = None, results: Path | None = None
+) -> PlannedCampaign:
     """The planned campaign in a TOML file, or in a folder's campaign.toml.
 
-    Its keys are those of a measured campaign; of a run ``duration`` and ``rate`` take the place of
-    a ``file``, which need not be there. CampaignError in one line: file, key, what is wrong, what
-    is allowed.
+    Its keys are those of a measured campaign. Of a run that has been made, its ``file`` says noise,
+    duration and rate where the TOML file does not; of another, ``duration`` and ``rate`` do.
+
+    model : a scenario, or a folder of `gap`'s, whose friction is expected
+    results : in which `gap` may have left its answer on this campaign: its friction is taken where
+        the TOML file states none
+
+    CampaignError in one line: file, key, what is wrong, what is allowed.
     """
     path, table, tables, campaign = stated_in(path, RunTable)
-    noise = {"x": NOISE, **table.noise.given}
-    remarks = [] if "x" in table.noise.given else [f"noise.x is not given: {NOISE:g} m"]
-    own, named = campaign.friction_table, table.friction.expected
-    if own is not None:
-        remarks.append(own.text)
-        # a block that holds no more than it slides with does not stick
-        named = {"mu_s": max(EXPECTED["mu_s"] / EXPECTED["mu_k"] * own.level, *own.mu), **named}
-        named["mu_k"] = own.level
-    expected = {**EXPECTED, **named}
-    if unnamed := sorted(set(EXPECTED) - set(named)):
-        said = ", ".join(f"friction.{key} = {expected[key]:g}" for key in unnamed)
-        remarks.append(f"{said}: not given, typical of ice")
-    if expected["mu_s"] < expected["mu_k"]:
-        fault = f"mu_s = {expected['mu_s']:g} is below mu_k = {expected['mu_k']:g}"
-        raise CampaignError(f"{path}: friction: {fault}, allowed is as much or more")
     if table.model.scheme != "exact":
         scheme = f'model.scheme = "{table.model.scheme}"'
         lacks = "what a scheme lacks is no question to a rig"
         raise CampaignError(f'{path}: {scheme}: {lacks}, allowed is "exact"')
+    made = runs_made(path, table, tables, campaign)
+    given = None if model is None else Path(model)
+    answer = None if results is None else answer_of_gap(path, campaign, results)
+    friction, source, doubts = known_friction(path, table, tables, campaign, made, given, answer)
+    own, noise = campaign.friction_table, {"x": NOISE, **made.noise}
+    remarks = doubts if own is None else [*doubts, own.text]
+    if "x" not in table.noise.given:
+        of_runs = ", that of the runs that were made" if made.runs else ""
+        remarks.append(f"noise.x is not given: {noise['x']:.3g} m{of_runs}")
     campaign = replace(campaign, noise=noise)
-    runs = [_planned(path, campaign, run, number) for number, run in enumerate(tables, 1)]
+    tracks = {run.file: run.motion for run in made.runs if run.file}
+    runs = [_planned(path, campaign, run, number, tracks) for number, run in enumerate(tables, 1)]
     settings = tuple(run.setting for run in runs)
     check_fit_runs(settings, str(path))
-    if any(table.file for table in tables):
-        remarks.append("files of runs are not read: planned with duration and rate")
+    if tracks:
+        names = ", ".join(run.name for run in made.runs)
+        remarks.append(f"{names}: planned as made, with duration and rate of the files")
+    if away := [run.file for run in tables if run.file and path.parent / run.file not in tracks]:
+        remarks.append(f"{', '.join(away)}: not there yet, planned with duration and rate")
     campaign = replace(campaign, runs=settings, remarks=tuple(remarks))
-    return PlannedCampaign(campaign, tuple(runs), expected)
+    return PlannedCampaign(campaign, tuple(runs), friction, source)
 
 
-def _planned(path: Path, campaign: Campaign, table: RunTable, number: int) -> PlannedRun:
-    """One [[run]], checked against the rig."""
+def _planned(
+    path: Path, campaign: Campaign, table: RunTable, number: int, tracks: Mapping[Path, Track]
+) -> PlannedRun:
+    """One [[run]], checked against the rig; tracks : file -> what was seen of it."""
     where = f"{path}: run {number}"
     if table.summary.given:
         raise CampaignError(f"{where}: summary: figures of a run that is planned, allowed is none")
     with within(where):
         setting = run_of(campaign, table.model_copy(update={"file": ""}), number)
     setting = replace(setting, noise=campaign.noise)
+    if track := tracks.get(path.parent / table.file):
+        seen = {"duration": track.duration, "rate": 1.0 / track.interval}
+        stated = table.model_dump(include=table.model_fields_set & seen.keys())
+        table = table.model_copy(update={**seen, **stated})
     period = 2.0 * np.pi / setting.natural_frequency
     if table.rate * COARSEST * period < 1.0:
         raise CampaignError(
@@ -167,8 +174,3 @@ def asked_as_planned(campaign: Campaign) -> tuple[System, Unknowns]:
     rows = [rows_of_run(campaign, run) for run in campaign.runs]
     system, _, unknowns = asked_of(campaign, rows)
     return system, unknowns
-
-
-def rows_of_run(campaign: Campaign, run: MeasuredRun) -> RunRows:
-    """Rows along x."""
-    return rows_of(smooth(thinned(run)), campaign.rig)

@@ -37,13 +37,16 @@ def schemas(capsys):
     return {kind: jsonschema.Draft7Validator(schema) for kind, schema in found.items()}
 
 
-def test_a_new_scenario_is_as_one_that_says_nothing(capsys):
+def test_a_new_scenario_is_as_one_that_says_nothing_on_a_belt_for_its_block(capsys):
+    """The published belt is narrower than the published block."""
     assert (
         printed(capsys, "new", "cold room")
         == "cold room.toml: stickslip simulate 'cold room.toml'\n"
     )
     Path("bare.toml").write_text('name = "cold room"')
-    assert read_scenario("cold room.toml") == read_scenario("bare.toml")
+    case = read_scenario("cold room.toml")
+    assert case == read_scenario("bare.toml", {"belt.width": 0.10})
+    assert case.belt.width > 2.0 * case.rig.contact_radius
 
 
 @pytest.mark.parametrize("source", packaged_scenarios())

@@ -12,11 +12,13 @@ from stickslip import EFFECTS
 
 from cosim.cli import main
 from cosim.gap.data.errors import CampaignError
+from cosim.gap.example import write_example
 from cosim.gap.plan import read_plan
+from cosim.gap.plan.known import NOISE
 from cosim.gap.plan.laws import laws_of, silent
 from cosim.gap.plan.next_run import best_next_run, options
 from cosim.gap.plan.plan import Plan
-from cosim.gap.plan.planned import EXPECTED, NOISE, as_measured, asked_as_planned
+from cosim.gap.plan.planned import as_measured, asked_as_planned
 from cosim.gap.plan.sizes import Design, Size, false_names, is_named, sizes_of
 
 RUN = {"mass": 0.87, "stiffness": 38.5, "duration": 8.0}
@@ -62,16 +64,103 @@ def test_defaults_are_said(tmp_path):
     run = "[[run]]\nmass = 0.87\nstiffness = 38.5\nsurface_speed = 0.06\n"
     (tmp_path / "campaign.toml").write_text(run, encoding="utf-8")
     plan = read_plan(tmp_path)
-    assert plan.friction == EXPECTED
+    assert plan.friction == pytest.approx({"mu_k": 0.1, "mu_s": 0.13})
     assert plan.campaign.noise == {"x": NOISE}
     assert (plan.runs[0].duration, plan.runs[0].rate) == (20.0, 100.0)
-    assert "typical of ice" in " ".join(plan.campaign.remarks)
+    assert "typical of ice" in plan.source
 
 
 def test_a_number_is_expected_and_a_pair_is_known(tmp_path):
     plan = read_plan(written(tmp_path, friction={"mu_s": [0.3, 0.01], "mu_k": 0.2}))
     assert plan.friction == {"mu_s": 0.3, "mu_k": 0.2}
     assert plan.campaign.friction == {"mu_s": (0.3, 0.01)}
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory):
+    """The example's tracks, whose friction falls from 0.22 by 5 to 12 % in slip."""
+    folder = tmp_path_factory.mktemp("measured")
+    write_example(folder)
+    return folder
+
+
+def answered(folder, campaign, friction="mu_s = 0.31\nmu_k = 0.21\n"):
+    """What `gap` leaves behind; the folder of its results."""
+    place = folder / "results" / "example-gap"
+    place.mkdir(parents=True)
+    text = f"[friction]\n{friction}[velocity_weakening]\nlinear = 0.8\n"
+    (place / "model.toml").write_text(text, encoding="utf-8")
+    made = json.dumps({"campaign": str(campaign.resolve())})
+    (place / "made_by.json").write_text(made, encoding="utf-8")
+    return place.parent
+
+
+def test_measured_runs_say_friction_noise_duration_and_rate(measured):
+    plan = read_plan(measured)
+    assert plan.friction["mu_k"] == pytest.approx(0.19, abs=0.02)
+    assert plan.friction["mu_s"] == pytest.approx(0.30, abs=0.02)
+    assert "read off the runs" in plan.source
+    assert [(run.duration, round(run.rate)) for run in plan.runs] == [(10.0, 100)] * 4
+    assert "planned as made" in " ".join(plan.campaign.remarks)
+
+
+def test_what_gap_has_found_goes_before_what_the_runs_show(measured, tmp_path):
+    plan = read_plan(measured, results=answered(tmp_path, measured))
+    assert plan.friction == {"mu_k": 0.21, "mu_s": 0.31}
+    assert "model.toml, without its velocity_weakening" in plan.source
+
+
+def test_an_answer_on_another_campaign_is_not_taken(measured, tmp_path):
+    plan = read_plan(measured, results=answered(tmp_path, tmp_path))
+    assert "model.toml" not in plan.source
+
+
+def test_a_model_goes_before_what_the_campaign_states(tmp_path):
+    """What it leaves open is as the campaign states."""
+    model = answered(tmp_path, tmp_path, "mu_k = 0.2\n") / "example-gap"
+    plan = read_plan(written(tmp_path), model)
+    assert plan.friction == {"mu_k": 0.2, "mu_s": FRICTION["mu_s"]}
+    assert "model.toml" in plan.source and "campaign.toml" in plan.source
+
+
+def test_a_model_with_a_table_has_its_level(tmp_path):
+    table = "table_speed = [0.0, 0.12]\ntable_mu = [0.3, 0.1]\n"
+    model = answered(tmp_path, tmp_path, table) / "example-gap"
+    assert read_plan(written(tmp_path), model).friction["mu_k"] == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ("model", "said"),
+    [
+        ("mu_k = 0.4\nmu_s = 0.3\n", "mu_s is below mu_k"),
+        ("mu_k = 0.0\n", "model.toml: friction: no mu_k or mu_s above 0"),
+        ("", "model.toml: friction: no mu_k or mu_s above 0"),
+        ('table = "away.csv"\n', "away.csv"),
+        ("mu_k = -1\n", "mu_k: out of range"),
+    ],
+)
+def test_a_model_that_says_no_friction_is_refused(tmp_path, model, said):
+    with pytest.raises(CampaignError) as refused:
+        read_plan(written(tmp_path), answered(tmp_path, tmp_path, model) / "example-gap")
+    assert said in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_doubtful_runs_are_not_asked_for_their_friction(measured, tmp_path):
+    """Millimetres read as metres; why is said."""
+    for file in measured.iterdir():
+        text = file.read_text(encoding="utf-8")
+        if file.suffix == ".csv":
+            rows = [line.split(",") for line in text.splitlines()[1:]]
+            text = "\n".join(["t,x", *(f"{t},{50.0 * float(x):g}" for t, x in rows)])
+        (tmp_path / file.name).write_text(text, encoding="utf-8")
+    plan = read_plan(tmp_path)
+    assert "typical of ice" in plan.source
+    assert "friction is not read off the runs" in " ".join(plan.campaign.remarks)
+
+
+def test_a_file_that_is_not_there_yet_is_said(tmp_path):
+    remarks = read_plan(written(tmp_path, [{"file": "run01.csv"}])).campaign.remarks
+    assert "run01.csv: not there yet, planned with duration and rate" in remarks
 
 
 @pytest.mark.parametrize(
@@ -202,19 +291,26 @@ def test_the_command_leaves_its_files(tmp_path, capsys):
     assert drag["parameter"] == "film_drag.coefficient" and drag["unit"] == "N.s/m"
     assert 0.0 < drag["percent_of_friction"] < 100.0
     assert not set(answer["smallest"]) & set(answer["not_tried"])
+    assert answer["friction_source"] == "mu_k = 0.22, mu_s = 0.3 (campaign.toml)"
     page = (tmp_path / "out" / "report.html").read_text()
     assert "load_dependence" in page and "Next run" in page
     places = [page.index(each) for each in ("<h1>1 run would", "<figure", 'class="tiles"', "<h2")]
     assert places == sorted(places) and page.count("<div><b>") <= 4
     assert "relaxation_time = 0.5 s" in page, "a size beside the law's other numbers"
     assert (tmp_path / "out" / "smallest_sizes.png").stat().st_size > 0
-    assert capsys.readouterr().out.startswith("planned: 1 run would name effects from")
+    first, friction, *_ = capsys.readouterr().out.splitlines()
+    assert first.startswith("planned: 1 run would name effects from")
+    assert friction == "  friction  mu_k = 0.22, mu_s = 0.3 (campaign.toml)"
+    assert "mu_k = 0.22, mu_s = 0.3 (campaign.toml)" in page
 
 
 def test_bad_input_is_one_line(tmp_path, capsys):
     folder = written(tmp_path, [{"rate": 1.0}])
     assert "run 1: rate = 1 Hz" in refusal(capsys, "plan", folder, "-o", tmp_path / "out")
     assert "no campaign given" in refusal(capsys, "plan")
+    planned = written(tmp_path)
+    refused = refusal(capsys, "plan", planned, "--model", tmp_path, "-o", tmp_path / "out")
+    assert "model.toml: no such file, allowed is a scenario or the results of gap" in refused
 
 
 def test_the_example_can_be_planned(tmp_path, capsys):

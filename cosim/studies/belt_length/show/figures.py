@@ -110,7 +110,8 @@ def _mark_end(ax: Axes, length: float, colour: str) -> None:
     ax.plot(length, _FLOOR, "v", color=colour, markersize=8.0, clip_on=False, zorder=5)
     words, place = f"nothing comes\nround from {length:.3g} m", (length, _FLOOR)
     beside: Any = {"xytext": (8.0, 5.0), "textcoords": "offset points", "ha": "left"}
-    ax.annotate(words, place, fontsize=7.5, color=colour, **beside)
+    beside["bbox"] = {"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 1.0}
+    ax.annotate(words, place, fontsize=8.0, color=colour, **beside)
 
 
 def _doubt(axes: Sequence[Axes], study: Study, case: Case, colour: str, aside: float) -> None:
@@ -162,16 +163,16 @@ def draw_doubt(row: Row, doubt: Uncertainty) -> Figure:
     for end, colour, said in zip(ends.T, (BLUE, RED), ("low end", "high end"), strict=True):
         left.plot(end, places, "o", color=colour, markersize=6.0, label=said)
     left.axvline(row.drift.run, color=INK, linewidth=1.0, label="as the case is")
-    left.set_yticks(places, [f"{one.says}\n{_span_of(one)}" for one in single], fontsize=7.5)
+    left.set_yticks(places, [f"{one.says}\n{_span_of(one)}" for one in single], fontsize=8.5)
     where = f"{row.case.length:g} m at {row.case.speed:g} m/s"
-    left.set_title(f"{where}: what each unknown does\nby itself over its range")
+    left.set_title(f"{where}:\neach unknown over its range")
     left.set_xlabel("belt's rise at entry [K]")
     figure.legend(*left.get_legend_handles_labels(), ncols=3, loc="outside upper center")
-    totals = [indices[one.key].total for one in single]
-    errors = [indices[one.key].total_half_width for one in single]
+    totals = [100.0 * indices[one.key].total for one in single]
+    errors = [100.0 * indices[one.key].total_half_width for one in single]
     right.barh(places, totals, xerr=errors, color=GREY, ecolor=INK, height=0.6)
-    right.set_title("total Sobol index of each unknown,\nwith 95 % interval")
-    right.set_xlabel("part of the variance of the rise [1]")
+    right.set_title("total Sobol index of each,\nwith 95 % interval")
+    right.set_xlabel("part of the variance of the rise [%]")
     right.set_xlim(left=0.0)
     return figure
 
@@ -183,7 +184,8 @@ def _span_of(one: SingleChange) -> str:
         "roller_conductance": "conductance to them {:g} W/m2K",
     }
     seen_in = "".join(f" ({others[key].format(value)})" for key, value in one.with_others.items())
-    return f"{one.low:g} to {one.high:g}{unit}{seen_in}".replace("W/m2K", "W/(m² K)")
+    said = f"{one.low:g} to {one.high:g}{unit}{seen_in}"
+    return said.replace("W/m2K", "W/(m² K)").replace("-", "−")
 
 
 @picture("map", **FIGURES["map"])
