@@ -71,24 +71,45 @@ def latest_moment(g: Floats) -> float:
     return latest
 
 
+def counts_for_rates(g: Floats, j: int) -> bool:
+    """Is the remembered moment ``j`` one of those by which the last rates were told?
+
+    A host that looks for a kink asks for the inputs at many times: `course_reserve` needs these all
+    the while.
+    """
+    later = 0
+    for k in range(int(g[G_COUNT])):
+        if g[G_MOMENT_TIME + j] < g[G_MOMENT_TIME + k] <= g[G_ASKED_BY]:
+            later += 1
+    return g[G_MOMENT_TIME + j] <= g[G_ASKED_BY] and later < DEGREES + 2
+
+
+def furthest_moment(g: Floats, t: float) -> int:
+    """Number of the remembered moment that says least of the time t, to be given up."""
+    furthest = 0
+    most = -1.0
+    for j in range(int(g[G_COUNT])):
+        apart = abs(g[G_MOMENT_TIME + j] - t)
+        if apart > most and not counts_for_rates(g, j):
+            furthest = j
+            most = apart
+    return furthest
+
+
 def note_inputs(p: Floats, g: Floats, t: float) -> None:
     """Remember the inputs as given for the time t.
 
-    One that is close to another says nothing new, but where it is of the very same time; where
-    there is no room, the one furthest from t goes.
+    One that is close to another says nothing new, but where it is of the very same time.
     """
     slot = int(g[G_COUNT])
-    furthest = 0
     for j in range(int(g[G_COUNT])):
         apart = abs(g[G_MOMENT_TIME + j] - t)
         if apart == 0.0:
             slot = j
         elif apart < CLOSE / p[P_RATE]:
             return
-        if apart > abs(g[G_MOMENT_TIME + furthest] - t):
-            furthest = j
     if slot == MOMENTS:
-        slot = furthest
+        slot = furthest_moment(g, t)
     g[G_COUNT] = max(g[G_COUNT], slot + 1.0)
     g[G_MOMENT_TIME + slot] = t
     for i in range(GIVEN_INPUTS):
