@@ -21,7 +21,7 @@ from .drive import driven_acceleration, driven_speed, input_at, is_mean
 
 # Of the motion's own time: what lies nearer than that says of a rate nothing but its rounding,
 # which is of some 1e-16 of the input in this time.
-CLOSE = 1e-5
+CLOSE = 1e-6
 # Of an input's size: by how much more it jumps than the memory can be off by.
 JUMP = 1e-7
 LATEST = 1e300  # s: later than any time
