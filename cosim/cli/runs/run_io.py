@@ -166,9 +166,9 @@ class Job(NamedTuple):
             except BaseException:
                 if not folder.checkpoint.is_file():
                     folder.finished()
-                    for made in (self.results / FIELDS, self.results):
+                    for place in (self.results / FIELDS, self.results):
                         with suppress(OSError):  # there is something in it
-                            made.rmdir()
+                            place.rmdir()
                 raise
             patience.hold()
             if is_removed(self.results, done.result.time.tolist()):
