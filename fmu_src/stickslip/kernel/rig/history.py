@@ -20,7 +20,7 @@ from ..layout import *
 from .drive import driven_acceleration, driven_speed, input_at, is_mean
 
 # Of the motion's own time: what lies nearer than that says of a rate nothing but its rounding,
-# which is of some 1e-16 of the input in this time.
+# which is of some 1e-16 of the input in this time. A kink is found as near as that.
 CLOSE = 1e-6
 # Of an input's size: by how much more it jumps than the memory can be off by.
 JUMP = 1e-7
