@@ -109,6 +109,8 @@ def _readable(folder: Path, frames: float | None, pixel: float | None) -> Iterat
     for file in sorted(folder.iterdir()):
         if file.name.endswith(MADE) or file.suffix.lower() not in (*TEXTS, *EXCEL):
             continue
+        if not file.is_file():  # to open a pipe would wait for ever
+            raise CampaignError(f"{file}: cannot be read: is not a file")
         is_sheet = file.suffix.lower() in EXCEL
         text = _of_excel(file) if is_sheet else _text(file)
         rewritten = _of_deeplabcut(file, text, frames, pixel) or _of_tracker(text)

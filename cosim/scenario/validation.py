@@ -131,7 +131,7 @@ def _describe(key: str, faults: list[Fault], keys: dict[str, FieldInfo]) -> str:
         return f"{key}: no such key, {_known_instead(key, keys)}"
     wrong = WRONG.get(fault["type"], "not possible") if len(faults) == 1 else "not possible"
     if wrong == "not a number" and QUANTITY.fullmatch(str(fault["input"])):
-        wrong = f"not in a unit of {unit_of(keys[key])}"
+        wrong = not_in(unit_of(keys[key]))
     return f"{key}: {wrong} ({_shown(fault['input'])}), allowed is {allowed(key, keys[key])}"
 
 
@@ -173,6 +173,11 @@ def _known_instead(key: str, keys: dict[str, FieldInfo]) -> str:
 def unit_of(field: FieldInfo) -> str:
     """The unit that a field was declared with; "1" for a plain number, and for none."""
     return str(details(field).get("unit", "1"))
+
+
+def not_in(unit: str) -> str:
+    """What is wrong with a number that is given in another unit, or in one at all."""
+    return "has no unit" if unit == "1" else f"not in a unit of {unit}"
 
 
 def allowed(key: str, field: FieldInfo) -> str:

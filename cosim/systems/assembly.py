@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from fmpy.model_description import ModelDescription, ModelVariable
+from stickslip.units import QUANTITY, base_units
 
 from cosim.coupling import (
     Affine,
@@ -23,18 +24,21 @@ from cosim.coupling import (
     Subcycled,
     UnitDefinition,
 )
-from cosim.coupling.conversion import IDENTITY, NO_UNIT, conversion
+from cosim.coupling.conversion import BASE_UNITS, IDENTITY, NO_UNIT, between, conversion
 from cosim.coupling.fmu.description import describe, faults_of
-from cosim.coupling.fmu.variables import definitions_of, scalars, unit_of
+from cosim.coupling.fmu.variables import INTEGERS, REALS, definitions_of, scalars, unit_of
 from cosim.coupling.methods import control_of, scheme_of
 from cosim.coupling.participant import Causality
 from cosim.coupling.system import ENERGY_UNIT, Address, find_port
 from cosim.coupling.tolerance import Tolerance
 from cosim.names import unknown_name
+from cosim.scenario.validation import not_in
 from cosim.systems.settings import NOT_GIVEN, unused
 from cosim.systems.specification import Link, Start, SystemSpecification, UnitEntry, Value
 from cosim.systems.system_errors import SystemFault, naming
 
+#: Types of variables whose number may be given as a text with its unit.
+WITH_UNIT = (*REALS, "Integer", *INTEGERS)
 #: More macro steps than this are a slip of the unit, and have no end.
 MOST_STEPS = 1_000_000_000
 #: Of a run where nobody names a step.
@@ -182,6 +186,8 @@ def _value(
         if value not in numbers:
             raise SystemFault(f"{label}: {unknown_name('item', value, numbers)}")
         return numbers[value]
+    if isinstance(value, str) and variable.type in WITH_UNIT:
+        return _in_own_unit(label, value, unit_of(variable), definitions)
     affine = start.transformation
     if start.unit is not None and start.converts:
         unit = unit_of(variable)
@@ -197,6 +203,30 @@ def _value(
             f"{label}: {value:g} {start.unit or ''} is not a finite number in {unit_of(variable)}"
         )
     return own
+
+
+def _in_own_unit(
+    label: str, text: str, unit: str, definitions: Mapping[str, UnitDefinition]
+) -> float:
+    """The number of a text such as "670 g", in the unit that the variable declares."""
+    found = QUANTITY.fullmatch(text)
+    given, own = (_written_unit(found[2]) if found else None), definitions.get(unit)
+    own = own or _written_unit(unit)
+    if found and given and own and unit != NO_UNIT and given.exponents == own.exponents:
+        return float(f"{between(given, own)(float(found[1])):.15g}")
+    number = "a number" if unit == NO_UNIT else f"a number in {unit}"
+    wrong = not_in(unit) if found else "not a number"
+    raise SystemFault(f'{label}: {wrong} ("{text}"), allowed is {number}')
+
+
+def _written_unit(text: str) -> UnitDefinition | None:
+    """What a unit is made of as people write it; None for what is no unit."""
+    base = base_units(text)
+    if base is None:
+        return None
+    kg, m, s, ampere, kelvin, mol, cd, rad = (int(base.get(name, 0)) for name in BASE_UNITS)
+    exponents = (kg, m, s, ampere, kelvin, mol, cd, rad)
+    return UnitDefinition(exponents, base.get("factor", 1.0), base.get("offset", 0.0))
 
 
 def _conversion(

@@ -36,8 +36,8 @@ bool look_at_indicators(Instance *instance, double indicators[]);
 bool get_output_rate(Instance *instance, size_t reference, int order, double *rate);
 
 /* Derivative of unknown variables along a direction of known ones, states and inputs, between
-   events. By central differences over a hundred-thousandth of the nominals: relative to the
-   curvature over a nominal good to some 1e-10, and to 1e-10 of an unknown for rounding. Where a
+   events. By central differences over a hundred-thousandth of their sizes: relative to the
+   curvature over a size good to some 1e-10, and to 1e-10 of an unknown for rounding. Where a
    slip is slower than that, or a law has a corner, it is what lies on both sides. */
 bool directional_derivative(Instance *instance, const unsigned unknowns[], size_t unknown_count,
                             const unsigned knowns[], size_t known_count, const double seed[],

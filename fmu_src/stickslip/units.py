@@ -33,7 +33,7 @@ def in_unit(text: str, unit: str) -> float | None:
     >>> in_unit("3 mm", "kg")
     """
     found, wanted = QUANTITY.fullmatch(text), UNITS.get(unit)
-    written = _composed(found[2]) if found and wanted else None
+    written = base_units(found[2]) if found and wanted else None
     if found is None or not wanted or written is None:
         return None
     sizes = [{"factor": 1.0, "offset": 0.0} | each for each in (written, wanted)]
@@ -45,8 +45,12 @@ def in_unit(text: str, unit: str) -> float | None:
     return float(f"{value / own:.15g}")
 
 
-def _composed(text: str) -> dict[str, float] | None:
-    """Base units and factor of what is written behind a number; None for what is no unit."""
+def base_units(text: str) -> dict[str, float] | None:
+    """Base units, factor and offset of a unit as it is written behind a number; None for no unit.
+
+    >>> base_units("N/mm")
+    {'factor': 1000.0, 'kg': 1, 's': -2}
+    """
     whole: dict[str, float] = {"factor": 1.0}
     at, group, depth = 0, 1, 0
     while at < len(text):

@@ -59,7 +59,11 @@ MAY_IMPORT = {
     "cosim.report": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario", *LEAVES),
     # two results may have one quantity in two units
     "cosim.report.compare": ("cosim.report", "cosim.coupling", "stickslip.units", *LEAVES),
-    "cosim.systems": ("stickslip.quantity", "cosim.coupling", "cosim.scenario", *LEAVES),
+    # a value may be given with its unit
+    "cosim.systems": (
+        *("stickslip.quantity", "stickslip.units", "cosim.coupling", "cosim.scenario"),
+        *LEAVES,
+    ),
     "cosim.systems.show": ("cosim.systems", "cosim.coupling", "cosim.report", *LEAVES),
     "cosim.gap": (
         *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.report"),

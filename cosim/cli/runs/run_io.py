@@ -7,7 +7,7 @@ import sys
 import time
 from argparse import Namespace
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple, Self, TypeVar
@@ -166,6 +166,9 @@ class Job(NamedTuple):
             except BaseException:
                 if not folder.checkpoint.is_file():
                     folder.finished()
+                    for place in (self.results / FIELDS, self.results):
+                        with suppress(OSError):  # there is something in it
+                            place.rmdir()
                 raise
             patience.hold()
             if is_removed(self.results, done.result.time.tolist()):

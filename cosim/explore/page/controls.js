@@ -63,9 +63,8 @@ class Controls {
       const { key, allowed } = control, value = valueOfText(control, input.value);
       if (value !== undefined) this.turned(key, value);
       else {
-        const written = input.value.trim(), has_unit = /^[-+]?[\d.]+(e[-+]?\d+)?\s*[^\W\d]/i.test(written);
-        const wrong = has_unit ? `not in a unit of ${control.unit}` : "not a number";
-        this.refused(key, `${key}: ${wrong} ("${written}"), allowed is ${allowed}`);
+        const written = input.value.trim();
+        this.refused(key, `${key}: ${wrongIn(control.unit, written)} ("${written}"), allowed is ${allowed}`);
       }
     });
     return input;

@@ -42,9 +42,19 @@ function symbol(text) {
   return null;
 }
 
+/* A text as number and what is behind it; null for what does not begin with a number. */
+const quantityOf = (text) =>
+  /^\s*([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$/.exec(text.replace(",", "."));
+
+/* What is wrong with a text that is no value in a unit. */
+function wrongIn(unit, text) {
+  if (!/^[\p{L}°%]/u.test(quantityOf(text)?.[2] ?? "")) return "not a number";
+  return unit === "1" || !unit ? "has no unit" : `not in a unit of ${unit}`;
+}
+
 /* The number that a text stands for in a unit; NaN for what is none, or is of another kind. */
 function typedValue(text, unit) {
-  const found = /^\s*([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$/.exec(text.replace(",", "."));
+  const found = quantityOf(text);
   if (!found) return NaN;
   const number = Number(found[1].replace("−", "-")), given = found[2].replace(/^°C$/, "degC");
   if (given === "" || given === unit) return number;

@@ -264,7 +264,9 @@ void model_indicators(Model *model, const double values[], double indicators[])
     double w[W_SIZE] = {0.0};
     follow_inputs(model, values, false);
     stickslip_set_indicators(model->p, model->u, model->z, w, indicators);
-    double reserve = stickslip_course_reserve(model->p, model->u, model->g, model_time(model));
+    bool sticks = model->z[SHOWN + MODE] == STICK;
+    double now = model_time(model);
+    double reserve = stickslip_course_reserve(model->p, model->u, model->g, now, sticks);
     indicators[INDICATOR_COUNT - 1] = fmin(indicators[INDICATOR_COUNT - 1], reserve);
 }
 
@@ -284,7 +286,8 @@ void model_update(Model *model, const double values[])
 {
     double w[W_SIZE] = {0.0}, e[E_FIRST] = {0.0};
     take_values(model, values);
-    bool anew = stickslip_take_given(model->p, model->g, model->u, model_time(model));
+    bool sticks = model->z[SHOWN + MODE] == STICK;
+    bool anew = stickslip_take_given(model->p, model->g, model->u, model_time(model), sticks);
     anew = anew || isnan(model->z[Z_INPUTS]); /* see model_tune */
     memcpy(model->z + Z_INPUTS, model->u, sizeof model->u);
     stickslip_update_event(model->p, model->u, model->z, w, e, anew);

@@ -5,6 +5,7 @@ import shlex
 import subprocess
 import sys
 from importlib.metadata import version
+from pathlib import Path
 
 import pytest
 from command_line import python, refusal
@@ -77,6 +78,15 @@ def test_a_bad_scenario_is_refused(capsys, tmp_path, command, text, line):
         (tmp_path / "case.toml").write_text(text)
     assert line in refusal(capsys, command, "case.toml", "-o", "out")
     assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    "options", [["--fmu", "bad"], ["--fmu", "bad", "--fields"], ["--set", "ice.mesh=bad"]]
+)
+def test_a_run_refused_before_its_first_step_leaves_no_folder(capsys, elsewhere, options):
+    Path("bad").write_text("of no kind")
+    assert "bad" in refusal(capsys, "run", "-q", *options, "-o", "out")
+    assert not Path("out").exists()
 
 
 def test_rows_between_macro_steps_are_refused_for_run_only(capsys, tmp_path):

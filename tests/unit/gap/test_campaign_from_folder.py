@@ -1,5 +1,7 @@
 """A folder of tracker files becomes a campaign: what names and headers say, written to be read."""
 
+import os
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -53,6 +55,13 @@ def test_decimal_commas_in_millimetres(tmp_path):
     assert campaign.runs[0].track.x == pytest.approx(X, abs=1e-6)
     assert "by the file's name" in file.read_text("utf-8")
     assert "x = pos_mm" in "\n".join(shown(found, {}))
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with a name here")
+def test_a_pipe_among_the_files_is_refused_and_not_waited_for(tmp_path, capsys):
+    os.mkfifo(tmp_path / "track.csv")
+    said = refusal(capsys, "campaign", tmp_path)
+    assert said == f"{tmp_path / 'track.csv'}: cannot be read: is not a file"
 
 
 def test_a_table_of_tracker(tmp_path):

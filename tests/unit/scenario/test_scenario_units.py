@@ -66,3 +66,8 @@ def test_a_unit_of_another_kind_is_refused(text):
     wrong = "a number" if text in ("870", "heavy") else "in a unit of kg"
     with pytest.raises(ScenarioError, match=rf"rig\.mass: not {wrong} .*greater than 0 kg"):
         read_scenario("reference", {"rig.mass": text})
+
+
+def test_a_plain_number_has_no_unit():
+    with pytest.raises(ScenarioError, match=r'friction\.mu_s: has no unit \("0\.3 N"\), allowed'):
+        read_scenario("reference", {"friction.mu_s": "0.3 N"})

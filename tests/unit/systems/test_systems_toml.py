@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import subprocess
 import sys
 import time
@@ -82,6 +83,32 @@ def test_a_connection_scales_and_shifts_after_the_conversion(chain, said, factor
     values = result_of(chain(said)).result.values
     expected = offset + factor * values["first.y"][1:]
     np.testing.assert_allclose(values["second.u"][1:], expected, rtol=1e-13)
+
+
+def test_a_value_may_have_its_unit_where_the_variable_has_one(chain):
+    folder = chain().parent
+    lag_unit(folder / "first.fmu", u_unit="mm", y_unit="m")
+    written, plain = (
+        result_of(chain(value=("u = 3.0", f"u = {value}"))).result.values
+        for value in ('"0.3 cm"', "3.0")
+    )
+    np.testing.assert_array_equal(written["first.y"], plain["first.y"])
+
+
+@pytest.mark.parametrize(
+    "value, unit, line",
+    [
+        ('"3 kg"', "mm", r'not in a unit of mm \("3 kg"\), allowed is a number in mm'),
+        ('"3 m"', "", r'has no unit \("3 m"\), allowed is a number'),
+        ('"much"', "mm", r'not a number \("much"\), allowed is a number in mm'),
+    ],
+)
+def test_a_value_in_another_unit_is_refused_in_a_line(chain, value, unit, line, tmp_path, capsys):
+    path = chain(value=("u = 3.0", f"u = {value}"))
+    lag_unit(path.parent / "first.fmu", u_unit=unit, y_unit="m")
+    said = refusal(capsys, "couple", path, "-o", tmp_path / "out")
+    assert re.fullmatch(rf".*chain\.toml: first\.u: {line}", said), said
+    assert not (tmp_path / "out").exists()
 
 
 def test_rows_can_be_fewer_than_steps(chain):

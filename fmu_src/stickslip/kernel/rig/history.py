@@ -20,8 +20,8 @@ from ..layout import *
 from .drive import driven_acceleration, driven_speed, input_at, is_mean
 
 # Of the motion's own time: what lies nearer than that says of a rate nothing but its rounding,
-# which is of some 1e-16 of the input in this time.
-CLOSE = 1e-5
+# which is of some 1e-16 of the input in this time. A kink is found as near as that.
+CLOSE = 1e-6
 # Of an input's size: by how much more it jumps than the memory can be off by.
 JUMP = 1e-7
 LATEST = 1e300  # s: later than any time
@@ -71,24 +71,45 @@ def latest_moment(g: Floats) -> float:
     return latest
 
 
+def counts_for_rates(g: Floats, j: int) -> bool:
+    """Is the remembered moment ``j`` one of those by which the last rates were told?
+
+    A host that looks for a kink asks for the inputs at many times: `course_reserve` needs these all
+    the while.
+    """
+    later = 0
+    for k in range(int(g[G_COUNT])):
+        if g[G_MOMENT_TIME + j] < g[G_MOMENT_TIME + k] <= g[G_ASKED_BY]:
+            later += 1
+    return g[G_MOMENT_TIME + j] <= g[G_ASKED_BY] and later < DEGREES + 2
+
+
+def furthest_moment(g: Floats, t: float) -> int:
+    """Number of the remembered moment that says least of the time t, to be given up."""
+    furthest = 0
+    most = -1.0
+    for j in range(int(g[G_COUNT])):
+        apart = abs(g[G_MOMENT_TIME + j] - t)
+        if apart > most and not counts_for_rates(g, j):
+            furthest = j
+            most = apart
+    return furthest
+
+
 def note_inputs(p: Floats, g: Floats, t: float) -> None:
     """Remember the inputs as given for the time t.
 
-    One that is close to another says nothing new, but where it is of the very same time; where
-    there is no room, the one furthest from t goes.
+    One that is close to another says nothing new, but where it is of the very same time.
     """
     slot = int(g[G_COUNT])
-    furthest = 0
     for j in range(int(g[G_COUNT])):
         apart = abs(g[G_MOMENT_TIME + j] - t)
         if apart == 0.0:
             slot = j
         elif apart < CLOSE / p[P_RATE]:
             return
-        if apart > abs(g[G_MOMENT_TIME + furthest] - t):
-            furthest = j
     if slot == MOMENTS:
-        slot = furthest
+        slot = furthest_moment(g, t)
     g[G_COUNT] = max(g[G_COUNT], slot + 1.0)
     g[G_MOMENT_TIME + slot] = t
     for i in range(GIVEN_INPUTS):
@@ -193,13 +214,16 @@ def input_size(p: Floats, u: Floats, i: int) -> float:
     return 0.0
 
 
-def course_reserve(p: Floats, u: Floats, g: Floats, t: float) -> float:
+def course_reserve(p: Floats, u: Floats, g: Floats, t: float, sticks: bool) -> float:
     """Event indicator: is the input as given at t the one that the last rates were told for?
 
-    1 for all of it, below 0 beyond `ASTRAY` times the tolerance. Of a host that does not give
-    inputs with every rate it controls the error of their course, and finds kinks.
+    1 for all of it, below 0 beyond `ASTRAY` times the tolerance: it controls the error of their
+    course, and finds kinks. A slip, which does not depend on an input's rate, needs that only where
+    the host does not give inputs with every rate.
     """
-    if g[G_GIVES_ALWAYS] == 1.0 or g[G_SET_TIME] != t or t <= g[G_EVENT_TIME]:
+    if g[G_SET_TIME] != t or t <= g[G_EVENT_TIME]:
+        return 1.0
+    if g[G_GIVES_ALWAYS] == 1.0 and not sticks:
         return 1.0
     if t - g[G_ASKED_BY] < CLOSE / p[P_RATE]:
         return 1.0
@@ -247,10 +271,11 @@ def follow_inputs(p: Floats, g: Floats, u: Floats, t: float, for_rates: bool) ->
         g[G_ASKED_BY] = latest_moment(g)
     g[G_IS_NEW] = 0.0
     at_event = t == g[G_EVENT_TIME]  # a host may fall back behind a jump
-    if (given or g[G_GIVES_ALWAYS] == 1.0) and g[G_IN_EVENT] == 0.0 and not at_event:
+    known = (given or g[G_GIVES_ALWAYS] == 1.0) and not at_event
+    if known and g[G_IN_EVENT] == 0.0 and not for_rates:
         note_inputs(p, g, t)
     follow_memory(g, t)
-    if (given or g[G_GIVES_ALWAYS] == 1.0) and not at_event:
+    if known:
         for i in range(GIVEN_INPUTS):
             g[G_FOLLOWED + i] = g[G_VALUE + i]
     put_followed(g, u, t)
@@ -264,23 +289,38 @@ def has_jumped(g: Floats, i: int) -> bool:
     return abs(g[G_VALUE + i] - g[G_FOLLOWED + i]) > JUMP * size
 
 
-def begin_course(p: Floats, g: Floats, t: float) -> None:
-    """Forget what was before the time t, where an input has a kink: its rate is that behind it."""
-    later = -1
+def moment_beside(p: Floats, g: Floats, t: float, ahead: float) -> int:
+    """Number of the remembered moment next to the time t, but not close: ahead of it (1.0) or
+    before it (-1.0); -1 for none."""
+    found = -1
+    least = LATEST
     for j in range(int(g[G_COUNT])):
-        if g[G_MOMENT_TIME + j] > t + CLOSE / p[P_RATE]:
-            if later < 0 or g[G_MOMENT_TIME + j] < g[G_MOMENT_TIME + later]:
-                later = j
+        apart = ahead * (g[G_MOMENT_TIME + j] - t)
+        if 0.5 * CLOSE / p[P_RATE] < apart < least:
+            found = j
+            least = apart
+    return found
+
+
+def begin_course(p: Floats, g: Floats, t: float) -> None:
+    """Forget what was before the time t, where an input has a kink: its rate is that behind it.
+
+    Where the host has not looked behind it, that from the last time on: it is right a moment after
+    a kink, and where it is not the next event comes a moment later.
+    """
+    beside = moment_beside(p, g, t, 1.0)
+    if beside < 0:
+        beside = moment_beside(p, g, t, -1.0)
     for i in range(GIVEN_INPUTS):
         g[G_FIRST_RATE + i] = 0.0
-        if later >= 0:
-            change = g[G_MOMENT_VALUE + GIVEN_INPUTS * later + i] - g[G_VALUE + i]
-            g[G_FIRST_RATE + i] = change / (g[G_MOMENT_TIME + later] - t)
+        if beside >= 0:
+            change = g[G_MOMENT_VALUE + GIVEN_INPUTS * beside + i] - g[G_VALUE + i]
+            g[G_FIRST_RATE + i] = change / (g[G_MOMENT_TIME + beside] - t)
     g[G_COUNT] = 0.0
     note_inputs(p, g, t)
 
 
-def take_given(p: Floats, g: Floats, u: Floats, t: float) -> bool:
+def take_given(p: Floats, g: Floats, u: Floats, t: float, sticks: bool) -> bool:
     """Inputs in an event at the time t, into ``u``; has one jumped there?
 
     One that has, has no past and no known rate.
@@ -296,7 +336,7 @@ def take_given(p: Floats, g: Floats, u: Floats, t: float) -> bool:
     if jumped:
         g[G_COUNT] = 0.0
         note_inputs(p, g, t)
-    elif course_reserve(p, u, g, t) <= AT_ITS_END:
+    elif course_reserve(p, u, g, t, sticks) <= AT_ITS_END:
         begin_course(p, g, t)
     elif g[G_SET_TIME] == t:
         forget_close(p, g, t)

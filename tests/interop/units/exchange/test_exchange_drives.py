@@ -138,10 +138,10 @@ def test_a_drive_of_the_host_moves_the_block_as_in_co_simulation(fmu, exact, hos
     coarse, fine = (exchanged(fmu, drive, tables, tolerance) for tolerance in (1e-8, 1e-10))
     assert (fine["slip_count"] == exact["slip_count"]).all()
     # A step of the comparison in which a stick follows a jump leaves it that much behind.
-    limit = 2e-4 if case == "steps" else 1e-7
-    assert off(fine, exact, "x") < limit and off(fine, exact, "heat") < limit
+    limit = 2e-4 if case == "steps" else 5e-9
+    assert off(fine, exact, "x") < limit and off(fine, exact, "heat") < 10.0 * limit
     if case != "steps":
-        assert off(fine, exact, "x") < 0.2 * off(coarse, exact, "x")
+        assert off(fine, exact, "x") < 0.2 * off(coarse, exact, "x") + 0.2 * limit
     # In a stick the state is the surface's speed, or that of the creep; what the first moment, at
     # which no rate is known, has left it behind has gone at the motion's own rate.
     inside = (fine["mode"][1:] == 0) & (fine["mode"][:-1] == 0) & (fine["time"][1:] > 1.0)
@@ -169,36 +169,28 @@ def drawn(seed):
 
 #: The first 50 are those on which `SHRINKS` of the kernel was chosen, the others were kept from it.
 DRAWN = range(75)
-#: Kinks where a stick is near its limit: there a rate across the kink is a break-away that is none.
-KINKED = (13, 33, 37, 39, 47)
+#: Kinks where a stick is near its limit: there a rate across the kink is a break-away that is none,
+#: or is the same event without end, or is late where the kink is not found.
+KINKED = (8, 13, 33, 37, 39, 47, 59)
 SEEDS = [
     pytest.param(seed, marks=[] if seed < 2 or seed in KINKED else pytest.mark.slow)
     for seed in DRAWN
 ]
-#: Of a drawn drive: the host's tolerance and the largest errors of x, m, and of heat, relative.
-GIVEN_ALWAYS, GIVEN_AT_EVENTS = (1e-9, 1e-6, 1e-5), (1e-10, 1e-4, 2e-4)
+TOLERANCE = 1e-9
 
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_drawn_drives(fmu, exact, host, seed):
-    """All slips at their times. Of the first 50 drives, in the median and at most:
+    """All slips at their times. Errors over the tolerance, in the median and at most:
 
-    given at every time, at 1e-9: x 1.4e-8 and 3e-7 m, heat 5e-8 and 3e-6;
-    given at events only, at 1e-10: x 8e-9 and 3e-5 m, heat 1.4e-8 and 7e-5.
+    given at every time: x 7 and 106 m, heat 33 and 175 of what there is at the end;
+    given at events only: x 7.6 and 116 m, heat 27 and 198.
 
-    Of the 25 behind them:
-
-    given at every time, at 1e-9: x 1.3e-8 and 1.8e-7 m, heat 4.5e-8 and 3.2e-7;
-    given at events only, at 1e-10: x 9.7e-9 and 2.7e-5 m, heat 1.2e-8 and 8.5e-5.
-
-    A tolerance is that of one step, of which there are some hundred to a slip; the most is where a
-    stick ends, or a slip, close to where it just would not: there an error grows. With inputs at
-    events only a kink is found late, by what the course is off.
+    A tolerance is that of one step, of which there are some hundred to a slip. The same CVode of
+    the same equations without a unit, with input and rate exact, is no nearer.
     """
-    always = sundials.CVodeSolver.f is give_at_every_time
-    tolerance, most, most_heat = GIVEN_ALWAYS if always else GIVEN_AT_EVENTS
-    exact, result = exact(seed), exchanged(fmu, drawn(seed), {}, tolerance)
+    exact, result = exact(seed), exchanged(fmu, drawn(seed), {}, TOLERANCE)
     assert len(result) == len(exact["x"])
     assert (result["slip_count"] == exact["slip_count"]).all()
-    assert off(result, exact, "x") < most
-    assert off(result, exact, "heat") < most_heat * exact["heat"][-1]
+    assert off(result, exact, "x") < 150.0 * TOLERANCE
+    assert off(result, exact, "heat") < 300.0 * TOLERANCE * exact["heat"][-1]
