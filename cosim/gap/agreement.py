@@ -341,8 +341,8 @@ class Fitting:
         lone = _lone(parts)
         if lone is None:
             return None
-        for rival, more in rivals.values():
-            if more > judge.SURE:
+        for name, (rival, more) in rivals.items():
+            if judge.overrules(lone.finding.others[name], more):
                 in_place = [rival if part is lone else part for part in parts]
                 with_it, own = (self.fitted(named, some) for some in (in_place, parts))
                 is_better = with_it.ladder[-1].gap.of_verdict < own.ladder[-1].gap.of_verdict

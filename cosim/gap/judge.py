@@ -12,9 +12,10 @@
     others are asked again.
  5. Findings within e^3 of one another in the same place, and within e^6 in simulated runs, cannot
     be told apart: a class, of effects alone where two are among them; so are two within e^12 of
-    which simulated runs prefer the second; where they do so by e^500, and
-    rows prefer the first by e^200 at most, or by a 200th of its own if it does not explain the
-    runs, the first goes, if no effect stands for it only where the second explains the runs.
+    which simulated runs prefer the second. Where these do so by e^500, or e^30 if rows do not tell
+    the two apart, and rows prefer the first by e^200 at most, or by a 200th of its own if it does
+    not explain the runs, the first goes, if no effect stands for it only where the second explains
+    the runs.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`; with
     three that leave twice the noise in the rows, and runs that miss something, nothing is doubted.
  7. The kernel is fitted with the findings over windows of three cycles, and judged in the same
@@ -194,6 +195,11 @@ def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
     near = {name: less for name, less in finding.others.items()
             if less > -within and finding.gain + less > ALIKE}  # fmt: skip
     return sorted(near, key=lambda name: -near[name])[:RIVALS]
+
+
+def overrules(rows: float, simulated: float) -> bool:
+    """Whether a rival takes a finding's place: ln of how much more probable each is with it."""
+    return simulated > (MUCH_MORE if rows > -ALIKE else SURE)
 
 
 def told_by_both(finding: Finding, name: str, simulated: float) -> float:

@@ -22,8 +22,8 @@ from cosim.gap.windows.numbers import Number
 from cosim.gap.windows.run_model import LOADING
 
 
-def finding(name, gain):
-    return Finding(name, (Added(Unknown(name, "", None, np.eye(1))),), gain, {})
+def finding(name, gain, others=None):
+    return Finding(name, (Added(Unknown(name, "", None, np.eye(1))),), gain, others or {})
 
 
 def part(found):
@@ -237,16 +237,19 @@ def test_nothing_is_doubted_where_three_findings_leave_twice_the_noise(
 
 
 @pytest.mark.parametrize(
-    ("more", "own", "held_out", "gone"),
-    [(499.0, 1.05, 1.0, False), (501.0, 1.05, 1.0, True), (501.0, 1.05, 1.06, False),
-     (501.0, 2.0, 1.29, True), (501.0, 2.0, 1.31, True),
-     (501.0, None, 1.29, True), (501.0, None, 1.31, False)],
+    ("rows", "more", "own", "held_out", "gone"),
+    [(-4.0, 499.0, 1.05, 1.0, False), (-4.0, 501.0, 1.05, 1.0, True),
+     (-4.0, 501.0, 1.05, 1.06, False), (-4.0, 501.0, 2.0, 1.29, True),
+     (-4.0, 501.0, 2.0, 1.31, True), (-4.0, 501.0, None, 1.29, True),
+     (-4.0, 501.0, None, 1.31, False), (-2.0, 31.0, 1.05, 1.0, True),
+     (-2.0, 29.0, 1.05, 1.0, False), (-2.0, 31.0, 1.05, 1.06, False)],
 )  # fmt: skip
 def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(
-    monkeypatch, more, own, held_out, gone
+    monkeypatch, rows, more, own, held_out, gone
 ):
-    """own : gap with what the rows have; None where no effect stands for it"""
-    lone = finding("run_in", 30.0)
+    """rows : ln of how much more probable these are with it; own : gap with what the rows have;
+    None where no effect stands for it"""
+    lone = finding("run_in", 30.0, {"film_drag": rows})
     gaps = {"run_in": own or 2.0, "film_drag": held_out}
     assert overruled(monkeypatch, part(lone) if own else Part(lone), more, gaps) is gone
 
