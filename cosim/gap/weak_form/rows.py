@@ -224,7 +224,8 @@ def _block(
     at = (np.repeat(np.arange(begin.size), size), (begin[:, None] + np.arange(size)).ravel())
     shape = (begin.size, track.time.size)
     rows = [sparse.csr_array((np.tile(w, begin.size), at), shape=shape) for w in weights]
-    force, place, inertia, *noisy = rows
+    force, place, inertia, noisy, damped = rows
+    noisy = [noisy, damped @ sparse.diags_array(track.at_rest.astype(float))]
     noisy = [each if track.errors is None else each @ track.errors for each in noisy]
     return _Block(force, place, inertia, _factor(noise**2 * sum(each @ each.T for each in noisy)))
 
