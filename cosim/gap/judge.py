@@ -12,7 +12,7 @@
     others are asked again.
  5. Findings within e^3 of one another in the same place, and within e^6 in simulated runs, cannot
     be told apart: a class, of effects alone where two are among them; so are two within e^12 of
-    which simulated runs prefer the second. Where these do so by e^500, or e^30 if rows do not tell
+    which simulated runs prefer the second. Where these do so by e^500, or e^200 if rows do not tell
     the two apart, and rows prefer the first by e^200 at most, or by a 200th of its own if it does
     not explain the runs, the first goes, if no effect stands for it only where the second explains
     the runs.
@@ -199,7 +199,7 @@ def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
 
 def overrules(rows: float, simulated: float) -> bool:
     """Whether a rival takes a finding's place: ln of how much more probable each is with it."""
-    return simulated > (MUCH_MORE if rows > -ALIKE else SURE)
+    return simulated > (TURNED if rows > -ALIKE else SURE)
 
 
 def told_by_both(finding: Finding, name: str, simulated: float) -> float:

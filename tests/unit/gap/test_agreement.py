@@ -241,8 +241,8 @@ def test_nothing_is_doubted_where_three_findings_leave_twice_the_noise(
     [(-4.0, 499.0, 1.05, 1.0, False), (-4.0, 501.0, 1.05, 1.0, True),
      (-4.0, 501.0, 1.05, 1.06, False), (-4.0, 501.0, 2.0, 1.29, True),
      (-4.0, 501.0, 2.0, 1.31, True), (-4.0, 501.0, None, 1.29, True),
-     (-4.0, 501.0, None, 1.31, False), (-2.0, 31.0, 1.05, 1.0, True),
-     (-2.0, 29.0, 1.05, 1.0, False), (-2.0, 31.0, 1.05, 1.06, False)],
+     (-4.0, 501.0, None, 1.31, False), (-2.0, 201.0, 1.05, 1.0, True),
+     (-2.0, 199.0, 1.05, 1.0, False), (-2.0, 201.0, 1.05, 1.06, False)],
 )  # fmt: skip
 def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(
     monkeypatch, rows, more, own, held_out, gone
