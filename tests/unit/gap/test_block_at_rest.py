@@ -6,7 +6,9 @@ from gap_campaigns import KNOWN, RIG, noisy, write_campaign
 
 from cosim.gap import read_campaign
 from cosim.gap.data.campaign_file import Rig
+from cosim.gap.extended import part_of
 from cosim.gap.naming import Naming
+from cosim.gap.report_of_findings import exponents_of
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.rig_geometry import spring_loads
 from cosim.gap.weak_form.rows import Response
@@ -73,3 +75,20 @@ def test_a_block_rests_whose_swings_are_no_more_than_noise(swing, at_rest, tmp_p
     assert np.mean(track.at_rest) == pytest.approx(at_rest, abs=0.15)
     assert np.all(track.velocity[track.at_rest] == 0.0)
     assert np.std(track.cause[track.at_rest]) < 0.5 * NOISE or at_rest == 0.0
+
+
+def test_the_power_of_a_force_counts_all_forms_of_its_curve(tmp_path):
+    """Smooth over the speed or over its root: the rows hardly tell."""
+    campaign = campaign_of(tmp_path, True)
+    named = Naming.of(campaign).named()
+    finding = named.findings[0]
+    part = part_of(campaign, named.system, named.rung, finding)
+    (found,) = exponents_of(part, named.rung, named.unknowns)
+    plain, steep = (
+        list(exponents_of(part, named.rung, {finding.main.unknown.name: [form]}))[0]
+        for form in named.unknowns["film_drag"]
+    )
+    assert found.low <= 1.0 <= found.high and found.low <= found.value <= found.high
+    # between the two, neither as sure as the surer one
+    assert min(plain.low, steep.low) <= found.low and found.high <= max(plain.high, steep.high)
+    assert found.high - found.low > plain.high - plain.low
