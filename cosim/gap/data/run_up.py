@@ -22,11 +22,13 @@ LOW, HIGH = 0.25, 0.9
 #: Part of the swings by which x falls after its first rise.
 FALLS = 0.3
 #: Part of a free vibration that the rise takes at least on a surface that runs up, and of the
-#: surface's speed that it has at most: a block that slides past rises in 0.23 of a vibration, one
-#: that is held by a steady surface has its speed, half of it where that ripples as much.
-LONG, SLOW = 0.5, 0.5
-#: How many times as long as read off a run-up may be: that of 3 and of 10 s is read to 6 %.
-LONGER = 1.1
+#: surface's speed that it has at most: a block that slides past rises in 0.23 of a vibration. One
+#: that is held has the speed of a steady surface, 0.96 of it where it creeps; of an even run-up,
+#: between these levels, 0.72 of the speed at which it lets go.
+LONG, SLOW = 0.35, 0.84
+#: How many times as long as read off a run-up may be: that of 3 and of 10 s is read to 6 %; and by
+#: which part of a vibration besides, as noise bends a short parabola.
+LONGER, LATER = 1.1, 0.5
 #: Part of a record in which the surface comes to its speed: else there is nothing to keep.
 LATEST = 0.9
 
@@ -41,7 +43,8 @@ def after_run_up(
         if 0.0 < end < LATEST * run.motion.duration:
             run = replace(run, track=run.motion.since(end))
             remarks.append(
-                f"{run.name}: the surface runs up to its speed: the first {end:.3g} s are left out"
+                f"{run.name}: the surface runs up to its speed: the first {end:.3g} s are left out, "
+                "and what is slid and heated in them"
             )
         kept.append(run)
     return tuple(kept), remarks
@@ -65,7 +68,8 @@ def run_up(run: MeasuredRun) -> float:
     bent, slope, _ = np.polyfit(time[there] - low, x[there], 2)
     if bent <= 0.0:
         return 0.0
-    return float(low + LONGER * (abs(run.surface_speed) - slope) / (2.0 * bent))
+    left = max(abs(run.surface_speed) - slope, 0.0) / (2.0 * bent)
+    return float(low + LONGER * left + LATER * period)
 
 
 def _smoothed(run: MeasuredRun) -> tuple[np.ndarray, np.ndarray]:

@@ -104,6 +104,13 @@ class Leeway:
         size = float(np.linalg.norm(self.rows @ moved)) / self.weight
         return size / (math.sqrt(len(self.labels)) + FURTHEST)
 
+    def within(self, scaled: np.ndarray, labels: Sequence[str], excess: float) -> np.ndarray:
+        """The same numbers, of which these are half as far from the fit as its errors explain."""
+        inside = scaled.copy()
+        places = [labels.index(label) for label in self.labels]
+        inside[places] = self.centre + 0.5 / excess * (scaled[places] - self.centre)
+        return inside
+
     def tightened(self, excess: float) -> Leeway:
         """The same, held harder: against a constant pull a weight's square shortens the way."""
         by = max(2.0, math.sqrt(excess))

@@ -99,8 +99,10 @@ class Problem:
             excess = self.leeway.excess(best.scaled, self.labels)
             if excess <= 1.0:
                 break
+            # from inside: where no step leads back, no weight would
+            inside = self.leeway.within(best.scaled, self.labels, excess)
             self.leeway = self.leeway.tightened(excess)
-            best = self._descended(best.scaled, FIRST_TRIES)
+            best = self._descended(inside, FIRST_TRIES)
         return self._fitted(best.scaled)
 
     @property

@@ -24,13 +24,13 @@ def left_out(run):
 
 
 @pytest.mark.parametrize("speed", [0.06, -0.06, 0.15])
-@pytest.mark.parametrize("lasts", [3.0, 10.0])
+@pytest.mark.parametrize("lasts", [1.0, 3.0, 10.0])
 @pytest.mark.parametrize("drag", [0.0, 0.5])
 def test_all_of_a_run_up_is_left_out_and_no_fifth_more(speed, lasts, drag):
-    """The block sticks and slips at the set-point, or comes to rest on it."""
+    """The block sticks and slips at the set-point, or rests on it; it lets go before or after."""
     moved = motion(speed=speed, duration=20.0, run_up=lasts, film_drag={"coefficient": drag})
     cut, (remark,) = left_out(run_of(moved.time, moved["x"], speed))
-    assert lasts <= cut < 1.2 * lasts
+    assert lasts <= cut < 1.2 * lasts + PERIOD
     assert "run01: the surface runs up to its speed: the first" in remark
 
 
@@ -53,7 +53,7 @@ def test_nothing_is_left_out_of_a_steady_run(speed, blocks):
 
 @pytest.mark.parametrize(
     ("part", "vibrations", "is_cut"),
-    [(0.48, 0.7, True), (0.52, 0.7, False), (0.3, 0.53, True), (0.3, 0.47, False)],
+    [(0.82, 0.7, True), (0.86, 0.7, False), (0.3, 0.37, True), (0.3, 0.33, False)],
 )
 def test_a_first_rise_that_is_slow_and_long_is_of_a_run_up(part, vibrations, is_cut):
     """At this part of the set-point, for so many vibrations, from a quarter to nine tenths."""
