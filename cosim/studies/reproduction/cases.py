@@ -98,18 +98,13 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **tables: An
     pretension: m by which the springs are stretched as installed; tables: laid over the model's.
     """
     at_rest = case.mu_k + case.mu_slope * SPEEDS[0]  # mu_k is given at the slowest surface
+    mu_s = max(case.mu_s, at_rest) if case.weakening else case.mu_s
+    springs = {"spring_length": LENGTH, "spring_natural_length": LENGTH - pretension}
     guided = tables.get("rig") == GUIDED
     model: dict[str, dict[str, Any]] = {
-        "rig": {
-            "mass": case.mass,
-            "spring_length": LENGTH,
-            "spring_natural_length": LENGTH - pretension,
-        },
+        "rig": {"mass": case.mass, **springs},
         "springs": {"stiffness": case.stiffness},
-        "friction": {
-            "mu_s": max(case.mu_s, at_rest) if case.weakening else case.mu_s,
-            "mu_k": at_rest,
-        },
+        "friction": {"mu_s": mu_s, "mu_k": at_rest},
         "velocity_weakening": {"linear": case.mu_slope / at_rest if at_rest else 0.0},
         "lateral_friction": {"ratio": 1.0},
         "surface": {"speed": case.speed},

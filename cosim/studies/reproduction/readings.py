@@ -16,7 +16,7 @@ from stickslip.packaged import packaged_tables
 from stickslip.reference.scheme_errors import PRINTED, Faults
 
 from .cases import DATASETS, SEEDS, scheme
-from .claim import STUDY
+from .claim import FAR, OPEN, STUDY
 from .motion import Motion, figures
 
 SETTLING_CYCLES = 10  # section 5 of the study
@@ -55,6 +55,11 @@ class Reading:
     both: dict[str, float] = field(default_factory=dict)
     second: dict[str, float] = field(default_factory=dict)
     turned: float = 1e-15
+
+    @property
+    def weight(self) -> str:
+        """What a change to it is to the study."""
+        return OPEN if self.place else FAR
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -96,6 +101,11 @@ def reading_figures(reading: Reading, dataset: int, **changes: float) -> dict[st
     """
     runs = [steady(reading.motion(dataset, seed, **changes)) for seed in reading.seeds]
     return figures(*runs) | {"max_rotation": max(run.rotation for run in runs)}
+
+
+def rotation(reading: Reading, dataset: int) -> float:
+    """Largest steady rotation, deg."""
+    return reading_figures(reading, dataset)["max_rotation"]
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from cosim.studies.belt_length import Protocol
 
 from .. import cases
 from ..cases import DATASET_1, DATASET_2, GUIDED, SPEEDS, STIFFNESSES, WEAKENING, Case
-from ..claim import FAR, OPEN, STUDY, Claim
+from ..claim import STUDY, Claim
 from ..drawing import LABELS, Panel, add_picture, models_over_time
 from ..motion import WINDOW, figures
 from ..readings import Reading, standing, steady
@@ -175,11 +175,11 @@ def _singles(reading: Reading) -> Array:
 def _turn_ratio(claim: Claim, holds: Callable[[Array], Array]) -> None:
     """Other readings, other pretensions of the exact model, the scheme with a fault mended."""
     for one in standing():
-        singles, weight = _singles(one), OPEN if one.place else FAR
+        singles = _singles(one)
         # every run of one ratio beside every run of the others
         share = holds(np.array(list(product(*singles)))).mean()
         said = {"name": one.name, "counts": singles.mean(axis=1), "share": 100.0 * share}
-        claim.turn("reading", sound=share >= ALLOWED, weight=weight, **said)
+        claim.turn("reading", sound=share >= ALLOWED, weight=one.weight, **said)
     for loose in OTHER_PRETENSIONS:
         counts = cases.exact_table("oscillations", RATIO_CASES, pretension=loose)
         claim.turn("pretension", sound=holds(counts), mm=1e3 * loose, counts=counts)
