@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from stickslip.steady_motion.starts import OWN, STARTS
+from stickslip.steady_motion.starts import STARTS
 
 from cosim.files import write_text
 from cosim.report.files import without_nan
 from cosim.report.motion_text import border_sentence, regime_sentence, stability_sentence
-from cosim.report.page import PageResult, Picture, number, render
+from cosim.report.page import PageResult, Picture, render, texts, tiles_of
 from cosim.scenario import Scenario
 
 from . import maps
@@ -156,22 +156,4 @@ def page(found: Stability, command: str = "") -> tuple[str, list[Picture]]:
 def tiles(found: Stability) -> list[tuple[str, str]]:
     """Four figures: where stick-slip stops if that is asked, how disturbances grow, what would
     help, and what the run does."""
-    numbers = found.summary()
-    stability, own = numbers["stability"], numbers["regimes"][OWN]
-    growth, least = stability.get("growth"), stability.get("least_pretension")
-    there = [
-        *_stops(numbers["stick_slip_range"]),
-        ("size of a disturbance after a cycle", growth and f"{number(growth, 3)} times"),
-        ("least pretension for stability", least and f"{number(1e3 * least, 3)} mm"),
-        ("break-aways", own["frequency"] and f"{number(own['frequency'], 3)} Hz"),
-        ("of the time in slip", f"{number(100.0 * own['slip_share'], 3)} %"),
-    ]
-    return [(words, value) for words, value in there if value][:4]
-
-
-def _stops(asked: Mapping[str, Any] | None) -> Iterator[tuple[str, str]]:
-    """Of the scenario's own start, the value beyond which the block does not stick and slip."""
-    windows = next(iter(asked["stick_slip"].values())) if asked else []
-    if asked and windows and windows[-1][1] is not None:
-        unit = "" if asked["unit"] == "1" else f" {asked['unit']}"
-        yield f"{asked['key']} above which stick-slip stops", f"{number(windows[-1][1], 4)}{unit}"
+    return tiles_of(texts("stability.txt.j2", __package__ or "", {}).tiles(found.summary()))[:4]

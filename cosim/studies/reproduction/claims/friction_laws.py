@@ -15,7 +15,7 @@ from cosim.studies.belt_length import Protocol
 
 from .. import cases
 from ..cases import DATASET_1, DATASET_2, GUIDED, SPEEDS, STIFFNESSES, WEAKENING, Case
-from ..claim import STUDY, Claim
+from ..claim import STUDY, WRITTEN, Claim
 from ..drawing import LABELS, Panel, add_picture, models_over_time
 from ..motion import WINDOW, figures
 from ..readings import Reading, standing, steady
@@ -23,15 +23,9 @@ from .belt_length import belt_case
 
 Array = np.ndarray
 
-#: Ice that is warmed to melting where it touches, and a film that is sheared: dry at rest alone.
 #: Assumed, as in the packaged scenario `melting_friction`.
-DRY = 0.50
-MELTING = {
-    "rig": GUIDED,
-    "friction": {"mu_s": 0.55, "mu_k": DRY},
-    "asperity_melting": {"length": 1e-2, "hardness": 2e7},
-    "melt_film": {"wetted_share": 7e-4, "length": 1e-2},
-}
+MELTING = {"rig": GUIDED} | WRITTEN["C16"]["melting"]
+DRY = MELTING["friction"]["mu_k"]
 MELTED = 0.5  # part of the dry value below which friction is that of melting
 
 
@@ -87,11 +81,7 @@ GROWTH, UNCERTAIN = 0.30, 0.03
 #: A coefficient contains what differs by no more than this part of it from run to run.
 CONTAINED = 0.1
 #: Of the series: softest and stiffest, slowest and fastest that a block sticks on in every model.
-SERIES = [
-    DATASET_1.changed(stiffness=k, speed=v)
-    for k in (STIFFNESSES[0], STIFFNESSES[-1])
-    for v in (SPEEDS[0], SPEEDS[3])
-]
+SERIES = [DATASET_1.changed(stiffness=k, speed=v) for k in STIFFNESSES[::3] for v in SPEEDS[:4:3]]
 
 
 def judge_strengthening(claim: Claim) -> dict[str, float]:
