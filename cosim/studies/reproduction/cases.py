@@ -182,15 +182,11 @@ def tabulated(
     rig: dict[str, Any] = GUIDED,
 ) -> Array:
     """A steady figure of each case: (3, n), as printed, mended, exact with the block guided."""
-    schemes = [scheme_table(figure, cases, faults, seeds) for faults in (PRINTED, MENDED)]
-    return np.stack([*schemes, exact_table(figure, cases, rig=rig)], axis=1).T
-
-
-def scheme_table(
-    figure: str, cases: Sequence[Case], faults: Faults, seeds: tuple[int, ...] = SEEDS
-) -> Array:
-    """A steady figure of each case in the study's scheme: (n,)."""
-    return np.array([scheme_figures(case, faults, seeds)[figure] for case in cases])
+    schemes = [
+        [scheme_figures(case, faults, seeds)[figure] for case in cases]
+        for faults in (PRINTED, MENDED)
+    ]
+    return np.array([*schemes, exact_table(figure, cases, rig=rig)])
 
 
 def exact_table(figure: str, cases: Sequence[Case], **model: Any) -> Array:

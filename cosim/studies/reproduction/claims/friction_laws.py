@@ -149,7 +149,8 @@ def judge_ratio(claim: Claim) -> dict[str, Any]:
 
 
 def _mended(fault: str) -> Array:
-    return cases.scheme_table("oscillations", RATIO_CASES, PRINTED.without(fault))
+    mended = PRINTED.without(fault)
+    return np.array([cases.scheme_figures(one, mended)["oscillations"] for one in RATIO_CASES])
 
 
 @cache
