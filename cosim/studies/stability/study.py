@@ -50,10 +50,6 @@ class Stability(PageResult):
         """The sentence that answers, in a line."""
         return f"<Stability of {self.case.name}: {self.sentences[0]}>"
 
-    def find_range(self, word: str, look: Callable[[], object] = lambda: None) -> None:
-        """In which range of one number the rig sticks and slips; see `stick_slip_range`."""
-        self.stick_slip = stick_slip_range(self.case, word, look)
-
     def fill_maps(self, grid: int, done: Callable[[int], object] = lambda count: None) -> None:
         """Both maps, ``grid`` points a side, the second only once the first is whole.
 
@@ -80,9 +76,7 @@ class Stability(PageResult):
                 "ratios": regimes.ratios.tolist(),
                 "speeds": regimes.speeds.tolist(),
                 "simulated": _by_start(regimes.simulated),
-                "closed_form": regimes.closed_form
-                if regimes.closed_form is None
-                else _by_start(regimes.closed_form),
+                "closed_form": _by_start(regimes.closed_form),
                 "cells_that_differ": regimes.wrong,
                 "fastest_from_rest": regimes.fastest_from_rest,
                 "closed_form_borders": _by_start(regimes.borders),
@@ -117,14 +111,15 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
         raise NotAMotion(f"grid = {grid}: must be at least 2, or 0 for none")
     found = Stability(maps.case_of(scenario))
     if border:
-        found.find_range(border)
+        found.stick_slip = stick_slip_range(found.case, border)
     if grid:
         found.fill_maps(grid)
     return found
 
 
-def _by_start(tables: Iterable[np.ndarray]) -> dict[str, Any]:
-    return {start: table.tolist() for start, table in zip(MAPPED, tables, strict=False)}
+def _by_start(tables: Iterable[np.ndarray] | None) -> dict[str, Any] | None:
+    pairs = None if tables is None else zip(MAPPED, tables, strict=False)
+    return pairs and {start: table.tolist() for start, table in pairs}
 
 
 def write_numbers(found: Stability, folder: Path) -> None:

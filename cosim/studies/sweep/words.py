@@ -53,9 +53,8 @@ def _known(values: xr.DataArray) -> Any:
 
 
 def _varies(name: str, known: Any) -> bool:
-    if known.size < 2:
-        return False
-    return bool(np.ptp(known) > STILL * max(float(np.abs(known).max()), ALL[name].nothing))
+    nothing = ALL[name].nothing
+    return known.size > 1 and bool(np.ptp(known) > STILL * max(np.abs(known).max(), nothing))
 
 
 def still_sentence(dataset: xr.Dataset, names: Sequence[str]) -> str:

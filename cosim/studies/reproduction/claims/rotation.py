@@ -26,10 +26,9 @@ EXACT_DURATION, SHOWN = 40.0, 20.0  # s
 
 def treated(faults: Faults, **changes: Any) -> dict[str, Motion]:
     """Dataset #1 under each treatment of the spring angles."""
-    schemes = {name: scheme(DATASET_1, faults, treatment=name, **changes) for name in TREATMENTS}
-    return {
-        name: Motion.of_scheme(one.run(cycles=CYCLES, seed=SEED)) for name, one in schemes.items()
-    }
+    schemes = [scheme(DATASET_1, faults, treatment=name, **changes) for name in TREATMENTS]
+    runs = [Motion.of_scheme(one.run(cycles=CYCLES, seed=SEED)) for one in schemes]
+    return dict(zip(TREATMENTS, runs, strict=True))
 
 
 def _sides(run: Motion) -> int:
