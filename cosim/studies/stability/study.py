@@ -118,8 +118,9 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
 
 
 def _by_start(tables: Iterable[np.ndarray] | None) -> dict[str, Any] | None:
-    pairs = None if tables is None else zip(MAPPED, tables, strict=False)
-    return pairs and {start: table.tolist() for start, table in pairs}
+    if tables is None:
+        return None
+    return {start: table.tolist() for start, table in zip(MAPPED, tables, strict=False)}
 
 
 def write_numbers(found: Stability, folder: Path) -> None:

@@ -34,8 +34,6 @@ AS_IT_IS = (
     "verdict", "effects", "classes", "where", "chance", "printed", "plain", "extended",
     "free_friction", "not_felt", "open_figures", "fits_share",
 )  # fmt: skip
-#: Of a number that is determined.
-ENDS = ("value", "low", "high")
 
 
 def sentence(gap: SummaryGap) -> str:
@@ -110,7 +108,8 @@ def as_json(gap: SummaryGap, model: str) -> str:
         "gap": {end: {"fit": fit, "held_out": held} for end, (fit, held) in ends.items()},
         "ranking": [ranked(row) for row in gap.ranking],
         "determined": {
-            key: dict(zip(ENDS, one, strict=True)) for key, one in gap.determined.items()
+            key: {"value": value, "low": low, "high": high}
+            for key, (value, low, high) in gap.determined.items()
         },
         "observations": [
             {"run": one.name, "figure": one.figure, "value": one.size, "sd": one.sd}
