@@ -186,7 +186,8 @@ def tabulated(
         [scheme_figures(case, faults, seeds)[figure] for case in cases]
         for faults in (PRINTED, MENDED)
     ]
-    return np.array([*schemes, exact_table(figure, cases, rig=rig)])
+    # case by case in memory, which is the order that means are summed in
+    return np.stack([*schemes, exact_table(figure, cases, rig=rig)], axis=1).T
 
 
 def exact_table(figure: str, cases: Sequence[Case], **model: Any) -> Array:
