@@ -12,7 +12,7 @@ from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
-from cosim.studies.stability import NotAMotion, Stability, case_of
+from cosim.studies.stability import NotAMotion, Stability, case_of, stick_slip_range
 from cosim.studies.stability.study import PAGE, RESULT
 
 #: By which keys RESULT is known.
@@ -34,7 +34,7 @@ def execute(arguments: Namespace) -> int:
     try:
         if arguments.border:
             with Bar(unit="run") as bar:
-                found.find_range(arguments.border, bar.update)
+                found.stick_slip = stick_slip_range(found.case, arguments.border, bar.update)
         if grid:
             with Bar(total=2 * grid**2, unit="cell") as bar:
                 found.fill_maps(grid, bar.update)

@@ -16,7 +16,7 @@ from stickslip import Parameters, Trajectory, simulate
 from stickslip.friction.law_curves import LawCurve, axis_of, law_curve
 
 from cosim.report.live import Curve, Live, Panel, Series, TimeFigure, panels_on_one_axis
-from cosim.report.page import Picture, render, unit_text
+from cosim.report.page import Picture, render, texts, unit_text
 from cosim.report.palette import BLUE, GREY
 from cosim.report.style import panels, picture
 from cosim.studies import FIGURES
@@ -57,10 +57,7 @@ def page(told: Sequence[Entry], pictures: dict[str, Picture]) -> str:
 
 def sentence(rooms: Mapping[str, Sequence[Any]]) -> str:
     """How many effects there are of what."""
-    count = sum(map(len, rooms.values()))
-    told = ", ".join(f"{len(inside)} of the {name}" for name, inside in rooms.items())
-    effects = f"{count} effect{'s' * (count != 1)} can be added to the plain model"
-    return f"{effects}: {told.replace('of the friction', 'of friction')}."
+    return str(_text().sentence(rooms))
 
 
 @picture("overview", **FIGURES["overview"])
@@ -85,22 +82,15 @@ def draw_overview(entries: Sequence[Entry]) -> Figure:
 
 def effect_figure(entry: Entry) -> Picture:
     """PNG of the law and the two motions, with the numbers of the case in its caption."""
-    case = entry.effect.case
-    sizes = _sizes(case.effect)
-    rig = ", ".join(_sizes(keys, f"{block}.") for block, keys in case.rig.items())
-    where = f"; both with {rig}" if rig else ""
-    if case.warmer:
-        where += f"; interface {case.warmer:g} K above the reference"
-    if case.water:
-        where += f"; {1e6 * case.water:g} µm of water in the contact"
     curve = "its law, and " if axis_of(entry.effect) else ""
-    caption = f"Without and with the effect ({sizes}){where}: {curve}the motion where it shows."
+    caption = str(_text().caption(entry.effect.case, curve))
     alt = f"{entry.effect.id}: {curve}the motion without and with it"
     return replace(picture(entry.effect.id, caption, alt=alt)(_draw)(entry), live=_live(entry))
 
 
-def _sizes(numbers: Mapping[str, float], block: str = "") -> str:
-    return ", ".join(f"{block}{name} = {value:g}" for name, value in numbers.items())
+def _text() -> Any:
+    """The macros of `effects.txt.j2`."""
+    return texts("effects.txt.j2", "cosim.studies.effects", {})
 
 
 def _live(entry: Entry) -> Live:

@@ -16,21 +16,19 @@ from stickslip import friction_coefficient
 
 from cosim.files import write_text
 from cosim.report.files import write_table
-from cosim.report.page import Picture, number, render
+from cosim.report.page import Picture, render, sentences, texts, tiles_of
 from cosim.report.palette import GREY, INK, PALE_GREY, SERIES
 from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
 from cosim.studies import FIGURES
 
-from .laws import laws_of
-from .map import SAME, FrictionMap, SteadySliding, steady_scenario
+from .laws import laws_of as laws_of
+from .map import SAME, FrictionMap, steady_scenario
 from .measured import Measured, differences, measured_beside, own_point
 
 #: The law is drawn this far beyond the slowest and the fastest run.
 BELOW, ABOVE = 300.0, 5.0
 #: A law that is the same at all speeds only so far: there is nothing else to see beyond.
 BESIDE = 2.0
-#: Digits of what stands at the top: a friction is known to percents.
-AT_TOP = 3
 #: Least slope of the law, either sign, at which a regime is named.
 NAMED = 0.3
 
@@ -161,46 +159,17 @@ def _mark_slopes(ax: Axes, speed: np.ndarray, law: np.ndarray) -> None:
 
 def headline(found: FrictionMap) -> str:
     """How friction goes with the speed, of the coldest air."""
-    ambient = found.ambients[0]
-    points = found.at(ambient)
-    first, last = points[0], points[-1]
-    speeds = f"from {number(first.speed, AT_TOP)} to {number(last.speed, AT_TOP)} m/s"
-    air = f"in air of {number(ambient)}\u00a0°C"
-    if len(points) == 1:
-        return f"Friction is {_at(first)}, {air}."
-    if found.is_flat(ambient):
-        told = number(first.friction, AT_TOP)
-        alike = [a for a in found.ambients if found.is_flat(a) and len(found.at(a)) == len(points)]
-        air = f"in air of {' and '.join(map(number, alike))}\u00a0°C"
-        dry = "" if laws_of(found) else ": the contact is dry"
-        return f"Friction is {told} at all {len(points)} speeds {speeds}, {air}{dry}."
-    lowest = found.regimes(ambient)["minimum"]
-    if lowest is None:
-        goes = "falls" if last.friction < first.friction else "rises"
-        return f"Friction {goes} from {_at(first)} to {_at(last)}, {air}."
-    least = f"{number(lowest['friction'], AT_TOP)} at {number(lowest['speed'], AT_TOP)} m/s"
-    return f"Friction falls from {_at(first)} to {least} and rises to {_at(last)}, {air}."
-
-
-def _at(point: SteadySliding) -> str:
-    return f"{number(point.friction, AT_TOP)} at {number(point.speed, AT_TOP)} m/s"
+    return " ".join(sentences(_text().headline(found)))
 
 
 def tiles(found: FrictionMap) -> list[tuple[str, str]]:
     """Up to four figures, over all temperatures of the air."""
-    least, *_, largest = sorted((*found.points, found.points[0]), key=lambda each: each.friction)
-    told = [
-        (f"{words} friction, at {number(point.speed, AT_TOP)} m/s", number(point.friction, AT_TOP))
-        for words, point in (("least", least), ("largest", largest))
-    ]
-    if largest.friction - least.friction <= SAME * largest.friction:
-        told = [("friction, at all speeds", number(least.friction, AT_TOP))]
-    regimes = [found.regimes(ambient) for ambient in found.ambients]
-    falls = [row["steepest_fall"]["slope"] for row in regimes if row["steepest_fall"]]
-    if falls:
-        told.append(("steepest slope over a decade", slope_in_words(min(falls), 2)))
-    warmest = max(point.interface_degC for point in found.points)
-    return [*told, ("warmest contact", f"{warmest:z.2f} °C".replace("-", "−"))]
+    return tiles_of(_text().tiles(found))
+
+
+def _text() -> Any:
+    """The macros of `friction_map.txt.j2`, which call what this module knows."""
+    return texts("friction_map.txt.j2", __package__ or "", globals())
 
 
 def slope_in_words(slope: float, digits: int = 3) -> str:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from cosim.report.page import sentences, texts
+
 from . import readings
-from .claim import WRITTEN
+from .cases import DATASETS
 from .claims.friction_level import misfit, observed
 from .claims.rotation import ROTATES, turns_far_and_near
-from .readings import AS_PRINTED, MARKS, READINGS, Outcome, Reading, outcome, reading_figures
+from .readings import AS_PRINTED, MARKS, Outcome, Reading, outcome, reading_figures, rotation
 
 #: Claims that this bears on.
 CLAIMS = ("C5", "C6", "C7")
@@ -27,16 +29,13 @@ def attribution(reading: Reading) -> dict[str, Any]:
     def fit(one: Reading, dataset: int) -> float:
         return misfit(observed(lambda k: reading_figures(one, dataset, stiffness=k)))
 
-    def turned(one: Reading, dataset: int) -> float:
-        return reading_figures(one, dataset)["max_rotation"]
-
-    first, second = turned(reading, 1), turned(reading, 2)
     full, quarter, mended = fit(reading, 1), fit(reading, 2), fit(reading.mended("F1"), 1)
+    turned = [rotation(reading, dataset) for dataset in DATASETS]
     return {
-        "rotates": first > ROTATES,
-        "without": {fault: turned(reading.mended(fault), 1) for fault in ("F2", "F13")},
+        "rotates": turned[0] > ROTATES,
+        "without": {fault: rotation(reading.mended(fault), 1) for fault in ("F2", "F13")},
         "misfits": (full, quarter, mended),
-        "both": turns_far_and_near(first, second),
+        "both": turns_far_and_near(*turned),
         "quarter_fits_better": quarter < full,
         "one_spring_explains": mended < quarter,
         "reading": reading.name,
@@ -46,7 +45,9 @@ def attribution(reading: Reading) -> dict[str, Any]:
 def datasets() -> dict[str, Any]:
     """Every reading beside the marks, and the claims as printed and under those that stand."""
     bearing = dict.fromkeys([AS_PRINTED, *readings.standing()])
-    return as_data([outcome(one) for one in READINGS], [attribution(one) for one in bearing])
+    return as_data(
+        [outcome(one) for one in readings.READINGS], [attribution(one) for one in bearing]
+    )
 
 
 def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dict[str, Any]:
@@ -54,33 +55,14 @@ def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dic
 
     says: what came of it, in sentences; bears: what it does to the three claims.
     """
-    of, written = {one.reading: one for one in outcomes}, WRITTEN["datasets"]
-    most = max(sum(one.met) for one in outcomes)
-    found = most == len(MARKS)
-    says = written["says"].format(
-        printed=of[AS_PRINTED].values,
-        balanced=of[readings.BALANCED].values,
-        rounded=of[readings.ROUNDED],
-        marks=len(MARKS),
-        most=most,
-        closest="; ".join(one.reading.name for one in outcomes if sum(one.met) == most),
-    )
-    turning = [one["without"] for one in every if one["rotates"]]
-    others = "; ".join(one["reading"] for one in every if not one["one_spring_explains"])
-    both = [one["reading"] for one in every if one["both"]]
-    bears = written["bears"].format(
-        all=len(every),
-        turning=len(turning),
-        ended=[sum(one[fault] < ROTATES for one in turning) for fault in ("F2", "F13")],
-        explained=sum(one["one_spring_explains"] for one in every),
-        others=f"; not in: {others}" if others else "",
-        both=len(both),
-        both_in=f": {'; '.join(both)}" if both else "",
-    )
+    of, most = {one.reading: one for one in outcomes}, max(sum(one.met) for one in outcomes)
+    shown = [of[one] for one in (AS_PRINTED, readings.BALANCED, readings.ROUNDED)]
+    closest = [one.reading.name for one in outcomes if sum(one.met) == most]
+    written = texts("datasets.txt.j2", __package__ or "", {"MARKS": MARKS, "ROTATES": ROTATES})
     return {
-        "says": written["found" if found else "none"].format(said=says),
-        "bears": bears,
-        "found": found,
+        "says": " ".join(sentences(written.says(most, closest, *shown))),
+        "bears": " ".join(sentences(written.bears(every))),
+        "found": most == len(MARKS),
         "marks": MARKS,
         "readings": [
             {"values": one.values, "met": one.met, "reading": one.reading.name}

@@ -98,18 +98,13 @@ def exact_parameters(case: Case, *, pretension: float = PRETENSION, **tables: An
     pretension: m by which the springs are stretched as installed; tables: laid over the model's.
     """
     at_rest = case.mu_k + case.mu_slope * SPEEDS[0]  # mu_k is given at the slowest surface
+    mu_s = max(case.mu_s, at_rest) if case.weakening else case.mu_s
+    springs = {"spring_length": LENGTH, "spring_natural_length": LENGTH - pretension}
     guided = tables.get("rig") == GUIDED
     model: dict[str, dict[str, Any]] = {
-        "rig": {
-            "mass": case.mass,
-            "spring_length": LENGTH,
-            "spring_natural_length": LENGTH - pretension,
-        },
+        "rig": {"mass": case.mass, **springs},
         "springs": {"stiffness": case.stiffness},
-        "friction": {
-            "mu_s": max(case.mu_s, at_rest) if case.weakening else case.mu_s,
-            "mu_k": at_rest,
-        },
+        "friction": {"mu_s": mu_s, "mu_k": at_rest},
         "velocity_weakening": {"linear": case.mu_slope / at_rest if at_rest else 0.0},
         "lateral_friction": {"ratio": 1.0},
         "surface": {"speed": case.speed},
@@ -187,15 +182,12 @@ def tabulated(
     rig: dict[str, Any] = GUIDED,
 ) -> Array:
     """A steady figure of each case: (3, n), as printed, mended, exact with the block guided."""
-    schemes = [scheme_table(figure, cases, faults, seeds) for faults in (PRINTED, MENDED)]
+    schemes = [
+        [scheme_figures(case, faults, seeds)[figure] for case in cases]
+        for faults in (PRINTED, MENDED)
+    ]
+    # case by case in memory, which is the order that means are summed in
     return np.stack([*schemes, exact_table(figure, cases, rig=rig)], axis=1).T
-
-
-def scheme_table(
-    figure: str, cases: Sequence[Case], faults: Faults, seeds: tuple[int, ...] = SEEDS
-) -> Array:
-    """A steady figure of each case in the study's scheme: (n,)."""
-    return np.array([scheme_figures(case, faults, seeds)[figure] for case in cases])
 
 
 def exact_table(figure: str, cases: Sequence[Case], **model: Any) -> Array:

@@ -7,10 +7,10 @@ with other numbers stand there with these.
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from itertools import combinations
+from operator import ge, gt, le, lt
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -52,12 +52,7 @@ STUDY = {
     for name, value in numbers.items()
 }
 #: How a check compares a number with its limit.
-COMPARED = {
-    "above": operator.gt,
-    "below": operator.lt,
-    "at most": operator.le,
-    "at least": operator.ge,
-}
+COMPARED = {"above": gt, "below": lt, "at most": le, "at least": ge}
 MODELS = ("printed", "mended", "exact")
 #: As printed, mended, exact; None, or nothing: the model has no such number, or cannot tell.
 Numbers = Sequence[Any] | np.ndarray

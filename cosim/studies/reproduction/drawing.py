@@ -110,13 +110,9 @@ def over_mass(values: np.ndarray, stiffnesses: Sequence[float]) -> list[list[Pan
         {"marker": "o", "ms": 2.5, "color": colour, "label": f"v {speed:.2f} m/s"}
         for speed, colour in zip(SPEEDS, SERIES, strict=True)
     ]
-    return [
-        [
-            Panel(
-                [Curve(MASSES, *line) for line in zip(cell.T, styles, strict=True)],
-                f"k {k:.2f} N/m" if number == 0 else "",
-            )
-            for cell, k in zip(of_model, stiffnesses, strict=True)
-        ]
-        for number, of_model in enumerate(values)
-    ]
+
+    def panel(cell: np.ndarray, title: str) -> Panel:
+        return Panel([Curve(MASSES, *line) for line in zip(cell.T, styles, strict=True)], title)
+
+    titles = [[f"k {k:.2f} N/m" for k in stiffnesses], *[[""] * len(stiffnesses)] * 2]
+    return [list(map(panel, *row)) for row in zip(values, titles, strict=True)]

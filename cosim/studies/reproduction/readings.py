@@ -16,7 +16,7 @@ from stickslip.packaged import packaged_tables
 from stickslip.reference.scheme_errors import PRINTED, Faults
 
 from .cases import DATASETS, SEEDS, scheme
-from .claim import STUDY
+from .claim import FAR, OPEN, STUDY
 from .motion import Motion, figures
 
 SETTLING_CYCLES = 10  # section 5 of the study
@@ -34,7 +34,7 @@ def _mark(study: str = "", **written: Any) -> dict[str, Any]:
 
 #: Printed figures of a dataset, and what counts as each, low to high in its unit: a run turns by
 #: half as much again as another of the same kind; a window may cut an oscillation. figure: of
-#: `figures`, or the onset of a rotation that is seen.
+#: `reading_figures`.
 MARKS = [_mark(**written) for written in WRITTEN["mark"]]
 
 
@@ -55,6 +55,11 @@ class Reading:
     both: dict[str, float] = field(default_factory=dict)
     second: dict[str, float] = field(default_factory=dict)
     turned: float = 1e-15
+
+    @property
+    def weight(self) -> str:
+        """What a change to it is to the study."""
+        return OPEN if self.place else FAR
 
     @property
     def seeds(self) -> tuple[int, ...]:
@@ -92,10 +97,18 @@ def steady(motion: Motion) -> Motion:
 def reading_figures(reading: Reading, dataset: int, **changes: float) -> dict[str, float]:
     """Steady figures, mean over seeds where the reading has chance in it; largest rotation of all.
 
-    changes: of `Reading.motion`.
+    onset: of a rotation that is seen, s, in the whole runs, NaN if one never turns. changes: of
+    `Reading.motion`.
     """
-    runs = [steady(reading.motion(dataset, seed, **changes)) for seed in reading.seeds]
-    return figures(*runs) | {"max_rotation": max(run.rotation for run in runs)}
+    whole = [reading.motion(dataset, seed, **changes) for seed in reading.seeds]
+    runs = [steady(run) for run in whole]
+    found = figures(*runs) | {"max_rotation": max(run.rotation for run in runs)}
+    return found | {"onset": float(np.mean([onset(run, SEEN) for run in whole]))}
+
+
+def rotation(reading: Reading, dataset: int) -> float:
+    """Largest steady rotation, deg."""
+    return reading_figures(reading, dataset)["max_rotation"]
 
 
 @dataclass(frozen=True)
@@ -122,15 +135,8 @@ def onset(motion: Motion, angle: float = 1.0) -> float:
 @cache
 def outcome(reading: Reading) -> Outcome:
     """A reading laid beside the marks."""
-    values = tuple(_figure(reading, mark["dataset"], mark["figure"]) for mark in MARKS)
+    values = tuple(reading_figures(reading, mark["dataset"])[mark["figure"]] for mark in MARKS)
     return Outcome(reading, values, onset(reading.motion(2)))
-
-
-def _figure(reading: Reading, dataset: int, name: str) -> float:
-    """Of a reading; an onset is the mean over seeds, NaN if one never turns."""
-    if name != "onset":
-        return reading_figures(reading, dataset)[name]
-    return float(np.mean([onset(reading.motion(dataset, s), SEEN) for s in reading.seeds]))
 
 
 def standing() -> list[Reading]:

@@ -16,14 +16,11 @@ from cosim.report.files import json_text, without_nan
 from cosim.report.page import render, write_page
 from cosim.result import Result
 
-from .claim import Claim
+from .claim import WRITTEN, Claim
 
 RESULT, PAGE = "reproduction.json", "report.html"
 #: The study's faults: those of its scheme, and two more that stand behind a verdict.
-FAULTS = DESCRIPTIONS | {
-    "F9": "one pass of the belt is counted, all heat goes to it, a conductivity is used as a rate",
-    "F11": "the product of the friction force is misprinted: 4.0349 N by its own factors",
-}
+FAULTS = DESCRIPTIONS | WRITTEN["faults"]
 
 
 class Reproduction(list[Claim], Result):

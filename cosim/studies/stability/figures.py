@@ -40,7 +40,9 @@ def draw_pretension_map(found: PretensionMap, case: Case) -> Figure:
     # seen on dark and on pale colours
     places = speeds[sliding[:, 1]], stretched[sliding[:, 0]]
     ax.plot(*places, "o", color="white", ms=3.2, mec=INK, mew=0.6)
-    _cross(ax, abs(case.parameters.surface.speed), 1e3 * _pretension(case))
+    rig = case.parameters.rig
+    own = 1e3 * (rig.spring_length - rig.spring_natural_length)
+    _cross(ax, abs(case.parameters.surface.speed), own)
     ax.set(
         xlabel="speed of the surface [m/s]",
         ylabel="pretension [mm]",
@@ -50,11 +52,6 @@ def draw_pretension_map(found: PretensionMap, case: Case) -> Figure:
     ticks = {"≤ 0.5": 0.5, "0.7": 0.7, "1": 1.0, "1.4": 1.4, "≥ 2": 2.0}
     bar.set_ticks(np.log2([*ticks.values()]).tolist(), labels=[*ticks])
     return figure
-
-
-def _pretension(case: Case) -> float:
-    rig = case.parameters.rig
-    return rig.spring_length - rig.spring_natural_length
 
 
 @picture("regime_map", **FIGURES["regime_map"])

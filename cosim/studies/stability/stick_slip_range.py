@@ -9,7 +9,9 @@ from typing import Any
 from stickslip.steady_motion import numbers as rig
 from stickslip.steady_motion.borders import FARTHEST, all_borders, follower
 from stickslip.steady_motion.regimes import STICK_SLIP
-from stickslip.steady_motion.starts import RAMP, REST, RIDING, disturbed, other_starts
+from stickslip.steady_motion.starts import RAMP, REST, disturbed, other_starts
+
+from cosim.report.page import sentences, texts
 
 from .maps import MAPPED, Case, NotAMotion, run_length
 
@@ -23,7 +25,6 @@ NUMBERS = {
     "pretension": rig.PRETENSION,
     "ratio": rig.RATIO,
 }
-TOLD = {REST: "from rest", RIDING: "riding on the surface", RAMP: "from a speed ramp"}
 
 
 def stick_slip_range(
@@ -78,28 +79,4 @@ def _windows(lowest: str, borders: list[tuple[float, str]]) -> list[Window]:
 
 def range_sentence(found: dict[str, Any]) -> str:
     """The answer in a line: "... sticks and slips from rest up to 0.1812 m/s; riding ..."."""
-    unit = "" if found["unit"] == "1" else f" {found['unit']}"
-    ramp = "" if found["key"] == rig.RAMP else f" of {found['ramp']:g} s"
-    looked = [f"{end:.3g}" for end in found["searched"]]
-    told = [
-        f"{TOLD[start]}{ramp if start == RAMP else ''} {_range(windows, unit, *looked)}"
-        for start, windows in found["stick_slip"].items()
-    ]
-    return (
-        f"Disturbed a little, the block sticks and slips {'; '.join(told)} ({found['key']}, here"
-        f" {found['value']:.4g}{unit}; looked for from {looked[0]} to {looked[1]}{unit})."
-    )
-
-
-def _range(windows: list[Window], unit: str, least: str, most: str) -> str:
-    """In words; least, most: what was looked at, beyond which nothing is said."""
-    if not windows:
-        return f"nowhere from {least} to {most}{unit}"
-    return " and ".join(_window(low, high, unit, least, most) for low, high in windows)
-
-
-def _window(low: float | None, high: float | None, unit: str, least: str, most: str) -> str:
-    if high is None:
-        begin = least if low is None else f"{low:.4g}"
-        return f"from {begin} to at least {most}{unit}"
-    return f"up to {high:.4g}{unit}" if low is None else f"from {low:.4g} to {high:.4g}{unit}"
+    return " ".join(sentences(texts("stability.txt.j2", __package__ or "", {}).range(found)))

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from stickslip.steady_motion.starts import OWN, STARTS
+from stickslip.steady_motion.starts import STARTS
 
 from cosim.files import write_text
 from cosim.report.files import without_nan
 from cosim.report.motion_text import border_sentence, regime_sentence, stability_sentence
-from cosim.report.page import PageResult, Picture, number, render
+from cosim.report.page import PageResult, Picture, render, texts, tiles_of
 from cosim.scenario import Scenario
 
 from . import maps
@@ -50,10 +50,6 @@ class Stability(PageResult):
         """The sentence that answers, in a line."""
         return f"<Stability of {self.case.name}: {self.sentences[0]}>"
 
-    def find_range(self, word: str, look: Callable[[], object] = lambda: None) -> None:
-        """In which range of one number the rig sticks and slips; see `stick_slip_range`."""
-        self.stick_slip = stick_slip_range(self.case, word, look)
-
     def fill_maps(self, grid: int, done: Callable[[int], object] = lambda count: None) -> None:
         """Both maps, ``grid`` points a side, the second only once the first is whole.
 
@@ -80,9 +76,7 @@ class Stability(PageResult):
                 "ratios": regimes.ratios.tolist(),
                 "speeds": regimes.speeds.tolist(),
                 "simulated": _by_start(regimes.simulated),
-                "closed_form": regimes.closed_form
-                if regimes.closed_form is None
-                else _by_start(regimes.closed_form),
+                "closed_form": _by_start(regimes.closed_form),
                 "cells_that_differ": regimes.wrong,
                 "fastest_from_rest": regimes.fastest_from_rest,
                 "closed_form_borders": _by_start(regimes.borders),
@@ -117,13 +111,15 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
         raise NotAMotion(f"grid = {grid}: must be at least 2, or 0 for none")
     found = Stability(maps.case_of(scenario))
     if border:
-        found.find_range(border)
+        found.stick_slip = stick_slip_range(found.case, border)
     if grid:
         found.fill_maps(grid)
     return found
 
 
-def _by_start(tables: Iterable[np.ndarray]) -> dict[str, Any]:
+def _by_start(tables: Iterable[np.ndarray] | None) -> dict[str, Any] | None:
+    if tables is None:
+        return None
     return {start: table.tolist() for start, table in zip(MAPPED, tables, strict=False)}
 
 
@@ -156,22 +152,4 @@ def page(found: Stability, command: str = "") -> tuple[str, list[Picture]]:
 def tiles(found: Stability) -> list[tuple[str, str]]:
     """Four figures: where stick-slip stops if that is asked, how disturbances grow, what would
     help, and what the run does."""
-    numbers = found.summary()
-    stability, own = numbers["stability"], numbers["regimes"][OWN]
-    growth, least = stability.get("growth"), stability.get("least_pretension")
-    there = [
-        *_stops(numbers["stick_slip_range"]),
-        ("size of a disturbance after a cycle", growth and f"{number(growth, 3)} times"),
-        ("least pretension for stability", least and f"{number(1e3 * least, 3)} mm"),
-        ("break-aways", own["frequency"] and f"{number(own['frequency'], 3)} Hz"),
-        ("of the time in slip", f"{number(100.0 * own['slip_share'], 3)} %"),
-    ]
-    return [(words, value) for words, value in there if value][:4]
-
-
-def _stops(asked: Mapping[str, Any] | None) -> Iterator[tuple[str, str]]:
-    """Of the scenario's own start, the value beyond which the block does not stick and slip."""
-    windows = next(iter(asked["stick_slip"].values())) if asked else []
-    if asked and windows and windows[-1][1] is not None:
-        unit = "" if asked["unit"] == "1" else f" {asked['unit']}"
-        yield f"{asked['key']} above which stick-slip stops", f"{number(windows[-1][1], 4)}{unit}"
+    return tiles_of(texts("stability.txt.j2", __package__ or "", {}).tiles(found.summary()))[:4]

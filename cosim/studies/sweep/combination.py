@@ -211,12 +211,8 @@ def _coupled(scenario: Scenario) -> tuple[dict[str, float], str]:
 
 def as_trajectory(result: CoupledResult, scenario: Scenario) -> Trajectory:
     """The block's motion of a coupled run; its events to one row."""
-    prefix = "mechanics."
-    columns = {
-        name.removeprefix(prefix): np.asarray(result[name])
-        for name in result.values
-        if name.startswith(prefix)
-    }
+    of_block = [name for name in result.values if name.startswith("mechanics.")]
+    columns = {name.removeprefix("mechanics."): np.asarray(result[name]) for name in of_block}
     mode = columns["mode"]
     changed_at = np.flatnonzero(np.diff(mode)) + 1
     events = np.column_stack((result.time[changed_at], mode[changed_at], columns["x"][changed_at]))

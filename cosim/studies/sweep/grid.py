@@ -143,7 +143,9 @@ def product_grid(
     if len(several) > 1:
         axes = (_scenario_axis(scenarios), *axes)
     run = Run(coupled=coupled).of(base)
-    if not (coupled or whole or len(several) > 1 or _feels_temperature(base)):
+    # where the air's temperature is the one that the mechanics takes by itself
+    usual = not scenarios or scenarios[0].ambient == Scenario().ambient
+    if usual and not (coupled or whole or len(several) > 1):
         base = mechanics_of(base)
     if isinstance(base, Scenario):
         for name in times:
@@ -158,12 +160,6 @@ def _scenario_axis(scenarios: Sequence[Scenario]) -> Axis:
         if count > 1:
             raise SweepError(f"two scenarios are named {name}, allowed is each name once")
     return labelled_axis(SCENARIO, "scenario", "1", names, [{SCENARIO: one} for one in scenarios])
-
-
-def _feels_temperature(base: Parameters) -> bool:
-    """Whether the air's temperature is not the one that the mechanics takes by itself."""
-    usual = Scenario().ambient.temperature_degC
-    return isinstance(base, Scenario) and base.ambient.temperature_degC != usual
 
 
 def mechanics_of(parameters: Parameters) -> Parameters:

@@ -76,18 +76,9 @@ def _drawn(
     picture = draw_sweep(dataset, drawn)
     scenario = str(dataset.attrs.get("scenario", ""))
     dims = {str(dim): unit_of(dataset[dim]) for dim in dataset["status"].dims}
-    text = render(
-        "sweep.html.j2",
-        "cosim.studies.sweep",
-        **vars(words),
-        name=tomllib.loads(scenario).get("name", "Mechanics"),
-        dataset=dataset,
-        dims=dims,
-        coordinates=[dataset[dim] for dim in dims],
-        still=still,
-        picture=picture,
-        drawn={name: ALL[name] for name in drawn},
-        command=command,
-        scenario=scenario,
-    )
-    return text, picture
+    told = {"name": tomllib.loads(scenario).get("name", "Mechanics"), "scenario": scenario}
+    told |= {"dataset": dataset, "dims": dims, "coordinates": [dataset[dim] for dim in dims]}
+    told |= {"picture": picture, "drawn": {name: ALL[name] for name in drawn}, "still": still}
+    # the template calls what that module knows
+    html = render("sweep.html.j2", __package__ or "", **vars(words) | told, command=command)
+    return html, picture

@@ -5,22 +5,27 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from itertools import groupby
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from cosim.names import unknown_name
-from cosim.report.page import number, unit_text
+from cosim.report.page import number, texts, unit_text
 
 from .axis import SweepError
 from .features import ALL
 
 #: What varies less than this, in parts of its size, is told in a line and not drawn.
 STILL = 1e-3
-#: Motions in turn along an axis that a sentence can tell.
-MOST_TURNS = 3
 MOVES, SLIDES, HOLDS = "sticks and slips", "slides", "never slips"
+
+#: What is told of the run in which it is largest, in thousandths.
+LARGEST = (
+    ("x_std", "largest standard deviation of x", "mm"),
+    ("interface_rise", "warmest contact, over the air", "mK"),
+)
 
 #: A run: dimensions, linked keys, features, status, reason.
 Record = Mapping[str, Any]
@@ -48,9 +53,8 @@ def _known(values: xr.DataArray) -> Any:
 
 
 def _varies(name: str, known: Any) -> bool:
-    if known.size < 2:
-        return False
-    return bool(np.ptp(known) > STILL * max(float(np.abs(known).max()), ALL[name].nothing))
+    nothing = ALL[name].nothing
+    return known.size > 1 and bool(np.ptp(known) > STILL * max(np.abs(known).max(), nothing))
 
 
 def still_sentence(dataset: xr.Dataset, names: Sequence[str]) -> str:
@@ -109,43 +113,25 @@ def _complete(rows: Sequence[Record]) -> list[Record]:
 def sentence(rows: Sequence[Record], dims: Mapping[str, str]) -> str:
     """What the block does where; dims: what is varied -> its unit."""
     complete = _complete(rows)
-    if not complete:
-        return f"None of {len(rows)} runs is complete."
-    does = Counter(map(regime, complete))
-    failed = f"; {len(rows) - len(complete)} failed" if len(complete) < len(rows) else ""
-    if len(does) == 1:
-        return f"The block {regime(complete[0])} in all {len(complete)} runs{failed}."
+    does = Counter(map(regime, complete)).most_common()
     turns = [(what, list(some)) for what, some in groupby(complete, regime)]
-    if len(dims) == 1 and len(turns) <= MOST_TURNS:
-        ((dim, unit),) = dims.items()
-        told = [f"{what} at {dim} = {_span(some, dim, 4)}{unit}" for what, some in turns]
-    else:
-        told = [f"{what} in {count}" for what, count in does.most_common()]
-        told[0] += f" of {len(complete)} runs"
-    return f"The block {', '.join(told[:-1])} and {told[-1]}{failed}."
-
-
-def _span(rows: Sequence[Record], key: str, digits: int) -> str:
-    """From the first to the last of some numbers or names."""
-    return " to ".join(dict.fromkeys(number(row[key], digits) for row in (rows[0], rows[-1])))
+    written = texts("words.txt.j2", __package__ or "", {})
+    return str(written.sentence(rows, complete, does, turns, dims))
 
 
 def tiles(rows: Sequence[Record], dims: Mapping[str, str]) -> list[tuple[str, str]]:
     """Up to four figures: how many stick and slip, how often, and the largest of what is usual."""
     complete = _complete(rows)
-    moving = [row for row in complete if regime(row) == MOVES]
+    moving = [row["frequency"] for row in complete if regime(row) == MOVES]
     told = [(f"of {len(complete)} complete runs stick and slip", str(len(moving)))]
-    moving = [row for row in moving if row["frequency"] > 0.0]  # not one of a single break-away
-    if moving:
-        often = sorted(moving, key=lambda row: row["frequency"])
-        told.append(("break-aways in a second", f"{_span(often, 'frequency', 3)} Hz"))
-    for name, words, unit in (
-        ("x_std", "largest standard deviation of x", "mm"),
-        ("interface_rise", "warmest contact, over the air", "mK"),
-    ):
+    # a single break-away has none
+    if often := sorted(each for each in moving if each > 0.0):
+        ends = " to ".join(dict.fromkeys(number(each, 3) for each in (often[0], often[-1])))
+        told.append(("break-aways in a second", f"{ends} Hz"))
+    for name, words, unit in LARGEST:
         found = [row for row in complete if row.get(name, np.nan) > 0.0]
         if found:
-            row = max(found, key=lambda each: each[name])
+            row = max(found, key=itemgetter(name))
             at = ", ".join(f"{dim} = {number(row[dim])}{of}" for dim, of in dims.items())
             told.append((f"{words}, at {at}", f"{number(1e3 * row[name], 3)} {unit}"))
     return told

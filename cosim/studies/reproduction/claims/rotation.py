@@ -12,10 +12,11 @@ from stickslip.reference.spring_angles import TREATMENTS
 from cosim.report.palette import SERIES
 
 from ..cases import DATASET_1, DATASETS, PRETENSION, Case, exact_motion, scheme, scheme_motion
-from ..claim import FAR, OPEN, STUDY, Claim, responsible, responsible_pairs
+from ..claim import STUDY, Claim, responsible, responsible_pairs
 from ..drawing import LABELS, Panel, add_picture, models_over_time, over_time
 from ..motion import Motion, figures
-from ..readings import AS_PRINTED, MARKS, READINGS, onset, outcome, reading_figures
+from ..readings import AS_PRINTED, MARKS, READINGS, onset, outcome
+from ..readings import rotation as turned_by
 
 CYCLES, SEED = 40, 0
 ROTATES = 30.0  # deg: half of "three times" the measured 20
@@ -25,10 +26,9 @@ EXACT_DURATION, SHOWN = 40.0, 20.0  # s
 
 def treated(faults: Faults, **changes: Any) -> dict[str, Motion]:
     """Dataset #1 under each treatment of the spring angles."""
-    schemes = {name: scheme(DATASET_1, faults, treatment=name, **changes) for name in TREATMENTS}
-    return {
-        name: Motion.of_scheme(one.run(cycles=CYCLES, seed=SEED)) for name, one in schemes.items()
-    }
+    schemes = [scheme(DATASET_1, faults, treatment=name, **changes) for name in TREATMENTS]
+    runs = [Motion.of_scheme(one.run(cycles=CYCLES, seed=SEED)) for one in schemes]
+    return dict(zip(TREATMENTS, runs, strict=True))
 
 
 def _sides(run: Motion) -> int:
@@ -157,16 +157,15 @@ def judge_datasets(claim: Claim) -> dict[str, Any]:
     claim.turn("loose", sound=turns_far_and_near(*loose), turned=loose)
     with_both = []
     for one in READINGS:
-        pair = [reading_figures(one, dataset)["max_rotation"] for dataset in DATASETS]
-        weight = OPEN if one.place else FAR
-        claim.turn("reading", met[one], weight=weight, name=one.name, turned=pair)
+        pair = [turned_by(one, dataset) for dataset in DATASETS]
+        claim.turn("reading", met[one], weight=one.weight, name=one.name, turned=pair)
         with_both += [one.name] if turns_far_and_near(*pair) else []
     add_picture(claim, "C7_rotation", [[_turned(*of_dataset) for of_dataset in runs.items()]])
     return {
         "first": first[0],
         "second": second[0],
         "compared": "less" if second[0] < first[0] else "no less",
-        "window": reading_figures(AS_PRINTED, 1)["max_rotation"],
+        "window": turned_by(AS_PRINTED, 1),
         "with_both": "; ".join(with_both) or "no reading",
         "readings": len(READINGS),
     }

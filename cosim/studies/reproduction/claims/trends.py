@@ -15,7 +15,7 @@ from cosim.report.palette import INK
 
 from .. import cases
 from ..cases import CASE, GUIDED, MASSES, SPEEDS, STIFFNESSES, Case
-from ..claim import Claim
+from ..claim import WRITTEN, Claim
 from ..drawing import Curve, Panel, add_picture, by_model, over_mass
 
 Array = np.ndarray
@@ -25,24 +25,10 @@ LINE_MASSES = np.array([0.1 + 0.2 * i for i in range(16)])
 LEVEL = 1e-3  # a fall by less than this part from one speed to the next is none
 # friction of single asperities that touch elastically grows with the load's power 2/3 (Hertz)
 LOAD_POWER = -1.0 / 3.0
-FINE_SPEEDS = np.array(
-    [0.01, 0.02, 0.04, 0.07, 0.10, 0.15, 0.20, 0.25, 0.31, 0.37, 0.44, 0.50]
-    + [0.57, 0.63, 0.70, 0.76, 0.82]
-)
+FINE_SPEEDS = np.array(WRITTEN["C9"]["speeds"])
 # a growth by as much over all speeds: equal slip times have ranks too
 GROWTH = 0.01
 ALL_STIFFNESSES = (*STIFFNESSES, cases.EXTRA_STIFFNESS)
-# the free block turns by chance: three masses of the seven say enough, and cost less
-FREE_MASSES = (MASSES[0], MASSES[3], MASSES[-1])
-#: What is left open, of the guided block the slope of the friction law, of the free one its
-#: pretension (m), too, which says how far it turns: name of the change, slope, masses, model.
-VARIED: list[tuple[str, float, Sequence[float], dict[str, Any]]] = [
-    *(("slope", part, MASSES[:1], {"rig": GUIDED}) for part in (0.2, 0.6)),
-    *(
-        ("free", part, FREE_MASSES, {"pretension": loose})
-        for loose, part in ((cases.PRETENSION, 0.4), (0.0, 0.4), (0.0, 0.2), (0.0, 0.6))
-    ),
-]
 #: The series' case with a constant mu_k.
 CONSTANT = CASE.changed(weakening=0.0)
 
@@ -144,11 +130,13 @@ def judge_kinetic_coefficient(claim: Claim) -> dict[str, float]:
     claim.turn("constant", sound=least_fall(constant) > LEVEL, mu=constant)
     ratios = spreads[:, -1] / spreads[:, 0]
     claim.check("spread", ratios)
-    for name, part, masses, model in VARIED:
+    for name, part, loose in WRITTEN["C10"]["varied"]:
+        model = {"pretension": loose} if name == "free" else {"rig": GUIDED}
+        # the free block turns by chance: three masses of the seven say enough, and cost less
+        masses = MASSES[::3] if name == "free" else MASSES[:1]
         case = CASE.changed(weakening=part)
         found = _spreads(partial(cases.exact_figures, **model), case, masses)
-        mm = 1e3 * model.get("pretension", 0.0)
-        claim.turn(name, found[1] / found[0], spreads=found, part=100.0 * part, mm=mm)
+        claim.turn(name, found[1] / found[0], spreads=found, part=100.0 * part, mm=1e3 * loose)
     add_picture(claim, "C10_mu_k", over_mass(mu, ALL_STIFFNESSES))
     with_r = partial(cases.scheme_figures, faults=PRINTED.without("F2"), seeds=(0,))
     softest, stiffest = _spreads(with_r, CASE, MASSES)

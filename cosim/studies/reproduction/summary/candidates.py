@@ -92,24 +92,23 @@ class Candidate:
     @property
     def free(self) -> Candidate:
         """The same model, with friction that nothing is known of."""
-        spans = [_unknown(span.key) if span.of_friction else span for span in self.spans]
+        spans = [_coefficient(span.key) if span.of_friction else span for span in self.spans]
         return replace(self, spans=tuple(spans))
 
 
-def _unknown(coefficient: str) -> Span:
-    return Span(coefficient, *UNKNOWN_FRICTION, log=True)
+def _coefficient(key: str, known: tuple[float, float] | None = None) -> Span:
+    """One of friction; known: value and standard deviation."""
+    if known is None:
+        return Span(key, *UNKNOWN_FRICTION, log=True)
+    value, reach = known[0], FURTHEST * known[1]
+    return Span(key, max(value - reach, 1e-3), value + reach, prior=known)
 
 
 def plain_candidate(campaign: Campaign) -> Candidate:
     """The model as it is; mu_s and mu_k known as the campaign says, or as the study does."""
     is_study = campaign.scheme == "study"
     known = (STUDY_FRICTION if is_study else {}) | dict(campaign.friction)
-    spans = []
-    for key in ("friction.mu_s", "friction.mu_k"):
-        spans.append(_unknown(key))
-        if prior := known.get(key.removeprefix("friction.")):
-            value, reach = prior[0], FURTHEST * prior[1]
-            spans[-1] = Span(key, max(value - reach, 1e-3), value + reach, prior=prior)
+    spans = [_coefficient(f"friction.{name}", known.get(name)) for name in STUDY_FRICTION]
     settings = {"stick_stiffness.ratio": PRINTED_RATIO} if is_study else {}
     return Candidate((), "", tuple(spans), settings)
 

@@ -10,7 +10,7 @@ standard deviations: what is drawn and reported.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -80,11 +80,6 @@ class Target:
 
     sizes: Array
     sds: Array
-
-    @classmethod
-    def of(cls, seen: Sequence[Observation]) -> Target:
-        """The observed figures."""
-        return cls(np.array([one.size for one in seen]), np.array([one.sd for one in seen]))
 
     def without(self, i: int) -> Target:
         """All but the i-th figure: that one counts for nothing."""

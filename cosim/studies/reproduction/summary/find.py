@@ -216,6 +216,8 @@ def _answer(bench: Bench, plain: Draws, free: Draws | None, found: Sequence[Foun
     held = [one for one in found if one.holds]
     verdict, effects, classes = _judge(plain, held)
     told = (found[0].p, BOOTSTRAPS, found[0].gained) if found else (1.0, 0, 0.0)
+    remarks = [SAID["model"]] if bench.campaign.scheme == "study" else []
+    remarks += [SAID["added"].format(one=one) for one in found]
     values, intervals = plain.best.values[0], plain.intervals()
     return SummaryGap(
         campaign=bench.campaign,
@@ -231,16 +233,8 @@ def _answer(bench: Bench, plain: Draws, free: Draws | None, found: Sequence[Foun
         chance=dict(zip(("p", "draws", "delta_bic"), told, strict=True)),
         determined={key: (values[key], *interval) for key, interval in intervals.items()},
         free_friction=free.fitted() if free is not None else None,
-        remarks=_remarks(bench.campaign, found),
+        remarks=tuple(remarks),
     )
-
-
-def _remarks(campaign: Campaign, found: Sequence[Found]) -> tuple[str, ...]:
-    lines = [SAID["model"]] if campaign.scheme == "study" else []
-    for one in found:
-        said = {"effect": one.best.effect, "gained": one.gained, "misses": one.best.lack_of_fit}
-        lines.append(SAID["added"].format(p=one.p, **said))
-    return tuple(lines)
 
 
 def _judge(

@@ -50,7 +50,7 @@ class Bench:
     @cached_property
     def target(self) -> Target:
         """What is to be met."""
-        return Target.of(self.seen)
+        return Target(*np.transpose([(one.size, one.sd) for one in self.seen]))
 
     def draw(self, candidate: Candidate, shares: Array) -> Draws:
         """Draws (d, p) of a candidate, a seed each."""
