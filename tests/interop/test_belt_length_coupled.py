@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from command_line import refusal, stickslip
+from command_line import refusal, stickslip_here
 
 from cosim import Scenario, run_scenario
 from cosim.studies.belt_length import Case, Protocol, scenario_case
@@ -111,7 +111,7 @@ def test_the_command_answers_both_questions_for_a_scenario(tmp_path):
     file = tmp_path / "rig.toml"
     file.write_text(ramped(Case(1.0, 0.15), {}).to_toml(), encoding="utf-8")
     words = "--length 1 2 --samples 0 --map 0 --jobs 1 --json -o".split()
-    done = stickslip(tmp_path, "belt-length", file, *words, "out")
+    done = stickslip_here(tmp_path, "belt-length", file, *words, "out")
     assert done.returncode == 0, done.stderr
     numbers = json.loads(done.stdout)
     assert numbers["protocol"]["ramp"] == 10.0 and numbers["protocol"]["run"] == 20.0
