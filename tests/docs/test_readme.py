@@ -9,7 +9,7 @@ import re
 from pathlib import Path
 
 import pytest
-from command_line import stickslip, stickslip_here
+from command_line import stickslip_here
 from sessions import fences, timeless, typed
 
 from cosim import read_scenario
@@ -105,7 +105,7 @@ def test_the_system_is_one(tmp_path):
 def test_what_is_typed_next_makes_a_rig_and_runs_it(tmp_path):
     """In the environment that runs the tests, in place of the one that the line before made."""
     for command in SHELL[2].splitlines()[1:]:
-        done = stickslip(tmp_path, *command.split()[1:])
+        done = stickslip_here(tmp_path, *command.split()[1:])
         assert done.returncode == 0, done.stderr
     assert (tmp_path / "results" / "my_rig" / "report.html").exists()
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from command_line import refusal, stickslip
+from command_line import stickslip_here
 
 from cosim import Scenario, run_scenario
 from cosim.studies.belt_length import Case, Protocol, scenario_case
@@ -111,7 +111,7 @@ def test_the_command_answers_both_questions_for_a_scenario(tmp_path):
     file = tmp_path / "rig.toml"
     file.write_text(ramped(Case(1.0, 0.15), {}).to_toml(), encoding="utf-8")
     words = "--length 1 2 --samples 0 --map 0 --jobs 1 --json -o".split()
-    done = stickslip(tmp_path, "belt-length", file, *words, "out")
+    done = stickslip_here(tmp_path, "belt-length", file, *words, "out")
     assert done.returncode == 0, done.stderr
     numbers = json.loads(done.stdout)
     assert numbers["protocol"]["ramp"] == 10.0 and numbers["protocol"]["run"] == 20.0
@@ -125,14 +125,3 @@ def test_the_command_answers_both_questions_for_a_scenario(tmp_path):
     assert steady["rise"] == pytest.approx(expected.interface_run, rel=1e-6)
     assert numbers["cases"][0]["wait"]["begin"] > 1.0
     assert len(numbers["cases"][0]["changes"]) > 10
-
-
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["--ramp", "-1"], "--ramp = -1 s: must be at least 0"),
-        (["slab"], 'slab: rig.surface = "slab": has no belt; allowed is "belt"'),
-    ],
-)
-def test_bad_protocols_are_one_line_and_status_2(tmp_path, capsys, words, says):
-    assert refusal(capsys, "belt-length", *words, "-o", tmp_path / "out") == says

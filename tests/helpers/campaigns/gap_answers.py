@@ -1,7 +1,9 @@
 """Answers of the gap workflow, made by hand from real fits of a small campaign in windows."""
 
+import re
 from dataclasses import replace
 from functools import cache
+from html import unescape
 
 import numpy as np
 from gap_campaigns import NOISE, motion, noisy, write_campaign
@@ -164,3 +166,9 @@ def without_held_out(gap):
         gap, campaign=campaign, plain=plain, extended=extended, ladder=tuple(ladder),
         ranking=tuple(ranking),
     )  # fmt: skip
+
+
+def words_of(html):
+    """A page's text: without tags, scripts and styles."""
+    body = re.sub(r"<(style|script)\b.*?</\1>", "", html[html.index("<main") :], flags=re.S)
+    return re.sub(r"\s+", " ", unescape(re.sub(r"<[^>]+>", " ", body)))

@@ -47,7 +47,13 @@ def opened(chromium, explorer_file):
 
 @pytest.fixture
 def page(opened):
-    """The page on the reference case; the browser has nothing to complain of."""
-    opened.ended("#preset=reference")
+    """The page on any case, for who asks for one; the browser has nothing to complain of."""
     yield opened
     assert opened.faults() == []
+
+
+@pytest.fixture
+def reference(page):
+    """The page on the reference case, which takes as long as the case of a test."""
+    page.ended("#preset=reference")
+    return page

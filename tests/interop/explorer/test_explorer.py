@@ -145,6 +145,7 @@ def test_the_numbers_are_those_of_the_summary(page):
         )
 
 
+@pytest.mark.usefixtures("reference")
 def test_a_saved_scenario_gives_the_same_motion(page):
     """Turned, typed, saved by the button, and read as `stickslip simulate` reads it."""
     name = page.by_id("name")
@@ -213,6 +214,7 @@ REFUSED = [
 ]
 
 
+@pytest.mark.usefixtures("reference")
 @pytest.mark.parametrize("changes", REFUSED, ids=lambda changes: " ".join(changes))
 def test_what_is_refused_is_refused_in_the_same_words(page, changes):
     with pytest.raises(ScenarioError) as error:
@@ -236,6 +238,7 @@ def test_what_is_warned_of_is_warned_of_in_the_same_words(page, changes):
     assert page.text("remark") == str(told[0].message)
 
 
+@pytest.mark.usefixtures("reference")
 def test_by_keyboard_alone(page):
     """Tab reaches every control in turn; arrows, digits and Enter are all it takes."""
     from selenium.webdriver.common.keys import Keys
@@ -326,6 +329,7 @@ def test_a_link_opens_the_same_numbers(page):
     )
 
 
+@pytest.mark.usefixtures("reference")
 def test_a_run_is_kept_for_comparison(page):
     page.by_id("freeze").click()
     before = page.tell("return explorer.kept.statistics || explorer.statistics(explorer.kept)")
@@ -365,16 +369,17 @@ def test_no_serious_barrier(page, width):
 
 # --- the heat, and the regimes around a run ---
 
-#: Waits in the page until heat and regimes have been computed.
 SETTLED = """
 const back = arguments[0];
 (function look() {
   const { run, map } = explorer;
-  const heat = run.heat.why || run.warmed === run.rows;
-  if (heat && map.cells.length && map.regimes.length === map.cells.length) back(run.heat.why);
+  if (READY) back(run.heat.why);
   else requestAnimationFrame(look);
 })();
 """
+#: Waits in the page until the heat has been computed, and until the regimes, which take longer.
+WARMED = SETTLED.replace("READY", "run.heat.why || run.warmed === run.rows")
+MAPPED = SETTLED.replace("READY", "map.cells.length && map.regimes.length === map.cells.length")
 #: In the middle of the map.
 CLICK = """
 const { over } = explorer.map.plot.uplot, place = over.getBoundingClientRect();
@@ -391,7 +396,7 @@ NEAR = {"reference": 2e-6, "slab": 1e-5}
 def test_the_interface_warms_as_in_a_coupled_run(page, preset):
     changes = {"run.duration": 5.0, "surface.run_up_time": 2.0, "ambient.temperature_degC": -5.0}
     page.ended(address_of(preset, changes))
-    assert page.driver.execute_async_script(SETTLED) == ""
+    assert page.driver.execute_async_script(WARMED) == ""
     found = page.tell("return [...explorer.run.column('interface_temperature')]")
     held = {"belt.still_air_speed": 0.0}  # the page keeps the heat transfer that it was made with
     film = page.tell("return explorer.scenario.preset.heat.parameters['belt.air_heat_transfer']")
@@ -430,16 +435,16 @@ def test_a_run_is_computed_once_whatever_was_going_on_before(page):
 
 def test_where_there_is_no_heat_it_says_why(page):
     page.ended(address_of("reference", {"rig.contact_radius": 0.03}))
-    assert "rig.contact_radius" in page.driver.execute_async_script(SETTLED)
+    assert "rig.contact_radius" in page.driver.execute_async_script(WARMED)
     page.ended(address_of("reference", {"ambient.temperature_degC": 3.0}))
-    assert "would not be ice" in page.driver.execute_async_script(SETTLED)
+    assert "would not be ice" in page.driver.execute_async_script(WARMED)
 
 
 def test_the_regimes_are_those_of_the_stability_study(page):
     """At some cells of the map; a click goes to one."""
     changes = {"run.duration": 12.0, "surface.run_up_time": 4.0, "rig.mass": 1.0}
     page.ended(address_of("study", changes))
-    page.driver.execute_async_script(SETTLED)
+    page.driver.execute_async_script(MAPPED)
     known = page.tell("return [explorer.map.regimes, explorer.map.cells, explorer.map.tops]")
     regimes, cells, tops = known
     names = [ENDED, STICKING, STICK_SLIP, SLIDING, CREEPING]

@@ -1,8 +1,6 @@
 """Headline, ranking, table, page and JSON of an answer say one thing, whatever was found."""
 
-import re
 from dataclasses import replace
-from html import unescape
 from types import SimpleNamespace
 
 import gap_answers as answers
@@ -70,9 +68,7 @@ def page_of(gap):
     """The page's text; without pictures, and nobody asks the FMU."""
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(files, "reproduction_line", lambda gap: "")
-        html = files._page(gap, [], [])
-    body = re.sub(r"<(style|script)\b.*?</\1>", "", html[html.index("<main") :], flags=re.S)
-    return re.sub(r"\s+", " ", unescape(re.sub(r"<[^>]+>", " ", body)))
+        return answers.words_of(files._page(gap, [], []))
 
 
 def contradictions(gap):

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from stickslip import EFFECTS, Parameters, effects, simulate, units
+from stickslip.effects.candidate import Scales
 from stickslip.effects.effect import AXES
 from stickslip.parameters import EffectTables
 
@@ -47,6 +48,16 @@ def test_a_unit_that_the_fmu_cannot_state_is_named(monkeypatch):
     said = "spring_hardening: cubic is in 'N/m3', a unit that UNITS of cosim.fmu.variables"
     with pytest.raises(ValueError, match=said):
         variables.parameter_table()
+
+
+@EACH
+def test_a_candidate_frees_parameters_of_its_effect_from_within_their_bounds(effect):
+    candidates = list(effect.candidates(Scales(0.15, 1.0, 1.0, 10.0, 20.0, 0.02, 0.67, 6.57)))
+    for free in (each for candidate in candidates for each in candidate.free_parameters):
+        assert free.low < free.start < free.high and free.key.startswith(f"{effect.id}.")
+    # unasked, `gap` does not try it: no campaign's answer changes by its being there
+    assert effect.offered == (effect.id != "viscoelastic_peak")
+    assert effect.offered or len(candidates) == 2
 
 
 @EACH

@@ -55,15 +55,6 @@ def test_restarts_with_the_model_s_own_states_change_nothing(p):
     assert np.abs(cut[:, O_X] - whole[:, O_X]).max() < 1e-7
 
 
-def test_nan_leaves_the_model_s_own_state(p):
-    times = np.linspace(0.0, 4.0, 401)
-    whole = simulate_restarted(p, SPEED, COLD, times, FROM_REST)
-    row = int(np.flatnonzero(whole[:, O_MODE] == 1.0)[60])
-    own = Restarts.at([0, row], [state(), np.full(6, np.nan)])
-    cut = simulate_restarted(p, SPEED, COLD, times, own)
-    assert np.abs(cut[:, O_X] - whole[:, O_X]).max() < 1e-7
-
-
 @pytest.fixture(scope="module")
 def creeping(parameters):
     return parameters.model_copy(update={"friction": Friction(stick_creep=2e-3)}).pack()
@@ -125,12 +116,16 @@ def test_bristles_have_the_shear_that_a_window_asks_for(sheared):
         assert apart[:8].max() < 1e-6 and apart.max() < 3e-5
 
 
-def test_a_window_that_sets_nothing_leaves_the_shear(sheared):
-    times = np.linspace(0.0, 3.0, 301)
-    whole = simulate_restarted(sheared, SPEED, COLD, times, CARRIED)
-    for row in (30, 80, 130, 180):
+@pytest.mark.parametrize("contact", ["p", "sheared"])
+def test_a_window_that_sets_nothing_leaves_the_model_s_own_state(request, contact):
+    """By nan; in stick and in slip, and the shear of bristles, too."""
+    p, times = request.getfixturevalue(contact), np.linspace(0.0, 3.0, 301)
+    whole = simulate_restarted(p, SPEED, COLD, times, CARRIED)
+    rows = (30, 80, 130, 180, int(np.flatnonzero(whole[:, O_X + 3] < 0.2 * SPEED)[20]))
+    assert {*whole[list(rows), O_MODE]} == {0.0, 1.0}
+    for row in rows:
         window = Restarts.at([0, row], [state(0, 0, 0, SPEED), np.full(6, np.nan)])
-        cut = simulate_restarted(sheared, SPEED, COLD, times, window)
+        cut = simulate_restarted(p, SPEED, COLD, times, window)
         assert np.abs(cut[:, O_X] - whole[:, O_X]).max() < 1e-7
 
 

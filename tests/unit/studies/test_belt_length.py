@@ -165,6 +165,8 @@ def test_files_and_words(coarse, tmp_path, capsys):
         (("--h", 0.0), "--h = 0: a belt that gives no heat to the air warms for ever"),
         (("--h", float("nan")), "--h = nan W/m2K: must be a number at least 0"),
         (("--run", 0.0), "--run = 0 s: must be above 0"),
+        (("--ramp", -1.0), "--ramp = -1 s: must be at least 0"),
+        (("slab",), 'slab: rig.surface = "slab": has no belt; allowed is "belt"'),
         (("--pause", float("inf")), "--pause = inf s: must be at least 0"),
         (("--runs", 0), "--runs = 0: must be 1 to 100"),
         (("no_such_case",), "no_such_case: no such file"),

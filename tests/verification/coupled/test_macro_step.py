@@ -8,6 +8,8 @@ has the order of Gauss-Seidel, 1, once the step resolves the stick-slip cycle.
     python tests/verification/coupled/test_macro_step.py    prints a table of the docs
 """
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -17,6 +19,7 @@ DURATION, COMMON = 2.56, 0.16
 STEPS = (0.08, 0.04, 0.02, 0.01, 0.005, 0.0025)
 
 
+@cache
 def coupled_run(step: float, sensitivity: float) -> tuple[np.ndarray, np.ndarray]:
     """Interface temperature (degC) and x (m) at the multiples of 0.16 s."""
     scenario = read_scenario("warm_friction").changed(

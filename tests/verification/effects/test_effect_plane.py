@@ -7,7 +7,6 @@ their energy. In all cases the centre of rotation stays off the contact, where i
 import numpy as np
 import pytest
 from planar_model import CORNERS, OUTWARD, STATE, Slider
-from scipy.optimize import minimize
 from stickslip import Parameters, Solver, simulate
 
 START = (0.02, 0.005, 0.05, -0.1, 0.01, -0.3)
@@ -86,36 +85,3 @@ def test_a_block_at_rest_on_a_slab_goes_round_with_it():
     np.testing.assert_allclose(run["phi"], phi, rtol=0, atol=1e-12)
     np.testing.assert_allclose(run["x"], radius * np.sin(phi), rtol=0, atol=1e-12)
     np.testing.assert_allclose(run["y"], radius * (1.0 - np.cos(phi)), rtol=0, atol=1e-12)
-
-
-@pytest.mark.parametrize("angle, offset", [(8.0, 0.0), (0.0, 0.02), (-5.0, 0.03)])
-def test_misaligned_springs_rest_where_their_energy_is_least(angle, offset):
-    """Damped to rest on a frictionless surface."""
-    run = simulate(
-        Parameters(
-            rig={"spring_natural_length": 0.15},
-            springs={"stiffness": 100.0},
-            friction={"mu_s": 0.0, "mu_k": 0.0},
-            surface={"speed": 0.0},
-            initial={"x": 0.01, "y": 0.003, "phi": 0.1},
-            structural_damping={"coefficient": 6.0, "rotational": 8e-3},
-            spring_misalignment={"angle_deg": angle, "lateral_offset": offset},
-        ),
-        60.0,
-        60.0,
-    )
-    model = Slider(
-        natural=0.15,
-        anchors=turned_anchors(angle, offset),
-        spring_energy=lambda e: 50.0 * e**2,
-    )
-    least = minimize(
-        lambda q: model._elastic(q).real,
-        np.zeros(3),
-        jac=lambda q: -model._springs(q),
-        method="BFGS",
-        options={"gtol": 1e-10},
-    )
-    place = [run[name][-1] for name in ("x", "y", "phi")]
-    np.testing.assert_allclose(place, least.x, rtol=0, atol=1e-8)
-    assert abs(place[1]) > 1e-3 or offset == 0.0

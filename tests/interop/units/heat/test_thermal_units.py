@@ -156,9 +156,9 @@ def test_the_reduced_unit_s_parameters_are_free(native, whole, values, tmp_path)
 @pytest.mark.parametrize("wiper", [0.0, 0.3])
 def test_ice_melts_in_the_reduced_unit_as_in_the_whole_model(native, whole, wiper, tmp_path):
     """On, off, and the film freezes again."""
-    n = np.arange(3000)
-    flow = np.where(n < 1500, 3.0 + 2.0 * np.sin(n / 100), 0.2)
-    given = (flow, np.full(3000, 0.3), np.zeros(3000), np.arange(3001) * H)
+    n = np.arange(1800)
+    flow = np.where(n < 900, 3.0 + 2.0 * np.sin(n / 100), 0.2)
+    given = (flow, np.full(1800, 0.3), np.zeros(1800), np.arange(1801) * H)
     rows = []
     for k, fmu in enumerate((native, whole)):
         with instance(fmu, tmp_path / str(k)) as heat:
