@@ -43,8 +43,8 @@ def after_run_up(
         if 0.0 < end < LATEST * run.motion.duration:
             run = replace(run, track=run.motion.since(end))
             remarks.append(
-                f"{run.name}: the surface runs up to its speed: the first {end:.3g} s are left out, "
-                "and what is slid and heated in them"
+                f"{run.name}: the surface runs up to its speed: the first {end:.3g} s, and what is "
+                "slid and heated in them, are left out"
             )
         kept.append(run)
     return tuple(kept), remarks
