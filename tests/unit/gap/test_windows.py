@@ -21,7 +21,8 @@ from cosim.gap.windows import (
     windows_of_campaign,
 )
 from cosim.gap.windows.fit import _of_held_out
-from cosim.gap.windows.problem import Problem
+from cosim.gap.windows.fitted import Leeway
+from cosim.gap.windows.problem import Point, Problem
 from cosim.gap.windows.run_model import UNSEEN, RunModel
 from cosim.gap.windows.start_states import StartStates
 from cosim.gap.windows.windows import cycle
@@ -292,3 +293,21 @@ def test_a_table_of_friction_is_the_law(tmp_path):
     assert mu_k.start == pytest.approx(0.2) and mu_k.prior == pytest.approx(0.01)
     result = fit(campaign, windows_of_campaign(campaign), numbers, settings)
     assert result.gap[0] == pytest.approx(1.0, abs=0.03)
+
+
+def test_shared_numbers_that_no_step_leads_back_begin_inside_what_the_fit_leaves_open(monkeypatch):
+    """Before, their weight was doubled until numbers overflowed, or for ever."""
+    problem, labels, far = object.__new__(Problem), ["a", "b", "own"], np.array([5.0, -8.0, 3.0])
+    problem.labels, problem.leeway = labels, Leeway(("a", "b"), np.ones(2), 10.0 * np.eye(2))
+    stays = {
+        "_first": lambda self, starts: Point(far, [], 0.0),
+        "_settled": lambda self, at: at,
+        "_descended": lambda self, at, tries: Point(at, [], 0.0),
+        "_fitted": lambda self, at: at,
+    }
+    for name, how in stays.items():
+        monkeypatch.setattr(Problem, name, how)
+    found = problem.solved()
+    assert Leeway(("a", "b"), np.ones(2), 10.0 * np.eye(2)).excess(found, labels) < 1.0
+    assert found[2] == far[2]
+    assert (found[0] - 1.0) / (found[1] - 1.0) == pytest.approx(4.0 / -9.0)
