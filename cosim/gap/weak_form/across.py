@@ -23,8 +23,15 @@ from functools import cache
 import numpy as np
 from scipy.linalg.lapack import dtbtrs
 
+from cosim.gap.data import MeasuredRun
 from cosim.gap.data.campaign_file import Rig
-from cosim.gap.weak_form.constants import MOST_TURN, QUINTIC_REACH, SLOWEST_SLIDING
+from cosim.gap.weak_form.constants import (
+    MOST_TURN,
+    QUINTIC_REACH,
+    SLOWEST_SLIDING,
+    STILL_PIECE,
+    STILL_SIGMAS,
+)
 from cosim.gap.weak_form.rig_geometry import spring_loads
 from cosim.gap.weak_form.track import SmoothTrack, derivatives
 
@@ -37,6 +44,17 @@ PLACED = TURN, FRAME, SHIFT, DIAGONAL = "turn", "frame", "shift", "diagonal"
 #: them, and against a turn, as inertia and places of the hooks seem to; y (m), y' (m/s), phi (rad)
 #: and its rate (rad/s) where the record begins.
 OWN = ("springs", "turning", "y", "vy", "phi", "omega")
+
+
+def moves_across(run: MeasuredRun) -> bool:
+    """Whether means of a run's y over short pieces differ by more than noise makes them."""
+    y = run.motion["y"][np.isfinite(run.motion["y"])]
+    means = y[: y.size // STILL_PIECE * STILL_PIECE].reshape(-1, STILL_PIECE).mean(axis=1)
+    free = means.size - 1
+    if free < 1:
+        return False
+    square = free * np.var(means, ddof=1) * STILL_PIECE / run.noise["y"] ** 2
+    return bool(square > free + STILL_SIGMAS * np.sqrt(2.0 * free))
 
 
 @dataclass(frozen=True)

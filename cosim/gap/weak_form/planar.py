@@ -17,7 +17,7 @@ import numpy as np
 from scipy.interpolate import interp1d
 from scipy.special import logsumexp
 
-from cosim.gap.data import Campaign, MeasuredRun
+from cosim.gap.data import Campaign
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.weak_form.across import (
     ASKEW,
@@ -33,6 +33,7 @@ from cosim.gap.weak_form.across import (
     course,
     disc,
     measured,
+    moves_across,
 )
 from cosim.gap.weak_form.camera_faults import COURSES, DRIFT, crept
 from cosim.gap.weak_form.constants import (
@@ -51,8 +52,6 @@ from cosim.gap.weak_form.constants import (
     START_TURN,
     STARTS_ASKED,
     STILL_NUMBER,
-    STILL_PIECE,
-    STILL_SIGMAS,
     TURNS_ASKED,
 )
 from cosim.gap.weak_form.evidence import posterior
@@ -149,13 +148,13 @@ NOTHING = Planar({}, "", "", {})
 def planar_effects(campaign: Campaign, runs: Sequence[RunRows]) -> Planar:
     """The effect that moves the block across, by evidence; runs held out are predicted alone."""
     runs = [run for run in runs if run.track.y is not None and run.track.slips]
-    if not any(_moves(run.track.run) for run in runs):
+    if not any(moves_across(run.track.run) for run in runs):
         return NOTHING
     free = set(campaign.rig.degrees_of_freedom) >= {"y", "phi"}
     level = Level.of(list(runs)).kinetic
     fits, evidence = {}, {}
     every = frozenset(run.track.run.name for run in runs)
-    moving = frozenset(run.track.run.name for run in runs if _moves(run.track.run))
+    moving = frozenset(run.track.run.name for run in runs if moves_across(run.track.run))
     turns = any(run.track.phi is not None for run in runs)
     for name in FORMS if free else ("", ROTATION):
         among = (every, moving) if name == ROTATION and moving < every else (every,)
@@ -219,17 +218,6 @@ def _in_plane(track: SmoothTrack, plane: Plane, rig: Rig) -> SmoothTrack:
     force, _ = disc(sliding, spin)
     part = force * along / np.maximum(sliding, SLOWEST_SLIDING)
     return replace(track, sliding=np.copysign(sliding, along), part=part)
-
-
-def _moves(run: MeasuredRun) -> bool:
-    """Whether means of y over short pieces differ by more than noise makes them."""
-    y = run.motion["y"][np.isfinite(run.motion["y"])]
-    means = y[: y.size // STILL_PIECE * STILL_PIECE].reshape(-1, STILL_PIECE).mean(axis=1)
-    free = means.size - 1
-    if free < 1:
-        return False
-    square = free * np.var(means, ddof=1) * STILL_PIECE / run.noise["y"] ** 2
-    return bool(square > free + STILL_SIGMAS * np.sqrt(2.0 * free))
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ from scipy.signal import find_peaks
 
 from cosim.gap.data import Campaign, MeasuredRun, Track
 from cosim.gap.data.units import cycle_of
+from cosim.gap.weak_form import across
 
 from .sticks import Stick, smoothed, sticks_of
 
@@ -188,10 +189,14 @@ def _place_and_velocity(track: Track, values: np.ndarray, row: int) -> tuple[flo
 
 
 def moves_across(campaign: Campaign) -> bool:
-    """Whether any run shows motion along y, or a turn; False where the rig allows neither."""
+    """Whether any run shows motion along y, or a turn; False where the rig allows neither.
+
+    As in the rows: an effect that they name across has nothing to move in a block that is guided.
+    """
     free = set(campaign.rig.degrees_of_freedom) & {"y", "phi"}
     return bool(free) and any(
         _moves(run, channel, campaign.zero_sd(run, channel) / run.noise[channel])
+        or (channel == "y" and across.moves_across(run))
         for run in campaign.runs
         if run.track is not None
         for channel in ("y", "phi")

@@ -8,6 +8,7 @@ from gap_campaigns import KNOWN, RIG, noisy, write_campaign
 from stickslip import Parameters, simulate
 
 from cosim.gap.data import read_campaign
+from cosim.gap.weak_form import across
 from cosim.gap.weak_form import planar as in_plane
 from cosim.gap.weak_form.across import disc
 from cosim.gap.weak_form.arguments import Arguments
@@ -16,6 +17,7 @@ from cosim.gap.weak_form.rig_unknowns import Level
 from cosim.gap.weak_form.rows import rows_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth
+from cosim.gap.windows import windows_of_campaign
 
 NOISE, DURATION, INTERVAL = 1e-4, 12.0, 0.01
 SPEEDS, HELD_OUT = (0.04, 0.09, 0.06), 0.06
@@ -200,3 +202,17 @@ def test_campaigns_of_another_laboratory(name):
     assert planar.answer == FOREIGN[name]
     if planar.answer:
         assert most_spurious(campaign, rows_in_plane(tracks, campaign, planar)) < 4.0
+
+
+@pytest.mark.parametrize(("curvature", "moves"), [(0.12, True), (0.0, False)])
+def test_what_moves_a_block_across_in_the_rows_is_simulated_in_the_plane(
+    curvature, moves, tmp_path
+):
+    """By half a noise unit and less: of a guided block a turning surface would make a long fit."""
+    campaign = measured(
+        tmp_path, turning_surface={"curvature": curvature}, lateral_friction={"ratio": 1.0}
+    )
+    assert any(across.moves_across(run) for run in campaign.runs) is moves
+    assert all(windows.is_planar for windows in windows_of_campaign(campaign).values()) is moves
+    for run in campaign.runs:
+        assert np.std(run.motion["y"]) < 1.2 * NOISE
