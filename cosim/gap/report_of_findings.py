@@ -69,7 +69,9 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
         nuisances = [rung.name for rung in gap.ladder if rung.name in ("contact", "scatter")]
         this = " and ".join(["this", *nuisances])
         takes = f"explain{'s' * (not nuisances)} {percent(gap.share)} of the misfit"
-        return f"{found}; {this} {takes}, and something else is missing."
+        is_all = percent(gap.share) == "all"
+        left = "in the runs that were held out something" if is_all else "something else"
+        return f"{found}; {this} {takes}{' of the fitted runs' * is_all}, and {left} is missing."
     if parts:
         return f"Something is missing that is not in the catalogue; nearest to it: {_lower(found)}."
     if gap.ladder[-1].gap.held_out is None and gap.ladder[-1].gap.fit <= NOTHING_MISSING:

@@ -54,12 +54,14 @@ class NextRun:
     @property
     def text(self) -> str:
         """In a sentence."""
+        tells, enough = "tells", ""
+        if self.separation < ALIKE:
+            tells, enough = "hardly tells", f", where {ALIKE:g} would tell"
         return (
             f"one more run with {self.mass:.4g} kg, springs of {self.stiffness:.4g} N/m and the "
-            f"surface at {self.surface_speed:.3g} m/s for {self.duration:.3g} s tells "
-            f"{' from '.join(self.effects)} by a ln Bayes factor of {self.separation:.2g}, "
-            f"which is {self.separation_before:.2g} without it"
-            f"{f': less than the {ALIKE:g} that tell' if self.separation < ALIKE else ''}"
+            f"surface at {self.surface_speed:.3g} m/s for {self.duration:.3g} s {tells} "
+            f"{' from '.join(self.effects)}: a ln Bayes factor of {self.separation:.2g}, "
+            f"{self.separation_before:.2g} without it{enough}"
         )
 
     def as_data(self) -> dict[str, Any]:

@@ -23,6 +23,7 @@ from cosim.gap.judge import (
 )
 from cosim.gap.laws import Context, FreeCurve, laws_of
 from cosim.gap.models import Models
+from cosim.gap.plan.next_run import NextRun
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import VERDICTS, Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
@@ -294,6 +295,27 @@ def test_what_moves_the_block_across_has_a_name_and_no_curve():
     said = "turning_surface, curvature = 0.995 1/m (0.985 to 1.005)."
     assert sentence_of(gap, [part]).endswith(said)
     assert law_of(None, None, part, 1.0) is None and list(exponents_of(part, None, {})) == []
+
+
+@pytest.mark.parametrize(
+    ("share", "said"),
+    [(0.9, "explains 90.0 % of the misfit, and something else is missing."),
+     (1.0, "explains all of the misfit of the fitted runs, and in the runs that were held out "
+           "something is missing.")],
+)  # fmt: skip
+def test_nothing_else_is_missing_of_what_all_is_explained(share, said):
+    gap = SimpleNamespace(
+        verdict="partial", effects=("run_in",), exponents=(), classes=(), doubts=(), share=share,
+        ladder=[rung(5.0, 5.0), rung(1.0, 1.8)], extended=SimpleNamespace(values={}),
+    )  # fmt: skip
+    assert sentence_of(gap, [Part(finding("run_in"))]).endswith(said)
+
+
+@pytest.mark.parametrize(("separation", "hardly"), [(2.9, True), (3.1, False)])
+def test_a_run_that_hardly_tells_is_said_to(separation, hardly):
+    text = NextRun(0.1, 1.0, 20.0, 10.0, ("run_in", "film_drag"), separation, 0.0).text
+    assert ("hardly tells run_in from film_drag" in text) is hardly
+    assert text.endswith("0 without it" + ", where 3 would tell" * hardly)
 
 
 def test_data_in_doubt_are_said_to_be_the_reason():
