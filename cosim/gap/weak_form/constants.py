@@ -56,8 +56,9 @@ ROUNDING = 1e-9
 #: it is 1 +- 0.09 over two periods of 30 samples each.
 AT_REST = 1.25
 
-#: Standard deviation of what damps the swings, a part of what is critical: it multiplies the noise
-#: of speeds. A film of 1.5 N s/m under 0.67 kg on springs of 80 N/m makes 0.1.
+#: Standard deviation of what damps a block that came to rest, a part of what is critical: it
+#: multiplies the noise of its speeds. A film of 1.5 N s/m under 0.67 kg on springs of 80 N/m makes
+#: 0.1.
 DAMPED = 0.1
 
 # Break-aways.

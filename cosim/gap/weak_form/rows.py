@@ -186,9 +186,9 @@ def _slip_weights(track: SmoothTrack, knots: int) -> _Weights:
     """phi, m phi'' + K phi, m phi'' of a quintic spline at its inner samples.
 
     Noise weighs as it does on the springs that are there: what they are stiffer by than stated is
-    on the right-hand side, at places that have the same noise. So is what friction grows by with
-    the speed, at speeds that have its derivative: in a slip of many swings next to nothing else is
-    left of the noise at their frequency.
+    on the right-hand side, at places that have the same noise. So is what damps the block, at
+    speeds that have its derivative: of a block at rest next to nothing else is left of the noise at
+    the frequency of its swings. One that swings on is not damped (see `_block`).
     """
     run = track.run
     value, first, second = _spline(5, knots, track.interval)
