@@ -21,7 +21,7 @@ from stickslip.units import in_unit
 
 from cosim.files import OutputRefused, write_text
 from cosim.gap.data.campaign_file import FILE_NAME
-from cosim.gap.data.columns import SI, Reading, channel_of, header_parts, unit_in_name
+from cosim.gap.data.columns import FACTORS, SI, Reading, channel_of, header_parts, unit_in_name
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.data.track_file import fields_of, read_track, separator_of
 
@@ -215,25 +215,46 @@ def _found(file: Path, said: Reading) -> Found:
     """
     header = next((line for line in _text(file).splitlines() if line.strip()), "")
     columns, units = dict(said.columns), dict(said.units)
-    for channel in SI:
-        if channel in columns:
+    cells = _cells(header)
+    for channel in (channel for channel in SI if channel not in columns):
+        cell = next((cell for cell in cells if _is_called(channel, cell)), None)
+        cell = cell or _only_of_its_kind(channel, cells)
+        if cell is None:
             continue
-        for cell in _cells(header):
-            name, unit = header_parts(cell)
-            ending = unit_in_name(channel, name)
-            bare = name[: -len(ending) - 1] if ending else name
-            own = channel_of(bare) == channel
-            if not own and bare.strip().lower() not in OTHER_NAMES[channel]:
-                continue
-            if not own or ending:
-                columns[channel] = cell.strip() if not unit else name
-            if ending and not unit:
-                units[channel] = ending
-            break
+        name, unit = header_parts(cell)
+        ending = unit_in_name(channel, name)
+        if ending or channel_of(name) != channel:
+            columns[channel] = name if unit else cell.strip()
+        if ending and not unit:
+            units[channel] = ending
     reading = Reading(columns, units)
-    track, _, _ = read_track(file, reading)
+    try:
+        track, _, _ = read_track(file, reading)
+    except CampaignError as error:
+        if "column" not in str(error):
+            raise
+        first = "written first, with nothing but [columns] and [units]"
+        raise CampaignError(f"{error}, {first}") from None
     stem = file.name.removesuffix(MADE).removesuffix(file.suffix)
     return Found(file.name, settings_of(stem), reading, track.time.size, float(track.time[-1]))
+
+
+def _is_called(channel: str, cell: str) -> bool:
+    """Whether a header's cell names a channel, by its own name or another."""
+    name, _ = header_parts(cell)
+    ending = unit_in_name(channel, name)
+    bare = name[: -len(ending) - 1] if ending else name
+    return channel_of(bare) == channel or bare.strip().lower() in OTHER_NAMES[channel]
+
+
+def _only_of_its_kind(channel: str, cells: Sequence[str]) -> str | None:
+    """Time or place under a name in another language: the only column with a unit of that kind."""
+    if channel not in ("t", "x"):
+        return None
+    units = FACTORS[SI[channel]]
+    there = [cell for cell in cells if header_parts(cell)[1] in units
+             and not any(_is_called(other, cell) for other in SI)]  # fmt: skip
+    return there[0] if len(there) == 1 else None
 
 
 def _toml(name: str, found: Sequence[Found], known: Mapping[str, float]) -> str:

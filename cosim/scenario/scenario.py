@@ -411,7 +411,7 @@ def scenario_of(
     try:
         return scenario_type().from_tables(full).with_taken(taken)
     except ScenarioError as fault:
-        where = f"{source}, as changed" if is_of_change(str(fault), changes) else source
+        where = f"{source} with changes" if is_of_change(str(fault), changes) else source
         raise ScenarioError(f"{where}: {fault}") from None
 
 

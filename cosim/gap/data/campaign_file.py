@@ -309,7 +309,9 @@ def read_tables(
     """
     if not path.exists():
         allowed = "a campaign.toml or a folder with one"
-        raise CampaignError(f"{path}: no such file, allowed is {allowed}")
+        made = f"; `stickslip campaign {path.parent}` makes it of the folder's tracker files"
+        hint = made if path.name == FILE_NAME and path.parent.is_dir() else ""
+        raise CampaignError(f"{path}: no such file, allowed is {allowed}{hint}")
     try:
         tables = parsed(text_of(path), path)
     except ScenarioError as fault:

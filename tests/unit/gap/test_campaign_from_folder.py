@@ -57,6 +57,24 @@ def test_decimal_commas_in_millimetres(tmp_path):
     assert "x = pos_mm" in "\n".join(shown(found, {}))
 
 
+def test_columns_in_another_language_are_known_by_their_units(tmp_path):
+    write(tmp_path, "a.csv", "Zeit (s);Weg (mm)", *lines(TIME, 1e3 * X, mark=";", comma=True))
+    _, [found] = campaign_of(tmp_path)
+    assert found.reading.columns == {"t": "Zeit", "x": "Weg"}
+    assert found.seconds == pytest.approx(TIME[-1])
+
+
+def test_two_columns_of_one_kind_are_not_guessed(tmp_path):
+    write(tmp_path, "a.csv", "t,Weg (mm),Hub (mm)", *lines(TIME, X, Y))
+    with pytest.raises(CampaignError, match=r"column x: .*, written first, with nothing but"):
+        campaign_of(tmp_path)
+
+
+def test_a_folder_without_a_campaign_hints_at_the_command_that_makes_one(tmp_path, capsys):
+    write(tmp_path, "a.csv", "t,x", *lines(TIME, X))
+    assert f"`stickslip campaign {tmp_path}` makes it" in refusal(capsys, "gap", str(tmp_path))
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with a name here")
 def test_a_pipe_among_the_files_is_refused_and_not_waited_for(tmp_path, capsys):
     os.mkfifo(tmp_path / "track.csv")

@@ -91,7 +91,7 @@ def test_a_file_is_found_from_where_the_command_is(tmp_path):
 def test_every_command_refuses_what_a_file_may_not_hold(capsys, command):
     said = refusal(capsys, command, "reference", "--set", "rig.mas=1", *COMMANDS[command])
     known = "rig.mas: no such key, nearest known: rig.mass"
-    assert said.startswith(f"reference, as changed: {known}")
+    assert said.startswith(f"reference with changes: {known}")
 
 
 def test_what_is_wrong_in_the_file_is_not_laid_to_the_change(capsys, tmp_path):
