@@ -141,8 +141,9 @@ def test_what_no_name_says_is_given_or_asked_for(tmp_path, capsys):
 def test_columns_of_other_names_are_said_beforehand(tmp_path):
     """A campaign.toml without runs keeps nobody from making one, and is not lost."""
     name = "m0.87_v0.06_k38.5.csv"
-    write(tmp_path, name, "Zeit [s];Weg [mm]", *lines(TIME, 1e3 * X, mark=";"))
-    with pytest.raises(CampaignError, match="column t: missing"):
+    rows = lines(TIME, 1e3 * X, 1e3 * Y, mark=";")
+    write(tmp_path, name, "Zeit [s];Weg [mm];Hub [mm]", *rows)
+    with pytest.raises(CampaignError, match="column x: missing"):
         campaign_of(tmp_path)
     said = '[columns]\nt = "Zeit"\nx = "Weg"\n'
     (tmp_path / "campaign.toml").write_text(said, encoding="utf-8")
