@@ -21,6 +21,7 @@ from cosim.gap.weak_form.constants import (
     ALIKE,
     HARMONICS,
     LEAST_STEP,
+    MOST_HARMONIC,
     MOST_WAVES,
     PHASES_TRIED,
     ROUNDS,
@@ -109,8 +110,8 @@ def offered(
     # bumps are strongest in a harmonic: twice and three times the strongest wave's length too
     longer = [tops[0] / part for part in (2.0, 3.0) if tops[0] / part >= wavenumbers[0]]
     found = list(THREADS.map(partial(_as_one_shape, rung, kind), map(float, (*tops, *longer))))
-    evidence, added = max(found, key=lambda each: each[0])
-    return evidence - price_of_scan(wavenumbers.size, len(longer)), added
+    best = _shortened(rung, max(found, key=lambda each: each.with_moves))
+    return best.with_moves - price_of_scan(wavenumbers.size, len(longer)), best.added
 
 
 def price_of_scan(wavenumbers: int, longer: int = 2) -> float:
@@ -184,12 +185,8 @@ def _scan(rung: Rung, kind: Periodic) -> tuple[np.ndarray, np.ndarray]:
     return wavenumbers, gains
 
 
-def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float, tuple[Added, ...]]:
-    """ln evidence with a wave of one shape, and its unknowns: shape, phases, wavenumber, speeds.
-
-    Linear in all that moves it, it is moved by as much of that as makes it more probable: a longer
-    wave on faster surfaces is nearly the same one, and whole steps would run away.
-    """
+def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> _Fit:
+    """A wave of one shape: its phases, wavenumber and speeds as the rows have them."""
     runs, one = rung.system.fitted, np.array([wavenumber])
     speeds = speeds_of(rung, kind)
     phases = {run.track.run.name: float(_Waves.of(run, kind, one).fitted(rung.left(run))[1][0])
@@ -197,7 +194,30 @@ def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float,
     faster = {name: mean for name, (mean, _) in speeds.items()}
     found = _Fit.of(rung, Wave(kind, wavenumber, phases, faster), speeds)
     other = _Fit.of(rung, _realigned(rung, found.wave, found.sizes, speeds), speeds)
-    found = max(found, other, key=lambda fit: fit.evidence)
+    return _settled(rung, max(found, other, key=lambda fit: fit.evidence), speeds)
+
+
+def _shortened(rung: Rung, found: _Fit) -> _Fit:
+    """The same wave as one of a half, a third or a quarter of its length, of which that harmonic is
+    the first: where that is as probable, or the first is too small for the model to have it.
+    """
+    wave, strength = found.wave, np.hypot(*np.split(found.sizes, 2))
+    order = int(np.argmax(strength)) + 1
+    if order == 1:
+        return found
+    phases = {name: order * phase for name, phase in wave.phases.items()}
+    shorter = replace(wave, wavenumber=order * wave.wavenumber, phases=phases)
+    speeds = speeds_of(rung, wave.kind)
+    other = _settled(rung, _Fit.of(rung, shorter, speeds), speeds)
+    is_none = strength[order - 1] > MOST_HARMONIC * strength[0]
+    return other if is_none or other.with_moves > found.with_moves else found
+
+
+def _settled(rung: Rung, found: _Fit, speeds: Mapping[str, tuple[float, float]]) -> _Fit:
+    """Linear in all that moves it, a wave is moved by as much of that as makes it more probable.
+
+    A longer wave on faster surfaces is nearly the same one, and whole steps would run away.
+    """
     part = 1.0
     for _ in range(2 * ROUNDS if found.with_moves > rung.evidence else 0):
         other = _Fit.of(rung, found.moved(part), speeds)
@@ -206,7 +226,7 @@ def _as_one_shape(rung: Rung, kind: Periodic, wavenumber: float) -> tuple[float,
         found = other if gain > 0.0 else found
         if 0.0 < gain < 0.1 * ALIKE or part < LEAST_STEP:
             break
-    return found.with_moves, found.added
+    return found
 
 
 @dataclass(frozen=True)
