@@ -17,6 +17,7 @@ add up, as friction makes y a matter of the distance slid, not of time.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -33,7 +34,7 @@ from cosim.gap.weak_form.constants import (
     STILL_SIGMAS,
 )
 from cosim.gap.weak_form.rig_geometry import spring_loads
-from cosim.gap.weak_form.track import SmoothTrack, derivatives
+from cosim.gap.weak_form.track import SmoothTrack, derivatives, stretches
 
 #: Unknowns of a form: 1/R (1/m), angle by which the surface runs askew under the resting block (a
 #: slab's centre ahead of it, rad), ln g; turn of each spring and of their frame (rad), shift of all
@@ -41,9 +42,9 @@ from cosim.gap.weak_form.track import SmoothTrack, derivatives
 CURVATURE, ASKEW, SHARE = "curvature", "askew", "share"
 PLACED = TURN, FRAME, SHIFT, DIAGONAL = "turn", "frame", "shift", "diagonal"
 #: Unknowns of every run: parts by which the springs are stiffer along y, as their pretension makes
-#: them, and against a turn, as inertia and places of the hooks seem to; y (m), y' (m/s), phi (rad)
-#: and its rate (rad/s) where the record begins.
-OWN = ("springs", "turning", "y", "vy", "phi", "omega")
+#: them, and against a turn, as inertia and places of the hooks seem to; then, for each piece of the
+#: record without a hole, y (m), y' (m/s), phi (rad) and its rate (rad/s) where that begins.
+SPRINGS, STATES = 2, 4
 
 
 def moves_across(run: MeasuredRun) -> bool:
@@ -176,6 +177,16 @@ def _within(values: np.ndarray, seen: np.ndarray | None, most: float) -> np.ndar
     return np.asarray(np.clip(values, np.min(seen), np.max(seen)))
 
 
+def pieces(track: SmoothTrack) -> list[int]:
+    """Grid points where the record begins, and after holes too long to know the motion in them.
+
+    What springs do while nobody sees where the block is would swing on for the rest of the record.
+    """
+    longest = QUINTIC_REACH / track.run.natural_frequency / track.interval
+    holes = ((first, last) for first, last in stretches(~track.seen) if last - first > longest)
+    return [0, *(last for first, last in holes if 0 < first and last < track.time.size - 2)]
+
+
 def course(
     track: SmoothTrack, rig: Rig, friction: float, unknowns: tuple[str, ...], about: Plane
 ) -> Course:
@@ -196,13 +207,14 @@ def course(
     columns |= {name: _slope(held, track, rig, name) for name in PLACED if name in unknowns}
     known = {CURVATURE: 0.0, ASKEW: 0.0, SHARE: np.log(max(about.share, 1e-12))}
     known |= {name: getattr(about, name) for name in PLACED}
-    right = np.zeros((1 + len(unknowns) + len(OWN), 2, x.size))
+    starts = pieces(track)
+    right = np.zeros((1 + len(unknowns) + SPRINGS + STATES * len(starts), 2, x.size))
     right[0] = load - np.einsum("qcn,qn->cn", slope, [held.y, held.phi])
     for number, name in enumerate(unknowns, 1):
         right[number] = columns[name]
         right[0] -= columns[name] * known[name]
     right[1 + len(unknowns), 0], right[2 + len(unknowns), 1] = load
-    solved = _solve(mass, drag, slope, right, h)
+    solved = _solve(mass, drag, slope, right, h, starts)
     return Course(solved[0], solved[1:])
 
 
@@ -226,9 +238,10 @@ def _slope(about: Plane, track: SmoothTrack, rig: Rig, name: str) -> np.ndarray:
 
 
 def _solve(
-    mass: np.ndarray, drag: np.ndarray, slope: np.ndarray, right: np.ndarray, h: float
-) -> np.ndarray:
-    """(u, 2, n) q of right sides (u, 2, n); the last four set out from y, y', phi, phi' of 1.
+    mass: np.ndarray, drag: np.ndarray, slope: np.ndarray, right: np.ndarray, h: float,
+    starts: Sequence[int],
+) -> np.ndarray:  # fmt: skip
+    """(u, 2, n) q of right sides (u, 2, n); the last set out from y, y', phi, phi' of 1 at starts.
 
     M (q+ - 2 q + q-) / h^2 + W (b (q+ - q) + (1 - b) (q - q-)) / h - P' q = right, where b makes
     the decay over a step exact (exponential fitting): 1/2 for weak friction, 1 in stick; and M
@@ -252,10 +265,13 @@ def _solve(
     bands[4, :-4:2], bands[4, 1:-4:2] = before[:, 1:-1]
     sides = np.zeros((2 * n, right.shape[0]))
     sides[2::2], sides[3::2] = right[:, 0, :-1].T, right[:, 1, :-1].T
-    sides[0, -4] = sides[1, -2] = 1.0
-    # q- of the first step is q - h q': it joins the entries of q, and q' the right side
-    bands[2, :2] += before[:, 0]
-    sides[2, -3], sides[3, -1] = before[:, 0] * h
+    # q- of a start's step is q - h q'
+    for number, at in enumerate(starts):
+        first = right.shape[0] - STATES * (len(starts) - number)
+        for row, column in ((0, first), (1, first + 2)):
+            sides[2 * at + row, column] = after[row, at - 1] if at else 1.0
+            sides[2 * at + 2 + row, column] = -before[row, at]
+            sides[2 * at + 2 + row, column + 1] = before[row, at] * h
     solved, info = dtbtrs(bands, sides, uplo="L")
     if info != 0:
         raise ArithmeticError(f"dtbtrs: {info}")

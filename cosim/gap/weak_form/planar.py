@@ -8,8 +8,9 @@ camera that keeps its place or creeps.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -24,9 +25,10 @@ from cosim.gap.weak_form.across import (
     CURVATURE,
     DIAGONAL,
     FRAME,
-    OWN,
     SHARE,
     SHIFT,
+    SPRINGS,
+    STATES,
     TURN,
     Course,
     Plane,
@@ -59,6 +61,8 @@ from cosim.gap.weak_form.rig_unknowns import Level
 from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.track import SmoothTrack
 
+#: Numbers of a run at the end of its own: zeros of y and phi.
+ZEROS = 2
 LATERAL, TURNING, MISALIGNED, ROTATION = (
     "lateral_friction", "turning_surface", "spring_misalignment", "measurement.rotation",
 )  # fmt: skip
@@ -287,19 +291,19 @@ def _round(
                for run, made in zip(runs, courses, strict=True)]  # fmt: skip
     turn = START_TURN[any(run.track.phi is not None for run in runs) or SHARE not in form]
     fitted = [part for part, run in zip(samples, runs, strict=True) if not run.track.run.hold_out]
-    evidence, values, sd, prior = _solved(fitted, form, turn, campaign.errors.stiffness)
+    evidence, values, sd, prior_of = _solved(fitted, form, turn, campaign.errors.stiffness)
     for place, name in enumerate(form):
         if name == SHARE:  # friction across as good as isotropic at most, and no far step
             low, high = before[place] - SHARE_STEP, before[place] + SHARE_STEP
             values[place] = np.clip(values[place], max(low, LEAST_SHARE), min(high, MOST_SHARE))
     found, left = {}, []
     for run, made, part in zip(runs, courses, samples, strict=True):
-        rows = part.rows - part.shared @ values
+        rows, prior = part.rows - part.shared @ values, prior_of(part)
         gram, right = part.own.T @ part.own, part.own.T @ rows
         own = posterior(gram, right, float(rows @ rows), np.diag(prior**2)).mean
         left += [rows - part.own @ own, own / prior]
         known = {name: float(v) for name, v in zip(form, values, strict=True) if name in moving}
-        starts = {f"own {name}": float(v) for name, v in zip(OWN, own, strict=False)}
+        starts = {f"own {number}": float(v) for number, v in enumerate(own[:-ZEROS])}
         found[run.track.run.name] = made.plane(run.track, known | starts)
     gap = float(np.sqrt(np.mean(np.concatenate(left) ** 2)))
     return Fitted(form, evidence, _numbers(form, values, sd), found, gap, turned), values
@@ -319,8 +323,9 @@ def _samples(
         # columns of what the form has, of a run's own, and the course without either
         every = np.vstack([made.columns[:, axis], made.offset[axis]])
         *columns, offset = interp1d(track.time, every)(times) / noise
-        own_ones, moving = columns[-len(OWN) :], iter(columns)
-        zeros = np.zeros((2, times.size))
+        mechanical = sum(name not in (ROTATION, *CREEPS) for name in form)
+        own_ones, moving = columns[mechanical:], iter(columns)
+        zeros = np.zeros((ZEROS, times.size))
         zeros[axis] = campaign.zero_sd(track.run, channel) / noise
         camera = (axis == 0) * _of_camera(track, form, is_turned, times) / noise
         shared.append(np.reshape([seen_so if name in (ROTATION, *CREEPS) else next(moving)
@@ -346,30 +351,38 @@ def _of_camera(
 
 def _solved(
     samples: Sequence[_Samples], form: tuple[str, ...], turn: float, stiffness: float
-) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
-    """ln evidence over settings; mean and sd of what is shared, and own priors, at the best.
+) -> tuple[float, np.ndarray, np.ndarray, Callable[[_Samples], np.ndarray]]:
+    """ln evidence over settings; at the best: mean, sd of what is shared, and a run's own priors.
 
     turn : how far a block may be turned where it is put down, rad, and as much in a tenth of a
-    second; stiffness : stated error of the springs
+    second; stiffness : stated error of the springs. Where a record goes on after a hole the block
+    may be anywhere.
     """
-    count, own = samples[0].shared.shape[1], samples[0].own.shape[1]
-    size = count + own * len(samples)
-    gram, right, square = np.zeros((size, size)), np.zeros(size), 0.0
-    for number, part in enumerate(samples):
-        at = np.r_[0:count, count + own * number : count + own * (number + 1)]
+    count = samples[0].shared.shape[1]
+    ends = np.cumsum([count, *(part.own.shape[1] for part in samples)])
+    gram, right, square = np.zeros((ends[-1], ends[-1])), np.zeros(ends[-1]), 0.0
+    for part, first, last in zip(samples, ends[:-1], ends[1:], strict=True):
+        at = np.r_[0:count, first:last]
         columns = np.hstack([part.shared, part.own])
         gram[np.ix_(at, at)] += columns.T @ columns
         right[at] += columns.T @ part.rows
         square += float(part.rows @ part.rows)
+
+    def prior_of(start: float, part: _Samples) -> np.ndarray:
+        springs, anywhere = [2.0 * stiffness] * SPRINGS, (STARTS_ASKED[-1], START_TURN[-1])
+        states = [[y, 10.0 * y, phi, 10.0 * phi] for y, phi in ((start, turn), anywhere)]
+        further = (part.own.shape[1] - SPRINGS - ZEROS) // STATES - 1
+        return np.array([*springs, *states[0], *states[1] * further, *[1.0] * ZEROS])
+
     found = []
     for scale, start in product(SCALES_ASKED[1:], STARTS_ASKED):
         shared = [SD[name] * (1.0 if name == SHARE else scale) for name in form]
-        each = [2.0 * stiffness, 2.0 * stiffness, start, 10.0 * start, turn, 10.0 * turn, 1.0, 1.0]
-        prior = np.diag(np.square([*shared, *each * len(samples)]))
-        found.append((posterior(gram, right, square, prior), np.array(each)))
+        prior = np.concatenate([shared, *(prior_of(start, part) for part in samples)])
+        found.append((posterior(gram, right, square, np.diag(prior**2)), start))
     evidence = float(logsumexp([one.log_evidence for one, _ in found]) - np.log(len(found)))
-    best, own_prior = max(found, key=lambda pair: pair[0].log_evidence)
-    return evidence, best.mean[:count], np.sqrt(np.diag(best.covariance)[:count]), own_prior
+    best, start = max(found, key=lambda pair: pair[0].log_evidence)
+    sd = np.sqrt(np.diag(best.covariance)[:count])
+    return evidence, best.mean[:count], sd, partial(prior_of, start)
 
 
 def _numbers(

@@ -188,7 +188,7 @@ class GridTrack:
         sliding = surface - self.rough[1]
         # a slip is of one direction: where it changes, a short stick may hide between two samples
         ways = [each for way in (1.0, -1.0)
-                for each in _stretches((way * sliding > threshold) & seen)]  # fmt: skip
+                for each in stretches((way * sliding > threshold) & seen)]  # fmt: skip
         # in a slip the surface gets ahead by more than noise can
         slips = tuple(
             (first, last) for first, last in sorted(ways)
@@ -199,7 +199,7 @@ class GridTrack:
         most = max(band, STICK_AHEAD) * abs(run.surface_speed) * interval
         sticks = tuple(
             (first + margin, last - margin)
-            for first, last in _stretches(seen & ~mask(slips, time.size))
+            for first, last in stretches(seen & ~mask(slips, time.size))
             if last - first > 2 * margin
             and np.ptp(ahead[first:last]) < STICK_SIGMAS * run.noise["x"] + most * (last - first)
         )
@@ -231,7 +231,7 @@ class GridTrack:
     def _course(self, at_rest: np.ndarray) -> np.ndarray:
         """(k,) m: x in the stretches at rest, a cubic of the time, less in one of a few periods."""
         courses = [np.zeros(0)]
-        for first, last in _stretches(at_rest):
+        for first, last in stretches(at_rest):
             time, degree = np.arange(last - first), min((last - first) // (2 * self._period), 3)
             courses.append(Polynomial.fit(time, self.x[first:last], degree)(time))
         return np.concatenate(courses)
@@ -324,7 +324,7 @@ def _frequency(x: np.ndarray, interval: float, run: MeasuredRun) -> float:
     return omega if omega > FAR_STIFFER * stated else stated
 
 
-def _stretches(inside: np.ndarray) -> list[tuple[int, int]]:
+def stretches(inside: np.ndarray) -> list[tuple[int, int]]:
     """(first, last + 1) of every run of true values."""
     steps = np.diff(np.pad(inside.astype(int), 1))
     return list(zip(np.flatnonzero(steps == 1), np.flatnonzero(steps == -1), strict=True))
