@@ -200,10 +200,11 @@ class Fitting:
         """The least of the findings asked for that the simulated runs do without.
 
         The least first: what a greater one leaves may pretend a small one, and with it gone the
-        greater one is seldom in doubt. What a finding takes of the gap is asked only where the runs
+        greater one is seldom in doubt; but before it those that the model has not, beside which
+        simulated runs tell nothing. What a finding takes of the gap is asked only where the runs
         ask for all of them: beside one that is none, no other does well.
         """
-        least_first = sorted(parts, key=lambda part: part.finding.gain)
+        least_first = sorted(parts, key=lambda part: (part.in_kernel, part.finding.gain))
         for is_needed in (self._is_asked_for, self._makes_up):
             for part in least_first:
                 if part.finding.name in asked and not is_needed(part, parts, named):

@@ -11,7 +11,7 @@
     taken all of that, e^12 times, or goes from run to run as scatter does; the best joins, all
     others are asked again.
  5. Findings within e^3 of one another in the same place, and within e^6 in simulated runs, cannot
-    be told apart: a class, of effects alone where two are among them; so are two within e^12 of
+    be told apart: a class, of effects alone where two are in its place; so are two within e^12 of
     which simulated runs prefer the second. Where these do so by e^500, or e^200 if rows do not tell
     the two apart, and rows prefer the first by e^200 at most, or by a 200th of its own if it does
     not explain the runs, the first goes, if no effect stands for it only where the second explains
@@ -103,15 +103,25 @@ def judge(
         return Verdict("unknown", (), classes)
     improves = after < before
     if improves and after <= EXPLAINED:
-        # two names for one thing: what cannot be told apart is one answer
-        if classes and len(findings) == 1:
-            known = tuple(name for name in classes[0] if name in physics)
-            return Verdict("class", known if len(known) > 1 else classes[0], classes)
+        if classes:  # two names for one thing: what cannot be told apart is one answer
+            return Verdict("class", _members(names, classes, physics), classes)
         return Verdict("named", tuple(names), classes)
     own = without is None or halves(ladder[-1].gap, without)
     if improves and own and ladder[-1].share >= MOST:
         return Verdict("partial", tuple(names), classes)
     return Verdict("unknown", (), classes)
+
+
+def _members(
+    names: Sequence[str], classes: Sequence[tuple[str, ...]], physics: set[str]
+) -> tuple[str, ...]:
+    """All that is found, and what cannot be told from it: of that, effects where two are."""
+    members = []
+    for name in names:
+        group = next((each for each in classes if each[0] == name), (name,))
+        known = [each for each in group if each in physics]
+        members += known if len(known) > 1 else group
+    return tuple(dict.fromkeys(members))
 
 
 def with_steps(verdict: Verdict, name: str) -> Verdict:

@@ -37,6 +37,7 @@ GROWS, FALLS = "film_drag", "velocity_weakening"
 BY_SPEED = (GROWS, FALLS)
 #: ln evidence with one more finding, and its unknowns.
 Offer = tuple[float, tuple[Added, ...]]
+_Found = list[tuple[str, tuple[Added, ...]]]
 
 
 @dataclass(frozen=True)
@@ -132,7 +133,7 @@ class Search:
 
     def climb(self, most: int = MOST_FINDINGS) -> Ladder:
         """Add, drop and exchange until nothing more is asked for, or there are so many findings."""
-        found: list[tuple[str, tuple[Added, ...]]] = []
+        found: _Found = []
         first = self.offers(self._rung(found))
         for number in range(most):
             rung = self._rung(found)
@@ -173,7 +174,7 @@ class Search:
         _, known = self.system.offers.setdefault(tuple(map(id, rung.added)), (rung.added, {}))
         return known
 
-    def _rung(self, found: Sequence[tuple[str, tuple[Added, ...]]]) -> Rung:
+    def _rung(self, found: _Found) -> Rung:
         return self.system.rung([added for _, group in found for added in group])
 
     @cached_property
@@ -194,9 +195,7 @@ class Search:
             return gained > UNDECIDED
         return without.misfit - rung.misfit > LEAST_PART**2 * self._misfit_at_first
 
-    def _exchanged(
-        self, found: list[tuple[str, tuple[Added, ...]]]
-    ) -> list[tuple[str, tuple[Added, ...]]]:
+    def _exchanged(self, found: _Found) -> _Found:
         """Earlier findings, each replaced by another that does better beside the last."""
         for place in range(len(found) - 1):
             rest = found[:place] + found[place + 1 :]
@@ -205,15 +204,20 @@ class Search:
             best = max(offers, key=lambda each: offers[each][0])
             if best != found[place][0]:
                 tried = [*found[:place], (best, offers[best][1]), *found[place + 1 :]]
-                better = self._rung(tried)
-                is_more = better.evidence > self._rung(found).evidence + LEAST_GAIN
-                if is_more and self._is_missed(self._rung(rest), better, best):
+                if self._is_better(tried, found, place) and self._is_missed(
+                    self._rung(rest), self._rung(tried), best
+                ):
                     found = tried
         return self._without_idle(found)
 
-    def _without_idle(
-        self, found: list[tuple[str, tuple[Added, ...]]]
-    ) -> list[tuple[str, tuple[Added, ...]]]:
+    def _is_better(self, tried: _Found, found: _Found, place: int) -> bool:
+        """Whether another is more probable in a place; as probable, if only it has a name."""
+        (new, _), (old, _) = tried[place], found[place]
+        gained = self._rung(tried).evidence - self._rung(found).evidence
+        has_name = old.startswith("other.") and not new.startswith("other.")
+        return gained - price_of(new) + price_of(old) > (0.0 if has_name else LEAST_GAIN)
+
+    def _without_idle(self, found: _Found) -> _Found:
         """Without findings that the rows do not miss."""
         for one in list(found):
             rest = [other for other in found if other is not one]
@@ -221,9 +225,7 @@ class Search:
                 found = rest
         return found
 
-    def _ladder(
-        self, found: list[tuple[str, tuple[Added, ...]]], first: Mapping[str, Offer]
-    ) -> Ladder:
+    def _ladder(self, found: _Found, first: Mapping[str, Offer]) -> Ladder:
         rung = self._rung(found)
         findings = []
         for name, added in found:

@@ -1,6 +1,7 @@
 """The decision: every threshold where it is, and parts of an answer that cannot contradict."""
 
 from dataclasses import dataclass, field
+from itertools import chain
 from types import SimpleNamespace
 
 import numpy as np
@@ -254,9 +255,11 @@ def test_parts_of_an_answer_cannot_contradict(names, gaps, share, gains, others)
         assert verdict.effects[0] == names[0]
         assert not headline.startswith("The model")
     if verdict.verdict == "class":
-        assert set(verdict.effects) <= set(verdict.classes[0]) and "cannot tell" in headline
+        assert set(verdict.effects) <= {*names, *chain(*verdict.classes)}
+        assert all(set(group) & set(verdict.effects) for group in verdict.classes)
+        assert "cannot tell" in headline
     if verdict.verdict == "named":
-        assert verdict.effects == tuple(names)
+        assert verdict.effects == tuple(names) and not verdict.classes
     if findings:
         ladders = SimpleNamespace(first_offers={})
         model = SimpleNamespace(values={}, sd={}, at_bound=())
@@ -264,7 +267,7 @@ def test_parts_of_an_answer_cannot_contradict(names, gaps, share, gains, others)
         probable = [row.probability for row in rows]
         assert probable == sorted(probable, reverse=True)
         assert sum(probable) == pytest.approx(1.0)
-        if verdict.verdict == "class":
+        if verdict.verdict == "class" and len(names) == 1:
             # nobody outside the class is as probable as the least of its members
             least = min(r.evidence for r in rows if r.effect in verdict.effects)
             rest = [r.evidence for r in rows if r.effect not in verdict.effects]
