@@ -13,17 +13,6 @@ from cosim.fmu.variables import HOLD, LIMITS, WATCHED, Variable, by_array, names
 
 #: What the kernel knows nothing of.
 UNIT_ALONE = (*(each.name for each in WATCHED), *(str(each["name"]) for each in LIMITS))
-#: Declarations of what `variables_source` has beside the variables.
-LOOKED_UP = (
-    "/* Where the kernel keeps each output. */",
-    "extern const int OUTPUT_SLOTS[];",
-    "/* Where each local variable is among the states and, behind them, their rates. */",
-    "extern const int LOCAL_SLOTS[];",
-    "/* Value reference of each continuous state. */",
-    "extern const int STATE_REFERENCES[];",
-    "/* Of each random number: its seed among the parameters; uniform, or else normal. */",
-    "extern const int DRAW_SEED[], DRAW_UNIFORM[];",
-)
 MADE = "/* Made by the build from the declarations in Python. */\n"
 
 
@@ -82,8 +71,6 @@ def variables_header(variables: Sequence[Variable], guid: str, catalogue: Catalo
         f"#define WATCHED_COUNT {len(WATCHED)}",
         f"#define STATE_COUNT {len(states(catalogue))}",
         f"#define INDICATOR_COUNT {INDICATORS}",
-        "",
-        *LOOKED_UP,
     ]
     return guarded("VARIABLES_H", lines)
 
@@ -137,76 +124,31 @@ def _number(value: float) -> str:
     return repr(float(value))
 
 
-def words_header() -> str:
-    """Declarations of `words_source`."""
-    lines = [
-        "#include <stdbool.h>",
-        "#include <stddef.h>",
-        "",
-        "/* Why `advance` gave up, by its status. */",
-        f"extern const char *const WHY_NOT[{max(WHY_NOT) + 1}];",
-        "",
-        "/* Are there parameters that cannot be? Says why, with the values in it. */",
-        "bool find_contradiction(const double v[], char text[], size_t size);",
-    ]
-    return guarded("WORDS_H", lines)
-
-
-def words_source(contradictions: Mapping[int, str], places: Mapping[str, int]) -> str:
-    """Sentences for what is refused.
+def sentences_source(contradictions: Mapping[int, str], places: Mapping[str, int]) -> str:
+    """Sentences for what is refused, as words.h declares them.
 
     contradictions : code -> sentence, in which ``{table.parameter:g}`` stands for a value
     places : where in ``v`` each parameter is
     """
-    why = [f"    [{status}] = {quoted(text)}," for status, text in WHY_NOT.items()]
-    cases = []
-    for code, sentence in contradictions.items():
-        if not sentence:
-            continue
-        form, values = _printf(sentence, places)
-        given = ", ".join(["text, size", form, *values])
-        cases += [f"    case {code}:", f"        snprintf({given});", "        break;"]
+    why = (f"    [{status}] = {quoted(text)}," for status, text in WHY_NOT.items())
+    said = (f"    [{code}] = {_sentence(text, places)}," for code, text in contradictions.items())
     return "\n".join(
         [
-            MADE,
-            "#include <stdio.h>",
-            "",
-            '#include "kernel.h"',
-            '#include "unit.h"',
-            '#include "words.h"',
-            "",
-            f"const char *const WHY_NOT[{max(WHY_NOT) + 1}] = {{",
-            *why,
-            "};",
-            "",
-            "bool find_contradiction(const double v[], char text[], size_t size)",
-            "{",
-            "    int beyond = (int)stickslip_beyond_numbers(v);",
-            "    if (beyond >= 0) {",
-            "        const char *name = VARIABLES[FIRST_PARAMETER + beyond].name;",
-            f'        snprintf(text, size, "%s = %g: %s", name, v[beyond], {quoted(COMPUTABLE)});',
-            "        return true;",
-            "    }",
-            "    int code = (int)stickslip_contradiction(v);",
-            "    switch (code) {",
-            *cases,
-            "    }",
-            "    return code != 0;",
-            "}",
-            "",
+            *(MADE, '#include "words.h"', ""),
+            *("const char *const WHY_NOT[] = {", *why, "};"),
+            *("const Sentence CONTRADICTIONS[] = {", *said, "};"),
+            *(f"const char COMPUTABLE[] = {quoted(COMPUTABLE)};", ""),
         ]
     )
 
 
-def _printf(sentence: str, places: Mapping[str, int]) -> tuple[str, list[str]]:
-    """A sentence with places for values, as printf takes it, and the values."""
+def _sentence(text: str, places: Mapping[str, int]) -> str:
+    """A sentence with places for values, as printf takes it, and where the values are."""
     form, values = "", []
-    for literal, field, _, _ in Formatter().parse(sentence):
-        form += literal.replace("%", "%%")
-        if field is not None:
-            form += "%g"
-            values.append(f"v[{places[field]}]")
-    return quoted(form), values
+    for literal, field, _, _ in Formatter().parse(text):
+        form += literal.replace("%", "%%") + ("" if field is None else "%g")
+        values += [] if field is None else [str(places[field])]
+    return f"{{{quoted(form)}, {{{', '.join(values or '0')}}}}}"
 
 
 def quoted(text: str) -> str:
