@@ -89,16 +89,9 @@ def guarded(call, phases, result=None):
     return wrap
 
 
-def _nans(references):
-    return [nan] * len(references)
-
-
-def _zeros(references):
-    return [0] * len(references)
-
-
-def _empties(references):
-    return [""] * len(references)
+def _each(value):
+    """What is returned of a refused call for each of its references."""
+    return lambda references: [value] * len(references)
 
 
 class UnitSlave(Fmi2Slave):
@@ -342,16 +335,16 @@ class UnitSlave(Fmi2Slave):
 
     # --- values ---
 
-    @guarded("fmi2GetReal", ANY_PHASE, result=_nans)
+    @guarded("fmi2GetReal", ANY_PHASE, result=_each(nan))
     def get_real(self, references):
         # References are unique: some hosts read all variables by this function.
         return [float(value) for value in self._values("fmi2GetReal", references, *SAID)]
 
-    @guarded("fmi2GetInteger", ANY_PHASE, result=_zeros)
+    @guarded("fmi2GetInteger", ANY_PHASE, result=_each(0))
     def get_integer(self, references):
         return [int(value) for value in self._values("fmi2GetInteger", references, Integer)]
 
-    @guarded("fmi2GetBoolean", ANY_PHASE, result=_zeros)
+    @guarded("fmi2GetBoolean", ANY_PHASE, result=_each(0))
     def get_boolean(self, references):
         return [bool(value) for value in self._values("fmi2GetBoolean", references, Boolean)]
 
@@ -426,7 +419,7 @@ class UnitSlave(Fmi2Slave):
 
     # No variable is a text.
 
-    @guarded("fmi2GetString", ANY_PHASE, result=_empties)
+    @guarded("fmi2GetString", ANY_PHASE, result=_each(""))
     def get_string(self, references):
         if references:
             raise Unread("fmi2GetString: no variable is a text")

@@ -40,49 +40,28 @@ PACKAGE_DOC = '"""The mechanics of StickSlip3DOF, as it travels inside the FMU."
 #: What pythonfmu loads, in whatever Python its host has: nothing newer than the check may come
 #: before it. The library runs it again for every instance and keeps for ever the classes that it
 #: defines, so it defines none.
-_DOOR = '''"""{name}, for hosts with a Python that {host}."""
-
-import sys
-
-if sys.version_info < (3, {least}):
-    raise ImportError(
-        "{name} needs Python 3.{least} or newer, this host has %d.%d" % sys.version_info[:2]
-    )
-
-import ctypes
-{needs}
-from {package}.slave import {name}
-
-{why}
-if locals() is not globals():
-    ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))
-'''
-_WHY = """\
-# pythonfmu's library runs this file for every instance, with locals of its own, and then drops a
-# reference to the globals that it never had. This is that reference."""
+DOOR = Path(__file__).with_name("door.txt")
 
 
-def door(name: str, package: str, least: int, host: str, needs: str = "", why: str = _WHY) -> str:
+def door(name: str, package: str, least: int, host: str, needs: str = "") -> bytes:
     """The module that pythonfmu loads of a package's slave.
 
     least: of 3.x; host, needs: in words and as code, what else the host's Python must be.
     """
-    return _DOOR.format(name=name, package=package, least=least, host=host, needs=needs, why=why)
-
-
-DOOR = door(NAME, "stickslip", 10, "is new enough")
+    told = {"name": name, "package": package, "least": least, "host": host, "needs": needs}
+    return DOOR.read_text(encoding="utf-8").format(**told).encode()
 
 
 def sources(catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
     """Path inside the FMU's resources -> content, before anything is renamed."""
     texts = {
-        f"{MODULE}.py": DOOR,
         "stickslip/__init__.py": PACKAGE_DOC,
         "stickslip/unit_slave.py": slave_file("unit_slave").read_text(encoding="utf-8"),
         "stickslip/slave.py": one_kernel(slave_file("slave").read_text(encoding="utf-8")),
     }
     texts |= {f"stickslip/{name}.py": text for name, text in travelling(catalogue.effects).items()}
-    return {name: text.encode() for name, text in texts.items()}
+    files = {name: text.encode() for name, text in texts.items()}
+    return files | {f"{MODULE}.py": door(NAME, "stickslip", 10, "is new enough")}
 
 
 def slave_file(name: str) -> Path:

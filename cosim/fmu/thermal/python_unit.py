@@ -26,7 +26,6 @@ except ImportError as error:
         "BeltIceThermal.fmu needs no Python" % (sys.executable, error)
     ) from None
 """
-SEE = "# see the door of StickSlip3DOF"
 
 
 def parameters() -> list[Variable]:
@@ -49,10 +48,9 @@ def variables() -> list[Variable]:
 
 def sources() -> dict[str, bytes]:
     """Path inside the FMU's resources -> content, before anything is renamed."""
-    door = python_unit.door(NAME, PACKAGE, 11, "has the heat model", NEEDS, SEE)
     travel = {"slave": "thermal_slave", "unit_slave": "unit_slave"}
     return {
-        f"{MODULE}.py": door.encode(),
+        f"{MODULE}.py": python_unit.door(NAME, PACKAGE, 11, "has the heat model", NEEDS),
         f"{PACKAGE}/__init__.py": b'"""The slave of BeltIceThermal, as it travels."""\n',
         **{
             f"{PACKAGE}/{name}.py": python_unit.slave_file(file).read_bytes()
