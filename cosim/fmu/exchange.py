@@ -4,23 +4,20 @@ They are local variables behind all others, so that no value reference moves. A 
 output has no second variable.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.kernel import layout, tables
 from stickslip.units import UNITS
 
-from cosim.fmu.variables import Variable
+from cosim.fmu.variables import DECLARED, Variable
 from cosim.fmu.variables import variables as variables_without
 
 #: Event indicators of the kernel.
 INDICATORS = layout.INDICATORS
-BRISTLES = {
-    "SHEAR_X": ("bristles.shear_x", "Shear of the contact along x"),
-    "SHEAR_Y": ("bristles.shear_y", "Shear of the contact across, scaled as the sliding velocity"),
-    "SHEAR_SPIN": ("bristles.shear_spin", "Shear of the contact by its spin, as a length"),
-}
+#: Slot of a state -> what the unit calls it.
+BRISTLES: Mapping[str, str] = DECLARED["bristles"]
 RATE_UNITS = {"m/s": "m/s2", "rad/s": "rad/s2", "J": "W", "s": "1"}
 
 
@@ -36,8 +33,8 @@ def states(catalogue: Catalogue = CATALOGUE) -> list[Variable]:
         if slot in outputs:
             found.append(replace(outputs[slot], is_state=True))
         elif slot in BRISTLES:
-            name, description = BRISTLES[slot]
-            found.append(Variable(name, "local", "m", 1e-4, description, is_state=True))
+            name = f"bristles.{slot.lower()}"
+            found.append(Variable(name, "local", "m", 1e-4, BRISTLES[slot], is_state=True))
         else:
             found.append(_memory(slot, catalogue))
     return found
