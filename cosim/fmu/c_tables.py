@@ -109,9 +109,7 @@ def _whole_numbers(name: str, numbers: Iterable[str]) -> str:
 def _row(variable: Variable, elements: int) -> str:
     low = -math.inf if variable.min is None else variable.min
     high = math.inf if variable.max is None else variable.max
-    kinds = {"BOOLEAN_TYPE": variable.is_boolean, "INTEGER_TYPE": variable.is_integer}
-    type_of = next((name for name, is_it in kinds.items() if is_it), "REAL_TYPE")
-    said = f"{type_of}, {str(variable.is_tunable).lower()}"
+    said = f"{variable.type.upper()}_TYPE, {str(variable.is_tunable).lower()}"
     numbers = ", ".join(_number(value) for value in (variable.start or 0.0, low, high))
     above = str(variable.above_min).lower()
     kind = variable.causality.upper()

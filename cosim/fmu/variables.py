@@ -74,9 +74,11 @@ class Variable:
     is_boolean: bool = False
 
     @property
-    def is_integer(self) -> bool:
-        """Whether it is of the type Integer of FMI; else it is Real, or Boolean."""
-        return self.unit is None and not self.is_boolean
+    def type(self) -> str:
+        """Its type in FMI 2: Real, Integer or Boolean."""
+        if self.is_boolean:
+            return "Boolean"
+        return "Integer" if self.unit is None else "Real"
 
     @property
     def is_discrete(self) -> bool:
