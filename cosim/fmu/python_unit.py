@@ -85,9 +85,8 @@ RECIPE_FILES = (
     Path(ports.__file__).with_name("ports.toml"),
     Path(__file__).parent / "thermal" / "python_unit.py",
 )
-CAUSALITIES = ("input", "output", "parameter")
-#: What a slave is told of a parameter.
-OF_PARAMETERS = ("name", "unit", "start", "min", "max", "above_min")
+#: What a slave is told of a variable, and beside it where the slave has it.
+TOLD = "name causality type start min max above_min nominal is_tunable".split()
 
 
 def build(
@@ -187,16 +186,11 @@ def _variables_module(
     content: str, guid: str, declared: Sequence[Variable], places: Mapping[str, Any]
 ) -> bytes:
     """Text of the module that tells a slave what it is; ``content``: hash of the build."""
-    of = {kind: [v for v in declared if v.causality == kind] for kind in CAUSALITIES}
-    values = {
-        "BUILD": content,
-        "GUID": guid,
-        # (name, place, start, min, max, nominal) and (name, place, type)
-        "INPUTS": [(v.name, places[v.name], v.start, v.min, v.max, v.nominal) for v in of["input"]],
-        "OUTPUTS": [(v.name, places[v.name], v.type) for v in of["output"]],
-        "PARAMETERS": [{key: getattr(v, key) for key in OF_PARAMETERS} for v in of["parameter"]],
-        "TUNABLE": [v.name for v in declared if v.is_tunable],
-    }
+    told = [
+        {key: getattr(each, key) for key in TOLD} | {"place": places.get(each.name)}
+        for each in declared
+    ]
+    values = {"BUILD": content, "GUID": guid, "VARIABLES": told}
     lines = ['"""What this build of the unit is, its ports and its parameters."""']
     for name, value in values.items():
         lines.append(f"{name} = {pprint.pformat(value, width=100, sort_dicts=False)}")
