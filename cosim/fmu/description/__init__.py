@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import version
 from typing import Any
-from xml.etree.ElementTree import fromstring, indent, tostring
+from xml.etree.ElementTree import fromstring, indent, register_namespace, tostring
 
 from stickslip.units import UNITS
 
@@ -52,7 +52,10 @@ def xml_of(template: str, package: str = __name__, **values: Any) -> bytes:
     """A file of a template that lies in a package; without a date, so that builds repeat."""
     from cosim.report.page import render  # not for who only compiles
 
-    root = fromstring(re.sub(r">\s+<", "><", render(template, package, **values)))
+    text = re.sub(r">\s+<", "><", render(template, package, **values))
+    for prefix, space in re.findall(r'xmlns:(\w+)="(.*?)"', text):
+        register_namespace(prefix, space)  # by which they are written, too
+    root = fromstring(text)
     indent(root)
     found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
     return found
