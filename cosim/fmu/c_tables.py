@@ -9,10 +9,10 @@ from stickslip.contradictions import COMPUTABLE
 from stickslip.words import WHY_NOT
 
 from cosim.fmu.exchange import INDICATORS, local_slots, state_references, states
-from cosim.fmu.variables import HOLD, LIMITS, WATCHED, Variable, by_array, names
+from cosim.fmu.variables import OWN, WATCHED, Variable, by_array, names
 
 #: What the kernel knows nothing of.
-UNIT_ALONE = (*(each.name for each in WATCHED), *(str(each["name"]) for each in LIMITS))
+UNIT_ALONE = [each.name for each in (*WATCHED, *OWN)]
 MADE = "/* Made by the build from the declarations in Python. */\n"
 
 
@@ -66,7 +66,6 @@ def variables_header(variables: Sequence[Variable], guid: str, catalogue: Catalo
     places = {each.name: place for place, each in enumerate(variables)}
     lines = [
         *count_lines(variables, guid, can),
-        f"#define INPUT_HOLD {places[HOLD['name']]}",
         *(f"#define {_constant(each)} {places[each]}" for each in UNIT_ALONE),
         f"#define WATCHED_COUNT {len(WATCHED)}",
         f"#define STATE_COUNT {len(states(catalogue))}",

@@ -34,7 +34,7 @@ def states(catalogue: Catalogue = CATALOGUE) -> list[Variable]:
             found.append(replace(outputs[slot], is_state=True))
         elif slot in BRISTLES:
             name = f"bristles.{slot.lower()}"
-            found.append(Variable(name, "local", "m", 1e-4, BRISTLES[slot], is_state=True))
+            found.append(Variable(name, "local", BRISTLES[slot], "m", 1e-4, is_state=True))
         else:
             found.append(_memory(slot, catalogue))
     return found
@@ -77,7 +77,7 @@ def _memory(slot: str, catalogue: Catalogue) -> Variable:
             if slot == f"{effect.id}_{state.name}".upper():
                 name, of = f"{effect.id}.{state.name}", state.name.replace("_", " ")
                 said = f"What {effect.id} remembers: {of}"
-                return Variable(name, "local", state.unit, 1.0, said, is_state=True)
+                return Variable(name, "local", said, state.unit, 1.0, is_state=True)
     raise ValueError(f"the kernel's state {slot} has no variable")
 
 
@@ -87,4 +87,4 @@ def _rate(state: Variable) -> Variable:
     if unit not in UNITS:
         raise ValueError(f"the rate of {state.name} is in {unit!r}, a unit that UNITS lacks")
     name = f"der({state.name})"
-    return Variable(name, "local", unit, None, f"Rate of {state.name}", derivative_of=state.name)
+    return Variable(name, "local", f"Rate of {state.name}", unit, derivative_of=state.name)
