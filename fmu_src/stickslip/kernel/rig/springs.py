@@ -2,7 +2,7 @@
 
 from math import cos, sin, sqrt
 
-from ..friction.table import between
+from ..cubic import between
 from ..layout import *
 from ..terms import with_spring_energy, with_spring_force
 
