@@ -16,12 +16,12 @@ from stickslip.kernel.rig.drive import lead_inputs
 from stickslip.kernel.rig.springs import spring_length
 from stickslip.packing import pack
 from stickslip.unit_slave import Refused, UnitSlave
-from stickslip.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS, TUNABLE
+from stickslip.variables import BUILD, GUID, VARIABLES
 from stickslip.words import WHY_NOT
 
 #: Parameters that say what a rig bears.
 LIMITS = ("turning_surface.curvature", "belt.width", "springs.longest")
-FINEST_TOLERANCE = next(e["min"] for e in PARAMETERS if e["name"] == "solver.tolerance")
+FINEST_TOLERANCE = next(e["min"] for e in VARIABLES if e["name"] == "solver.tolerance")
 
 
 class StickSlip3DOF(UnitSlave):
@@ -32,12 +32,12 @@ class StickSlip3DOF(UnitSlave):
         "dry friction, friction heat handed over as energy"
     )
     version = BUILD
-    build, guid_of_build, tunable = BUILD, GUID, TUNABLE
+    build, guid_of_build = BUILD, GUID
     KEPT = ("p", "g", "u", "z", "o")
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
-        self.declare(INPUTS, OUTPUTS, PARAMETERS)
+        self.declare(VARIABLES)
         by_name = {name: reference for reference, name in self.parameter_names.items()}
         self.limits = [by_name[name] for name in LIMITS]
         self.said = []  # of what the user has been warned

@@ -11,7 +11,7 @@ times the step less what x has changed since the last one.
 import json
 
 from beltice.unit_slave import Refused, UnitSlave
-from beltice.variables import BUILD, GUID, INPUTS, OUTPUTS, PARAMETERS
+from beltice.variables import BUILD, GUID, VARIABLES
 
 from thermal import BeltIceModel, ThermalParameters
 
@@ -32,7 +32,7 @@ class BeltIceThermal(UnitSlave):
 
     def __init__(self, **kwargs):
         super().__init__(**kwargs)
-        self.declare(INPUTS, OUTPUTS, PARAMETERS)
+        self.declare(VARIABLES)
         self.model = self.fresh = self.made_of = None
         # heat (J), travel of the belt (m) and x (m): in all, and as far as the model has them
         self.now = self.taken = [0.0, 0.0, 0.0]

@@ -89,28 +89,19 @@ def guarded(call, phases, result=None):
     return wrap
 
 
-def _nans(references):
-    return [nan] * len(references)
-
-
-def _zeros(references):
-    return [0] * len(references)
-
-
-def _empties(references):
-    return [""] * len(references)
+def _each(value):
+    """What is returned of a refused call for each of its references."""
+    return lambda references: [value] * len(references)
 
 
 class UnitSlave(Fmi2Slave):
     """What a model's slave is made of.
 
     It says of itself, as attributes of its class, `build` and `guid_of_build`, what it is a build
-    of, and as `tunable` the names of parameters that may change in the run; it declares its
-    variables by `declare`; and it has the methods here.
+    of; it declares its variables by `declare`; and it has the methods here.
     """
 
     build, guid_of_build = "", ""
-    tunable: tuple = ()
     #: Whether inputs that are set after initialisation and before the first step count as if they
     #: had been there from the beginning; else only steps know of them.
     begins_with_inputs = True
@@ -149,6 +140,7 @@ class UnitSlave(Fmi2Slave):
         self.slacks = {}
         # value reference -> where the model has it
         self.input_slots, self.output_slots, self.parameter_names = {}, {}, {}
+        self.tunable = set()  # names of parameters that may change in the run
         self.phase, self.failure = INSTANTIATED, ""
         self.has_experiment = False
         self.tolerance = 0.0
@@ -158,56 +150,30 @@ class UnitSlave(Fmi2Slave):
         self.stale = True
         self.retuned = False  # tunable parameters have changed since the last step
 
-    def declare(self, inputs, outputs, parameters):
-        """All variables, in the order of their references."""
-        for port in inputs:
-            self.add_input(*port)
-        for port in outputs:
-            self.add_output(*port)
-        for entry in parameters:
-            self.add_parameter(entry)
-
-    def add_input(self, name, slot, start, low, high, nominal):
-        """An input, its bounds and a size of it that counts."""
-        reference = self._register(Real, name, start, causality=Fmi2Causality.input)
-        self._bound(reference, low, high)
-        self.slacks[reference] = self.slack * nominal
-        self.input_slots[reference] = slot
-
-    def add_output(self, name, slot, kind):
-        """An output; kind: a real number, an integer or a Boolean, by its name in FMI."""
-        more = {} if kind == "Real" else {"variability": Fmi2Variability.discrete}
-        more |= {"causality": Fmi2Causality.output, "initial": Fmi2Initial.calculated}
-        reference = self._register(KINDS[kind], name, 0, **more)
-        self.output_slots[reference] = slot
-
-    def add_parameter(self, entry):
-        """A parameter: name, unit, start, min, max, above_min."""
-        tunable = entry["name"] in self.tunable
-        reference = self._register(
-            Integer if entry["unit"] is None else Real,
-            entry["name"],
-            entry["start"],
-            causality=Fmi2Causality.parameter,
-            initial=Fmi2Initial.exact,
-            variability=Fmi2Variability.tunable if tunable else Fmi2Variability.fixed,
-        )
-        self._bound(reference, entry["min"], entry["max"], entry["above_min"])
-        self.parameter_names[reference] = entry["name"]
-
-    def _register(self, kind, name, start, **more):
-        reference = len(self.cells)
-        self.cells.append(start)
-        getter = functools.partial(self.cells.__getitem__, reference)
-        self.register_variable(kind(name, getter=getter, **more), nested=False)
-        return reference
-
-    def _bound(self, reference, low, high, above_low=False):
-        self.bounds[reference] = (
-            -inf if low is None else low,
-            inf if high is None else high,
-            above_low,
-        )
+    def declare(self, variables):
+        """All variables, in the order of their references, as the recipe tells them."""
+        for each in variables:
+            reference, name, causality = len(self.cells), each["name"], each["causality"]
+            low, high = each["min"], each["max"]
+            how = {"causality": Fmi2Causality[causality]}
+            if causality == "input":
+                self.input_slots[reference] = each["place"]
+                self.slacks[reference] = self.slack * each["nominal"]
+            elif causality == "output":
+                self.output_slots[reference] = each["place"]
+                how["initial"] = Fmi2Initial.calculated
+                how |= {} if each["type"] == "Real" else {"variability": Fmi2Variability.discrete}
+            else:
+                self.parameter_names[reference] = name
+                self.tunable |= {name} if each["is_tunable"] else set()
+                kind = "tunable" if each["is_tunable"] else "fixed"
+                how |= {"initial": Fmi2Initial.exact, "variability": Fmi2Variability[kind]}
+            low, high = -inf if low is None else low, inf if high is None else high
+            self.bounds[reference] = low, high, each["above_min"]
+            self.cells.append(0 if each["start"] is None else each["start"])
+            getter = functools.partial(self.cells.__getitem__, reference)
+            variable = KINDS[each["type"]](name, getter=getter, **how)
+            self.register_variable(variable, nested=False)
 
     def _allow(self, call, phases):
         if self.phase in phases:
@@ -342,16 +308,16 @@ class UnitSlave(Fmi2Slave):
 
     # --- values ---
 
-    @guarded("fmi2GetReal", ANY_PHASE, result=_nans)
+    @guarded("fmi2GetReal", ANY_PHASE, result=_each(nan))
     def get_real(self, references):
         # References are unique: some hosts read all variables by this function.
         return [float(value) for value in self._values("fmi2GetReal", references, *SAID)]
 
-    @guarded("fmi2GetInteger", ANY_PHASE, result=_zeros)
+    @guarded("fmi2GetInteger", ANY_PHASE, result=_each(0))
     def get_integer(self, references):
         return [int(value) for value in self._values("fmi2GetInteger", references, Integer)]
 
-    @guarded("fmi2GetBoolean", ANY_PHASE, result=_zeros)
+    @guarded("fmi2GetBoolean", ANY_PHASE, result=_each(0))
     def get_boolean(self, references):
         return [bool(value) for value in self._values("fmi2GetBoolean", references, Boolean)]
 
@@ -426,7 +392,7 @@ class UnitSlave(Fmi2Slave):
 
     # No variable is a text.
 
-    @guarded("fmi2GetString", ANY_PHASE, result=_empties)
+    @guarded("fmi2GetString", ANY_PHASE, result=_each(""))
     def get_string(self, references):
         if references:
             raise Unread("fmi2GetString: no variable is a text")

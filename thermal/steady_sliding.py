@@ -237,7 +237,7 @@ class SteadySliding:
 
     def settle(self) -> SlidingState:
         """Go to the steady state; NoSteadyState when the belt gives no heat to anything."""
-        check_gives_heat(self.belt.slowest_rate, self.belt.takes_heat)
+        check_gives_heat(self.belt.slowest_rate, self.belt.places.take_heat)
         self._left = 1.0
         self.step(FOREVER)
         if self.sensitivity > 0.0:

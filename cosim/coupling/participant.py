@@ -44,7 +44,7 @@ class UnitDefinition:
     exponents: of kg, m, s, A, K, mol, cd, rad.
     """
 
-    exponents: tuple[int, int, int, int, int, int, int, int]
+    exponents: tuple[int, ...]
     factor: float = 1.0
     offset: float = 0.0
 

@@ -9,21 +9,10 @@ from stickslip.contradictions import COMPUTABLE
 from stickslip.words import WHY_NOT
 
 from cosim.fmu.exchange import INDICATORS, local_slots, state_references, states
-from cosim.fmu.variables import HOLD, LIMITS, WATCHED, Variable, by_array, names
+from cosim.fmu.variables import OWN, WATCHED, Variable, by_array, names
 
 #: What the kernel knows nothing of.
-UNIT_ALONE = (*(each.name for each in WATCHED), *(str(each["name"]) for each in LIMITS))
-#: Declarations of what `variables_source` has beside the variables.
-LOOKED_UP = (
-    "/* Where the kernel keeps each output. */",
-    "extern const int OUTPUT_SLOTS[];",
-    "/* Where each local variable is among the states and, behind them, their rates. */",
-    "extern const int LOCAL_SLOTS[];",
-    "/* Value reference of each continuous state. */",
-    "extern const int STATE_REFERENCES[];",
-    "/* Of each random number: its seed among the parameters; uniform, or else normal. */",
-    "extern const int DRAW_SEED[], DRAW_UNIFORM[];",
-)
+UNIT_ALONE = [each.name for each in (*WATCHED, *OWN)]
 MADE = "/* Made by the build from the declarations in Python. */\n"
 
 
@@ -77,13 +66,10 @@ def variables_header(variables: Sequence[Variable], guid: str, catalogue: Catalo
     places = {each.name: place for place, each in enumerate(variables)}
     lines = [
         *count_lines(variables, guid, can),
-        f"#define INPUT_HOLD {places[HOLD['name']]}",
         *(f"#define {_constant(each)} {places[each]}" for each in UNIT_ALONE),
         f"#define WATCHED_COUNT {len(WATCHED)}",
         f"#define STATE_COUNT {len(states(catalogue))}",
         f"#define INDICATOR_COUNT {INDICATORS}",
-        "",
-        *LOOKED_UP,
     ]
     return guarded("VARIABLES_H", lines)
 
@@ -122,9 +108,7 @@ def _whole_numbers(name: str, numbers: Iterable[str]) -> str:
 def _row(variable: Variable, elements: int) -> str:
     low = -math.inf if variable.min is None else variable.min
     high = math.inf if variable.max is None else variable.max
-    kinds = {"BOOLEAN_TYPE": variable.is_boolean, "INTEGER_TYPE": variable.is_integer}
-    type_of = next((name for name, is_it in kinds.items() if is_it), "REAL_TYPE")
-    said = f"{type_of}, {str(variable.is_tunable).lower()}"
+    said = f"{variable.type.upper()}_TYPE, {str(variable.is_tunable).lower()}"
     numbers = ", ".join(_number(value) for value in (variable.start or 0.0, low, high))
     above = str(variable.above_min).lower()
     kind = variable.causality.upper()
@@ -137,76 +121,31 @@ def _number(value: float) -> str:
     return repr(float(value))
 
 
-def words_header() -> str:
-    """Declarations of `words_source`."""
-    lines = [
-        "#include <stdbool.h>",
-        "#include <stddef.h>",
-        "",
-        "/* Why `advance` gave up, by its status. */",
-        f"extern const char *const WHY_NOT[{max(WHY_NOT) + 1}];",
-        "",
-        "/* Are there parameters that cannot be? Says why, with the values in it. */",
-        "bool find_contradiction(const double v[], char text[], size_t size);",
-    ]
-    return guarded("WORDS_H", lines)
-
-
-def words_source(contradictions: Mapping[int, str], places: Mapping[str, int]) -> str:
-    """Sentences for what is refused.
+def sentences_source(contradictions: Mapping[int, str], places: Mapping[str, int]) -> str:
+    """Sentences for what is refused, as words.h declares them.
 
     contradictions : code -> sentence, in which ``{table.parameter:g}`` stands for a value
     places : where in ``v`` each parameter is
     """
-    why = [f"    [{status}] = {quoted(text)}," for status, text in WHY_NOT.items()]
-    cases = []
-    for code, sentence in contradictions.items():
-        if not sentence:
-            continue
-        form, values = _printf(sentence, places)
-        given = ", ".join(["text, size", form, *values])
-        cases += [f"    case {code}:", f"        snprintf({given});", "        break;"]
+    why = (f"    [{status}] = {quoted(text)}," for status, text in WHY_NOT.items())
+    said = (f"    [{code}] = {_sentence(text, places)}," for code, text in contradictions.items())
     return "\n".join(
         [
-            MADE,
-            "#include <stdio.h>",
-            "",
-            '#include "kernel.h"',
-            '#include "unit.h"',
-            '#include "words.h"',
-            "",
-            f"const char *const WHY_NOT[{max(WHY_NOT) + 1}] = {{",
-            *why,
-            "};",
-            "",
-            "bool find_contradiction(const double v[], char text[], size_t size)",
-            "{",
-            "    int beyond = (int)stickslip_beyond_numbers(v);",
-            "    if (beyond >= 0) {",
-            "        const char *name = VARIABLES[FIRST_PARAMETER + beyond].name;",
-            f'        snprintf(text, size, "%s = %g: %s", name, v[beyond], {quoted(COMPUTABLE)});',
-            "        return true;",
-            "    }",
-            "    int code = (int)stickslip_contradiction(v);",
-            "    switch (code) {",
-            *cases,
-            "    }",
-            "    return code != 0;",
-            "}",
-            "",
+            *(MADE, '#include "words.h"', ""),
+            *("const char *const WHY_NOT[] = {", *why, "};"),
+            *("const Sentence CONTRADICTIONS[] = {", *said, "};"),
+            *(f"const char COMPUTABLE[] = {quoted(COMPUTABLE)};", ""),
         ]
     )
 
 
-def _printf(sentence: str, places: Mapping[str, int]) -> tuple[str, list[str]]:
-    """A sentence with places for values, as printf takes it, and the values."""
+def _sentence(text: str, places: Mapping[str, int]) -> str:
+    """A sentence with places for values, as printf takes it, and where the values are."""
     form, values = "", []
-    for literal, field, _, _ in Formatter().parse(sentence):
-        form += literal.replace("%", "%%")
-        if field is not None:
-            form += "%g"
-            values.append(f"v[{places[field]}]")
-    return quoted(form), values
+    for literal, field, _, _ in Formatter().parse(text):
+        form += literal.replace("%", "%%") + ("" if field is None else "%g")
+        values += [] if field is None else [str(places[field])]
+    return f"{{{quoted(form)}, {{{', '.join(values or '0')}}}}}"
 
 
 def quoted(text: str) -> str:

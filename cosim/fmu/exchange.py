@@ -4,23 +4,20 @@ They are local variables behind all others, so that no value reference moves. A 
 output has no second variable.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.kernel import layout, tables
 from stickslip.units import UNITS
 
-from cosim.fmu.variables import Variable
+from cosim.fmu.variables import DECLARED, Variable
 from cosim.fmu.variables import variables as variables_without
 
 #: Event indicators of the kernel.
 INDICATORS = layout.INDICATORS
-BRISTLES = {
-    "SHEAR_X": ("bristles.shear_x", "Shear of the contact along x"),
-    "SHEAR_Y": ("bristles.shear_y", "Shear of the contact across, scaled as the sliding velocity"),
-    "SHEAR_SPIN": ("bristles.shear_spin", "Shear of the contact by its spin, as a length"),
-}
+#: Slot of a state -> what the unit calls it.
+BRISTLES: Mapping[str, str] = DECLARED["bristles"]
 RATE_UNITS = {"m/s": "m/s2", "rad/s": "rad/s2", "J": "W", "s": "1"}
 
 
@@ -36,8 +33,8 @@ def states(catalogue: Catalogue = CATALOGUE) -> list[Variable]:
         if slot in outputs:
             found.append(replace(outputs[slot], is_state=True))
         elif slot in BRISTLES:
-            name, description = BRISTLES[slot]
-            found.append(Variable(name, "local", "m", 1e-4, description, is_state=True))
+            name = f"bristles.{slot.lower()}"
+            found.append(Variable(name, "local", BRISTLES[slot], "m", 1e-4, is_state=True))
         else:
             found.append(_memory(slot, catalogue))
     return found
@@ -80,7 +77,7 @@ def _memory(slot: str, catalogue: Catalogue) -> Variable:
             if slot == f"{effect.id}_{state.name}".upper():
                 name, of = f"{effect.id}.{state.name}", state.name.replace("_", " ")
                 said = f"What {effect.id} remembers: {of}"
-                return Variable(name, "local", state.unit, 1.0, said, is_state=True)
+                return Variable(name, "local", said, state.unit, 1.0, is_state=True)
     raise ValueError(f"the kernel's state {slot} has no variable")
 
 
@@ -90,4 +87,4 @@ def _rate(state: Variable) -> Variable:
     if unit not in UNITS:
         raise ValueError(f"the rate of {state.name} is in {unit!r}, a unit that UNITS lacks")
     name = f"der({state.name})"
-    return Variable(name, "local", unit, None, f"Rate of {state.name}", derivative_of=state.name)
+    return Variable(name, "local", f"Rate of {state.name}", unit, derivative_of=state.name)

@@ -3,7 +3,6 @@
 What was compiled once is kept in the user's cache, for whoever builds a unit of the same sources.
 """
 
-import hashlib
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
@@ -54,9 +53,9 @@ def _compiled(
     sources: Mapping[str, bytes], platforms: Sequence[Platform], name: str
 ) -> dict[Platform, bytes]:
     """Taken from the user's cache, or compiled and kept there. Raises CompilerError."""
-    made_from = repr((OPTIONS, has_zig(), sorted(sources.items()))).encode()
-    digest = hashlib.sha256(made_from).hexdigest()[:16]
-    files = {each: f"{name}-{each.name}-{digest}{each.suffix}" for each in platforms}
+    made_from = repr((OPTIONS, has_zig(), sorted(sources.items())))
+    code = machine_code.Code(name, made_from, lambda: sources)
+    files = {each: code.file(each) for each in platforms}
     kept = {each: machine_code.kept(file) for each, file in files.items()}
     made = {each: file.read_bytes() for each, file in kept.items() if file}
     if lacking := [each for each in platforms if each not in made]:

@@ -66,8 +66,7 @@ def sources(catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
         "kernel.c": c_source(text),
         "variables.h": c_tables.variables_header(declared, guid(catalogue), catalogue),
         "variables.c": c_tables.variables_source(declared, catalogue),
-        "words.h": c_tables.words_header(),
-        "words.c": c_tables.words_source(SAID, places),
+        "sentences.c": c_tables.sentences_source(SAID, places),
     }
     return written("stickslip3dof") | {name: content.encode() for name, content in made.items()}
 

@@ -13,7 +13,8 @@ import json
 import pprint
 import re
 import zipfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -32,7 +33,7 @@ from cosim.fmu.description.documentation import of_mechanics
 from cosim.fmu.extras import extras
 from cosim.fmu.native import DESCRIPTION, NAME
 from cosim.fmu.pythonfmu_library import corrected
-from cosim.fmu.variables import TUNABLE, WATCHED, Entry, Variable, parameter_table, variables
+from cosim.fmu.variables import WATCHED, Variable, variables
 
 FMU = "StickSlip3DOF-python.fmu"
 MODULE = "stickslip3dof"
@@ -40,49 +41,28 @@ PACKAGE_DOC = '"""The mechanics of StickSlip3DOF, as it travels inside the FMU."
 #: What pythonfmu loads, in whatever Python its host has: nothing newer than the check may come
 #: before it. The library runs it again for every instance and keeps for ever the classes that it
 #: defines, so it defines none.
-_DOOR = '''"""{name}, for hosts with a Python that {host}."""
-
-import sys
-
-if sys.version_info < (3, {least}):
-    raise ImportError(
-        "{name} needs Python 3.{least} or newer, this host has %d.%d" % sys.version_info[:2]
-    )
-
-import ctypes
-{needs}
-from {package}.slave import {name}
-
-{why}
-if locals() is not globals():
-    ctypes.pythonapi.Py_IncRef(ctypes.py_object(globals()))
-'''
-_WHY = """\
-# pythonfmu's library runs this file for every instance, with locals of its own, and then drops a
-# reference to the globals that it never had. This is that reference."""
+DOOR = Path(__file__).with_name("door.txt")
 
 
-def door(name: str, package: str, least: int, host: str, needs: str = "", why: str = _WHY) -> str:
+def door(name: str, package: str, least: int, host: str, needs: str = "") -> bytes:
     """The module that pythonfmu loads of a package's slave.
 
     least: of 3.x; host, needs: in words and as code, what else the host's Python must be.
     """
-    return _DOOR.format(name=name, package=package, least=least, host=host, needs=needs, why=why)
-
-
-DOOR = door(NAME, "stickslip", 10, "is new enough")
+    told = {"name": name, "package": package, "least": least, "host": host, "needs": needs}
+    return DOOR.read_text(encoding="utf-8").format(**told).encode()
 
 
 def sources(catalogue: Catalogue = CATALOGUE) -> dict[str, bytes]:
     """Path inside the FMU's resources -> content, before anything is renamed."""
     texts = {
-        f"{MODULE}.py": DOOR,
         "stickslip/__init__.py": PACKAGE_DOC,
         "stickslip/unit_slave.py": slave_file("unit_slave").read_text(encoding="utf-8"),
         "stickslip/slave.py": one_kernel(slave_file("slave").read_text(encoding="utf-8")),
     }
     texts |= {f"stickslip/{name}.py": text for name, text in travelling(catalogue.effects).items()}
-    return {name: text.encode() for name, text in texts.items()}
+    files = {name: text.encode() for name, text in texts.items()}
+    return files | {f"{MODULE}.py": door(NAME, "stickslip", 10, "is new enough")}
 
 
 def slave_file(name: str) -> Path:
@@ -103,56 +83,53 @@ RECIPE_FILES = (
     Path(description.__file__),
     *sorted(Path(description.__file__).parent.glob("*.xml.j2")),
     Path(ports.__file__).with_name("ports.toml"),
+    Path(__file__).parent / "thermal" / "python_unit.py",
 )
-
-
-def content_hash(files: dict[str, bytes] | None = None, table: list[Entry] | None = None) -> str:
-    """Twelve hex digits over everything that an FMU built now would be made of."""
-    files = sources() if files is None else files
-    table = parameter_table() if table is None else table
-    recipe = {f"recipe/{file.name}": file.read_bytes() for file in RECIPE_FILES}
-    return hash_of(files | recipe, table)
-
-
-def hash_of(files: dict[str, bytes], table: list[Any]) -> str:
-    """Twelve hex digits over files and declarations, and pythonfmu."""
-    digest = digest_of(files)
-    digest.update(json.dumps(table, sort_keys=True).encode())
-    digest.update(version("pythonfmu").encode())
-    return digest.hexdigest()[:12]
+#: What a slave is told of a variable, and beside it where the slave has it.
+TOLD = "name causality type start min max above_min nominal is_tunable".split()
 
 
 def build(
     directory: Path, files: dict[str, bytes] | None = None, catalogue: Catalogue = CATALOGUE
 ) -> Path:
     """Make the FMU in a directory and return its path; other content than ours for tests."""
-    files = sources(catalogue) if files is None else files
-    table, declared = parameter_table(catalogue), variables(catalogue)
-    content = content_hash(files, table)
+    declared = variables(catalogue)
+    places = {each.name: getattr(layout, each.slot) for each in declared if each.slot}
+    places |= {each.name: layout.O_SIZE + place for place, each in enumerate(WATCHED)}
     said = f"{DESCRIPTION}. For hosts with a Python of 3.10 or newer"
-    files = files | {"stickslip/variables.py": variables_module(table, content)}
-    raw = by_pythonfmu(files, MODULE, "stickslip", content)
-    documentation = of_mechanics(NAME, declared, catalogue)
-    made = finished(raw, facts_of(NAME, content, said), declared, documentation)
+    files = sources(catalogue) if files is None else files
+    facts, raw = by_pythonfmu(NAME, said, files, (MODULE, "stickslip"), declared, places)
+    made = finished(raw, facts, declared, of_mechanics(NAME, declared, catalogue))
     return write_bytes(made, directory / FMU)
 
 
 def by_pythonfmu(
-    files: dict[str, bytes], module: str, package: str, content: str
-) -> dict[str, bytes]:
-    """What pythonfmu makes of a slave: path in the unit -> content.
+    name: str,
+    said: str,
+    files: dict[str, bytes],
+    top: tuple[str, str],
+    declared: Sequence[Variable],
+    places: Mapping[str, Any],
+    **more: Any,
+) -> tuple[UnitFacts, dict[str, bytes]]:
+    """What pythonfmu makes of a slave: path in the unit -> content; and what the unit says of it.
 
-    files: path inside the resources -> content, with the package's module `variables`, which tells
-    the slave what it is. module: name of the door, without the hash; package: of all else that
-    travels; content: the hash.
+    said, more: of that. files: path inside the resources -> content. top: names of the door and of
+    the package of all else that travels, without the hash; its module `variables`, which is made
+    here, tells the slave what it is. places: input or output -> where the slave has it.
     """
     from pythonfmu import FmuBuilder
 
-    hashed = {name: f"{name}_{content}" for name in (module, package)}
+    content = _hash_of(files, declared)
+    tool = f"stickslip, pythonfmu {version('pythonfmu')}"
+    facts = UnitFacts(name, guid_of(name, content), said, tool=tool, python=True, **more)
+    module, package = top
+    told = _variables_module(content, facts.guid, declared, places)
+    hashed = {each: f"{each}_{content}" for each in top}
     with scratch_folder(module) as folder:
         scratch = Path(folder)
-        for name, source in files.items():
-            target = scratch / _renamed(name, hashed)
+        for file, source in (files | {f"{package}/variables.py": told}).items():
+            target = scratch / _renamed(file, hashed)
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_bytes(_rename_imports(source, package, hashed[package]))
         unit = FmuBuilder.build_FMU(
@@ -164,7 +141,16 @@ def by_pythonfmu(
             canSerializeFMUstate=True,
         )
         with zipfile.ZipFile(unit) as archive:
-            return {name: archive.read(name) for name in archive.namelist()}
+            return facts, {file: archive.read(file) for file in archive.namelist()}
+
+
+def _hash_of(files: Mapping[str, bytes], declared: Sequence[Variable]) -> str:
+    """Twelve hex digits over everything that a unit is made of."""
+    recipe = {f"{file.parent.name}/{file.name}": file.read_bytes() for file in RECIPE_FILES}
+    digest = digest_of(dict(files) | recipe)
+    digest.update(json.dumps([asdict(each) for each in declared], sort_keys=True).encode())
+    digest.update(version("pythonfmu").encode())
+    return digest.hexdigest()[:12]
 
 
 def _renamed(name: str, names: dict[str, str]) -> Path:
@@ -196,37 +182,15 @@ def finished(
     return packed(files | documentation | extras(others=["pythonfmu"]))
 
 
-def facts_of(name: str, content: str, said: str, **more: Any) -> UnitFacts:
-    """Of a unit by way of pythonfmu, by the hash of its content."""
-    tool = f"stickslip, pythonfmu {version('pythonfmu')}"
-    return UnitFacts(name, guid_of(name, content), said, tool=tool, python=True, **more)
-
-
-def variables_module(table: list[Entry], content: str) -> bytes:
-    """Text of the module that tells the slave what it is; ``content``: hash of the build."""
-    values = {
-        "BUILD": content,
-        "GUID": guid_of(NAME, content),
-        # (name, place in u, start, min, max, nominal) and (name, place in o, type)
-        "INPUTS": [
-            (each.name, getattr(layout, each.slot), each.start, each.min, each.max, each.nominal)
-            for each in ports.INPUTS
-        ],
-        "OUTPUTS": [
-            *(
-                (each.name, getattr(layout, each.slot), "Integer" if each.unit is None else "Real")
-                for each in ports.OUTPUTS
-            ),
-            *((each.name, layout.O_SIZE + place, "Boolean") for place, each in enumerate(WATCHED)),
-        ],
-        "PARAMETERS": table,
-        "TUNABLE": TUNABLE,
-    }
-    return module_of(values)
-
-
-def module_of(values: dict[str, Any]) -> bytes:
-    """Text of a module with these names, which tells a slave what it is."""
+def _variables_module(
+    content: str, guid: str, declared: Sequence[Variable], places: Mapping[str, Any]
+) -> bytes:
+    """Text of the module that tells a slave what it is; ``content``: hash of the build."""
+    told = [
+        {key: getattr(each, key) for key in TOLD} | {"place": places.get(each.name)}
+        for each in declared
+    ]
+    values = {"BUILD": content, "GUID": guid, "VARIABLES": told}
     lines = ['"""What this build of the unit is, its ports and its parameters."""']
     for name, value in values.items():
         lines.append(f"{name} = {pprint.pformat(value, width=100, sort_dicts=False)}")

@@ -9,7 +9,6 @@ from typing import Any, get_args, get_origin
 from pydantic.fields import FieldInfo
 from stickslip import Parameters, ports
 from stickslip.catalogue import CATALOGUE, Catalogue
-from stickslip.kernel import layout
 from stickslip.packaged import packaged_tables
 from stickslip.quantity import details
 from stickslip.units import UNITS
@@ -20,31 +19,6 @@ Entry = dict[str, Any]
 
 #: Guides, terminals, and what the unit has that its model has not.
 DECLARED = packaged_tables(__package__, "variables.toml")
-_WITHOUT: Entry = {"unit": None, "nominal": None, "max": None, "above_min": False}
-#: Parameters that the FMU shows otherwise than the parameter models do.
-GUIDES: dict[str, Entry] = {
-    key: _WITHOUT
-    | {
-        "min": 0,
-        "max": 1,
-        "description": f"1: the block can move in {motion}; 0: a guide keeps it from that",
-    }
-    for key, motion in DECLARED["guides"].items()
-}
-SPECIAL: dict[str, Entry] = {
-    "rig.inertia": {
-        "min": 0,
-        "description": "moment of inertia about the vertical; 0: that of a disc, m a^2 / 2",
-    },
-    **{
-        f"friction.table_{of}[{i + 1}]": {"min": 0}
-        for of, limit in (("speed", layout.CURVE_LIMIT), ("mu", layout.TABLE_LIMIT))
-        for i in range(limit)
-    },
-}
-#: Of the unit alone: what it does with its inputs, and bounds of what it watches, see `WATCHED`.
-HOLD: Entry = _WITHOUT | DECLARED["hold"]
-LIMITS: tuple[Entry, ...] = tuple(_WITHOUT | each for each in DECLARED["limits"])
 #: Parameters that may be changed in a run, where a unit can take that.
 TUNABLE = ("friction.mu_s", "friction.mu_k")
 
@@ -61,9 +35,9 @@ class Variable:
 
     name: str
     causality: str
-    unit: str | None
-    nominal: float | None
     description: str
+    unit: str | None = None
+    nominal: float | None = None
     min: float | int | None = None
     max: float | int | None = None
     above_min: bool = False
@@ -74,9 +48,11 @@ class Variable:
     is_boolean: bool = False
 
     @property
-    def is_integer(self) -> bool:
-        """Whether it is of the type Integer of FMI; else it is Real, or Boolean."""
-        return self.unit is None and not self.is_boolean
+    def type(self) -> str:
+        """Its type in FMI 2: Real, Integer or Boolean."""
+        if self.is_boolean:
+            return "Boolean"
+        return "Integer" if self.unit is None else "Real"
 
     @property
     def is_discrete(self) -> bool:
@@ -96,31 +72,28 @@ class Variable:
 
 #: Outputs of the unit alone: what no rig bears. The model goes on as if it did.
 WATCHED = tuple(
-    Variable(name, "output", None, None, text, is_boolean=True)
-    for name, text in DECLARED["watched"].items()
+    Variable(name, "output", text, is_boolean=True) for name, text in DECLARED["watched"].items()
 )
+#: Parameters of the unit alone: what it does with its inputs, and bounds of what it watches.
+OWN = tuple(Variable(causality="parameter", **each) for each in DECLARED["parameters"])
 
 
 def variables(catalogue: Catalogue = CATALOGUE) -> list[Variable]:
-    """All of them: inputs, outputs, parameters."""
+    """All of them: inputs, outputs, parameters.
+
+    Parameters have unit, bounds and description from the parameter models. They start as a
+    scenario's file that leaves all out: a rig that can be built. Raises ValueError for a unit that
+    `UNITS` lacks.
+    """
+    kind = Parameters.of(catalogue)
+    starts = kind.model_validate(rig_defaults()).flat()
     return [
         *(_of_port(port, "input") for port in ports.INPUTS),
         *(_of_port(port, "output") for port in ports.OUTPUTS),
         *WATCHED,
-        *(Variable(causality="parameter", **entry) for entry in parameter_table(catalogue)),
+        *(_parameter(kind, name, start) for name, start in starts.items()),
+        *OWN,
     ]
-
-
-def parameter_table(catalogue: Catalogue = CATALOGUE) -> list[Entry]:
-    """Every parameter of the FMU, with unit, bounds and description from the parameter models.
-
-    One entry each: name, unit (None: an integer), nominal, min, max, above_min (whether min itself
-    is excluded), description, start. The starts are those of a scenario's file that leaves all
-    out: a rig that can be built. Raises ValueError for a unit that `UNITS` lacks.
-    """
-    kind = Parameters.of(catalogue)
-    starts = kind.model_validate(rig_defaults()).flat()
-    return [*(_entry(kind, name, start) for name, start in starts.items()), HOLD, *LIMITS]
 
 
 def rig_defaults() -> dict[str, Entry]:
@@ -172,16 +145,16 @@ def bounds_of(field: FieldInfo) -> dict[str, float]:
     }
 
 
-def _entry(kind: type[Parameters], name: str, start: float) -> Entry:
-    group, key = name.split(".")
-    entry = {"name": name, "nominal": abs(start) or 1.0, "start": start} | GUIDES.get(key, {})
-    if key in GUIDES:
-        return entry | {"start": int(start)}
+def _parameter(kind: type[Parameters], name: str, start: float) -> Variable:
+    base = name.partition("[")[0]  # of an array, of which all elements are alike
+    group, key = base.split(".")
     table: Any = kind.model_fields[group].annotation
-    told = declared(table.model_fields[key.partition("[")[0]], f"effect or table {group}: {key}")
-    if told["unit"] is None:
-        entry |= {"start": int(start), "nominal": None}
-    return entry | told | SPECIAL.get(name, {})
+    field = table.model_fields.get(key)
+    told = {} if field is None else declared(field, f"effect or table {group}: {key}")
+    told |= DECLARED["otherwise"].get(base, {})
+    if told.get("unit") is None:
+        return Variable(name, "parameter", start=int(start), **told)
+    return Variable(name, "parameter", nominal=abs(start) or 1.0, start=start, **told)
 
 
 def declared(field: FieldInfo, label: str) -> Entry:

@@ -22,7 +22,7 @@ NAME, HEAT = "explorer", "explorer_heat"
 SHARED = {
     NAME: (
         *("kernel.c", "kernel.h", "draws.c", "draws.h", "words.c", "words.h"),
-        *("variables.c", "variables.h", "unit.h", "model.h"),
+        *("sentences.c", "variables.c", "variables.h", "unit.h", "model.h"),
     ),
     HEAT: (
         *("belt.c", "belt.h", "ice.c", "ice.h", "linear.c", "linear.h", "water.c", "water.h"),

@@ -38,7 +38,7 @@ from cosim.systems.specification import Link, Start, SystemSpecification, UnitEn
 from cosim.systems.system_errors import SystemFault, naming
 
 #: Types of variables whose number may be given as a text with its unit.
-WITH_UNIT = (*REALS, "Integer", *INTEGERS)
+WITH_UNIT = (*REALS, *INTEGERS)
 #: More macro steps than this are a slip of the unit, and have no end.
 MOST_STEPS = 1_000_000_000
 #: Of a run where nobody names a step.
@@ -224,8 +224,7 @@ def _written_unit(text: str) -> UnitDefinition | None:
     base = base_units(text)
     if base is None:
         return None
-    kg, m, s, ampere, kelvin, mol, cd, rad = (int(base.get(name, 0)) for name in BASE_UNITS)
-    exponents = (kg, m, s, ampere, kelvin, mol, cd, rad)
+    exponents = tuple(int(base.get(name, 0)) for name in BASE_UNITS)
     return UnitDefinition(exponents, base.get("factor", 1.0), base.get("offset", 0.0))
 
 

@@ -258,7 +258,8 @@ class Parameters(EffectTables):
                 f"{self.friction.mu_s:g}: the contact then holds up to {said}",
                 stacklevel=2,
             )
-        if self.rig.spring_natural_length > self.rig.spring_length and self._can_swerve():
+        can_swerve = len(self.rig.degrees_of_freedom) > 1
+        if self.rig.spring_natural_length > self.rig.spring_length and can_swerve:
             warnings.warn(
                 f"rig.spring_natural_length = {self.rig.spring_natural_length:g} m exceeds "
                 f"rig.spring_length = {self.rig.spring_length:g} m: the springs push, and the "
@@ -279,9 +280,6 @@ class Parameters(EffectTables):
                         f"friction.table_speed beside {effect.id}.{name} = {value:g}, another law "
                         "of the sliding speed; give one of the two"
                     )
-
-    def _can_swerve(self) -> bool:
-        return len(self.rig.degrees_of_freedom) > 1
 
     def flat(self) -> dict[str, float]:
         """The FMU's parameters: ``table.parameter`` -> number (see `packing.pack`)."""

@@ -99,14 +99,8 @@ class Belt(Table, strict=False):
     @property
     def stack(self) -> tuple[Layer, ...]:
         """The layers, one of the belt's own properties when none are given."""
-        return self.layers or (
-            Layer(
-                thickness=self.thickness,
-                density=self.density,
-                heat_capacity=self.heat_capacity,
-                conductivity=self.conductivity,
-            ),
-        )
+        own = {name: getattr(self, name) for name in Layer.model_fields}
+        return self.layers or (Layer(**own),)
 
     @property
     def capacity_per_area(self) -> float:

@@ -53,7 +53,7 @@ class BeltSeries:
         self._weight = np.where(number == 0, 1.0, 2.0)
         self.railing_heat_factor: float = 1.0
         self.roller_rise_factor: float = 1.0
-        self._places = places = Places(belt, footprint)
+        self.places = places = Places(belt, footprint)
         of_strips = np.repeat(places.faces, [edges.size - 1 for edges in places.edges])
         self._on = [of_strips == face for face in np.unique(places.faces)]
         middles = np.concatenate([0.5 * (edges[1:] + edges[:-1]) for edges in places.edges])
@@ -84,7 +84,7 @@ class BeltSeries:
         rates = np.asarray(self._rates + 1j * speed * self._wave, dtype=np.complex128)
         of_step, length = step(rates, duration), self._belt.length
         held = of_step.held_mean * (self._weight / length)
-        rows = np.empty((self._places.areas.size, self._places.areas.size))
+        rows = np.empty((self.places.areas.size, self.places.areas.size))
         for on_a, face_a in zip(self._on, self._faces, strict=True):
             for on_b, face_b in zip(self._on, self._faces, strict=True):
                 # Re(conj(r) g s) summed, by a real product: half the work of a complex one.
@@ -92,13 +92,13 @@ class BeltSeries:
                 rows[np.ix_(on_a, on_b)] = (
                     self._rows[on_a].view(np.float64) @ right.view(np.float64).T
                 )
-        rows /= self._places.areas[:, None]
+        rows /= self.places.areas[:, None]
         return Response(of_step.decay, of_step.mean, of_step.held / length, rows)
 
     def step_response(self, duration: float, speed: float) -> Eliminated:
         """The belt as the contact finds it in a step (s) at a speed (m/s)."""
         response = self.response(duration, speed)
-        places = self._places
+        places = self.places
         given = (
             self.roller_rise_factor * places.conductances * places.rises
             + self.railing_heat_factor * places.drags * abs(speed)
@@ -118,11 +118,11 @@ class BeltSeries:
 
     def _means(self, amplitudes: Spectrum) -> Array:
         """Means over the rows' areas of a field's faces, K: (rows,)."""
-        means = np.empty(self._places.areas.size)
+        means = np.empty(self.places.areas.size)
         for on, face in zip(self._on, self._faces, strict=True):
             series = self._weight * (face @ amplitudes)
             means[on] = self._rows[on].view(np.float64) @ series.view(np.float64)
-        return means / self._places.areas
+        return means / self.places.areas
 
     def strip_means(self) -> Array:
         """Face under the strips of the contact, from entry to exit, K: (strips,)."""
@@ -150,8 +150,3 @@ class BeltSeries:
     def slowest_rate(self) -> float:
         """1/s, with which a belt cools that gives heat to the air alone."""
         return float(self._modes.rates[0])
-
-    @property
-    def takes_heat(self) -> bool:
-        """Does a support take heat?"""
-        return self._places.take_heat

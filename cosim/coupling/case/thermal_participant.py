@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from stickslip.packaged import packaged_tables
 
 from cosim.coupling import Waveform, inputs, outputs, port_table
 from cosim.processes import apart
@@ -23,27 +24,8 @@ ROUNDING = 1e-12
 #: good as that of the mechanical side. The next steps make up for it.
 ADVANCE = 1e-6
 
-PORTS = inputs(heat="J", surface_travel="m", x="m") + outputs(
-    interface_temperature="degC",
-    belt_entry_temperature="degC",
-    belt_exit_temperature="degC",
-    ice_face_temperature="degC",
-    belt_share="1",
-    melt_rate="kg/s",
-    melted_mass="kg",
-    refrozen_mass="kg",
-    wiped_ice_mass="kg",
-    film_thickness="m",
-    heat_received="J",
-    railing_heat="J",
-    belt_heat="J",
-    ice_heat="J",
-    air_heat="J",
-    support_heat="J",
-    latent_heat="J",
-    meltwater_heat="J",
-    heat_residual="J",
-)
+_DECLARED = packaged_tables(__package__, "ports.toml")
+PORTS = inputs(**_DECLARED["inputs"]) + outputs(**_DECLARED["outputs"])
 #: Sizes that are typical, where 1 in the unit is not: a film of a metre would hide one of microns.
 NOMINAL = {"film_thickness": 1e-6}
 

@@ -48,13 +48,9 @@ class FmuLog:
     def log_message(
         self, environment: object, status: int, category: bytes | None, message: bytes | None
     ) -> None:
-        """FMI 3.0's callback."""
-        self.add(status, category, message)
-
-    def add(self, status: int, category: bytes | None, message: bytes | None) -> None:
         """Keep a message, and what reports a failure (discard, error or fatal) until it is asked.
 
-        Called from C, through which no exception finds its way.
+        FMI 3.0's callback, called from C, through which no exception finds its way.
         """
         word = STATUSES[status] if 0 <= status < len(STATUSES) else "error"
         if word == "ok" and not self._debug:
@@ -87,7 +83,7 @@ def _dispatch(
 ) -> None:
     log = _logs.get(environment or 0)
     if log is not None:
-        log.add(status, category, message)
+        log.log_message(environment, status, category, message)
 
 
 # Kept for the life of the process: C code holds pointers to them.

@@ -16,9 +16,9 @@ from cosim.names import unknown_name
 Setting = float | int | bool | str
 
 #: Types that fit a port, a number: of FMI 2.0, of FMI 3.0, of both.
-INTEGERS = ("Int8", "UInt8", "Int16", "UInt16", "Int32", "UInt32", "Int64", "UInt64")
-NUMERIC = ("Real", "Integer", "Float32", "Float64", *INTEGERS, "Boolean", "Enumeration")
 REALS = ("Real", "Float32", "Float64")
+INTEGERS = ("Integer", *(f"{sign}Int{bits}" for sign in ("", "U") for bits in (8, 16, 32, 64)))
+NUMERIC = (*REALS, *INTEGERS, "Boolean", "Enumeration")
 #: Kind of a setting that says what a variable starts from.
 START = "start value"
 #: Elements of all arrays of a unit, more is no set of ports.
@@ -134,7 +134,7 @@ def definitions_of(description: ModelDescription) -> dict[str, UnitDefinition]:
     """Unit -> what it is made of, of those that an FMU defines."""
     return {
         unit.name: UnitDefinition(
-            tuple(int(getattr(unit.baseUnit, base)) for base in BASE_UNITS),  # type: ignore[arg-type]
+            tuple(int(getattr(unit.baseUnit, base)) for base in BASE_UNITS),
             float(unit.baseUnit.factor),
             float(unit.baseUnit.offset),
         )

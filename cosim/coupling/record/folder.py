@@ -23,20 +23,7 @@ except ImportError:  # Windows
 UNFINISHED = "unfinished"
 RECORD, COLUMNS, CHECKPOINT = "record.npy", "record.json", "checkpoint.zip"
 _ASKED, _LOCK, _READ_ME = "run.json", "lock", "README.txt"
-
-_EXPLANATION = """\
-The run whose results belong in the folder above is not complete: it goes on just now, or was cut
-off. Where it was cut off,
-
-    {resume}
-
-goes on from the newest checkpoint, and the results are those of a run that was never cut off.
-
-record.npy      all rows so far, for numpy.load("record.npy", mmap_mode="r"), also while it grows
-record.json     names and units of its columns
-checkpoint.zip  what the run goes on from, once there is one
-run.json        what the run was asked for
-"""
+EXPLANATION = Path(__file__).with_name("unfinished.txt")
 
 
 class RunFolder:
@@ -76,7 +63,7 @@ class RunFolder:
             raise OutputError(f"{folder.path}: cannot be written: {error.strerror}") from error
         own = {
             _ASKED: json.dumps(dict(asked), indent=1) + "\n",
-            _READ_ME: _EXPLANATION.format(resume=asked.get("resume", "")),
+            _READ_ME: EXPLANATION.read_text("utf-8").format(resume=asked.get("resume", "")),
         }
         for name, text in (own | dict(files)).items():
             write_text(text, folder.path / name)

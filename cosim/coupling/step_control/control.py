@@ -28,30 +28,24 @@ class ConvergenceError(RuntimeError):
     """A step that did not converge, or could not be made small enough; one line with a remedy."""
 
 
+@dataclass
 class Stepper:
     """Makes one step by a scheme, repeated where a participant ends it early or it diverges.
 
-    on_divergence : of `POLICIES`; "halve" goes down to `smallest` (s), then it stops.
+    on_divergence : of `POLICIES`; "halve" goes down to `smallest` (s), then it stops. marks :
+    whether it may have to go back.
     """
 
-    def __init__(
-        self,
-        exchange: Exchange,
-        scheme: Scheme,
-        *,
-        on_divergence: str = STOP,
-        smallest: float = 0.0,
-        marks: bool = False,
-    ):
-        if on_divergence not in POLICIES:
-            raise CouplingError(
-                f"on_divergence = {on_divergence!r}: must be one of {', '.join(POLICIES)}"
-            )
-        self.exchange: Exchange = exchange
-        self.scheme: Scheme = scheme
-        self.on_divergence: str = on_divergence
-        self.smallest: float = smallest
-        self._marks = marks
+    exchange: Exchange
+    scheme: Scheme
+    on_divergence: str = STOP
+    smallest: float = 0.0
+    marks: bool = False
+
+    def __post_init__(self) -> None:
+        if self.on_divergence not in POLICIES:
+            allowed = ", ".join(POLICIES)
+            raise CouplingError(f"on_divergence = {self.on_divergence!r}: must be one of {allowed}")
 
     def make(self, end: float) -> float:
         """Step from the exchange's time to an end (s), or less far; the time reached, s.
@@ -61,7 +55,7 @@ class Stepper:
         exchange = self.exchange
         began = exchange.now
         size, by_event, halved = end - began, False, 0
-        with exchange.marked() if self._marks else nullcontext() as mark:
+        with exchange.marked() if self.marks else nullcontext() as mark:
             while True:
                 try:
                     done = self.scheme.step(exchange, size)
@@ -142,46 +136,12 @@ class StepControl(Protocol):
         """Go on from what `state` gave."""
 
 
-class Grid:
-    """Times t_n = start + n H with the end hit exactly; the last step may be shorter.
-
-    Computed from n, never by adding up, so that nothing drifts. Raises CouplingError.
-
-    >>> list(Grid(0.0, 0.25, 0.1))
-    [0.0, 0.1, 0.2, 0.25]
-    """
-
-    def __init__(self, start: float, stop: float, macro_step: float):
-        for key, value in (("start", start), ("stop", stop), ("macro_step", macro_step)):
-            if not math.isfinite(value):
-                raise CouplingError(f"{key} = {value}: must be a finite number of seconds")
-        if macro_step <= 0:
-            raise CouplingError(f"macro_step = {macro_step:g} s: must be greater than 0")
-        if stop <= start:
-            raise CouplingError(f"stop = {stop:g} s: must be later than start = {start:g} s")
-        self.start: float = start
-        self.stop: float = stop
-        self.macro_step: float = macro_step
-        self.steps: int = max(1, math.ceil((stop - start) / macro_step - SLIVER))
-        # steps are the smaller, the later, in what a number of that size can tell apart
-        late = start + (self.steps - 1) * macro_step
-        if start + macro_step <= start or late >= stop or late + macro_step <= late:
-            raise CouplingError(f"macro_step = {macro_step:g} s: too small to advance {start:g} s")
-
-    def __len__(self) -> int:
-        return self.steps + 1
-
-    def __getitem__(self, n: int) -> float:
-        if not 0 <= n <= self.steps:
-            raise IndexError(n)
-        return self.stop if n == self.steps else self.start + n * self.macro_step
-
-
 @dataclass
 class FixedStep(StepControl):
     """Communication points on a grid, and at known events between them.
 
-    macro_step: s.
+    The grid is t_n = start + n macro_step (s), computed from n, never by adding up, so that nothing
+    drifts; its end is hit exactly, by a last step that may be shorter.
     """
 
     macro_step: float
@@ -193,12 +153,26 @@ class FixedStep(StepControl):
 
     def begin(self, start: float, stop: float, scheme: Scheme) -> None:
         """The grid from start to stop (s)."""
-        self._grid = Grid(start, stop, self.macro_step)
+        size = self.macro_step
+        for key, value in (("start", start), ("stop", stop), ("macro_step", size)):
+            if not math.isfinite(value):
+                raise CouplingError(f"{key} = {value}: must be a finite number of seconds")
+        if size <= 0:
+            raise CouplingError(f"macro_step = {size:g} s: must be greater than 0")
+        if stop <= start:
+            raise CouplingError(f"stop = {stop:g} s: must be later than start = {start:g} s")
+        self._start, self._stop = start, stop
+        self._steps = max(1, math.ceil((stop - start) / size - SLIVER))
+        # steps are the smaller, the later, in what a number of that size can tell apart
+        late = start + (self._steps - 1) * size
+        if start + size <= start or late >= stop or late + size <= late:
+            raise CouplingError(f"macro_step = {size:g} s: too small to advance {start:g} s")
         self._made, self._on_grid = 0, True
 
     def step(self, stepper: Stepper, stop: float) -> float:
         """To the next time of the grid, or as far as `stop` or an event lets it."""
-        goal = self._grid[self._made + 1]
+        n = self._made + 1
+        goal = self._stop if n == self._steps else self._start + n * self.macro_step
         if abs(goal - stop) <= SLIVER * self.macro_step:
             goal = stop  # an event at 0.6 is that of 6 steps of 0.1, which are 0.6000000000000001
         reached = stepper.make(min(goal, stop))

@@ -5,40 +5,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.metadata import version
 from typing import Any
-from xml.etree.ElementTree import fromstring, indent, tostring
+from xml.etree.ElementTree import fromstring, indent, register_namespace, tostring
 
 from stickslip.units import UNITS
 
-from cosim.fmu.variables import Variable, by_array
+from cosim.fmu.variables import DECLARED, Variable, by_array
 
 LICENSE = "BSD-3-Clause"
-# Initial value of an output -> the parameters that it follows from. Totals start from zero;
-# of the outputs not named here all parameters and inputs have a say.
-STARTS: dict[str, tuple[str, ...]] = {
-    name: (f"initial.{name}",) for name in ("x", "y", "phi", "vx", "vy", "omega")
-} | dict.fromkeys(
-    (
-        *("heat", "heat_flow", "damping_heat", "sliding_distance", "surface_travel"),
-        *("slip_time", "slip_count", "energy_residual"),
-    ),
-    (),
-)
-# Outputs that follow from the inputs of the moment in model exchange.
-DIRECT = (
-    *(f"friction_{of}" for of in ("force_x", "force_y", "moment")),
-    "sliding_speed",
-    "heat_flow",
-    "surface_speed_actual",
-)
+_SAID = DECLARED["dependencies"]
+#: Initial value of an output -> the parameters that it follows from.
+STARTS: Mapping[str, Sequence[str]] = _SAID["starts"]
 #: Event indicators, in the kernel's order, each with what its event is.
-INDICATORS = {
-    "event_indicators.contact": "load of a stick reaches the limit, or a slip is at its end",
-    "event_indicators.sliding": "a slip in the plane passes the speed at which it has a direction",
-    "event_indicators.faster": "a slip in the plane has gained so much speed that a host starts "
-    "anew, or an input has left the course that rates were given for",
-}
-# States that are only counted: no rate depends on them.
-COUNTED = ("heat", "surface_work", "external_work", "damping_heat", "slip_time")
+INDICATORS: Mapping[str, str] = _SAID["indicators"]
 STOP_TIME, STEP_SIZE = "30", "0.01"  # s, of the experiment that a host may take
 
 
@@ -67,14 +45,17 @@ class UnitFacts:
     sources: tuple[str, ...] = ()
     interpolates: bool = True
     gives_rates: bool = True
-    starts: Mapping[str, tuple[str, ...]] = field(default_factory=lambda: STARTS)
+    starts: Mapping[str, Sequence[str]] = field(default_factory=lambda: STARTS)
 
 
 def xml_of(template: str, package: str = __name__, **values: Any) -> bytes:
     """A file of a template that lies in a package; without a date, so that builds repeat."""
     from cosim.report.page import render  # not for who only compiles
 
-    root = fromstring(re.sub(r">\s+<", "><", render(template, package, **values)))
+    text = re.sub(r">\s+<", "><", render(template, package, **values))
+    for prefix, space in re.findall(r'xmlns:(\w+)="(.*?)"', text):
+        register_namespace(prefix, space)  # by which they are written, too
+    root = fromstring(text)
     indent(root)
     found: bytes = tostring(root, encoding="UTF-8", xml_declaration=True)
     return found
@@ -153,7 +134,7 @@ def of_outputs(variables: Sequence[Variable]) -> Dependencies:
 def _direct(variable: Variable, states: list[str]) -> list[str] | None:
     if not states or variable.is_discrete:
         return []
-    if variable.name in DIRECT:
+    if variable.name in _SAID["direct"]:
         return None
     return [variable.name] if variable.is_state else states
 
@@ -164,7 +145,7 @@ def of_rates(variables: Sequence[Variable]) -> Dependencies:
     motion = [
         each.name
         for each in variables
-        if each.causality == "input" or (each.is_state and each.name not in COUNTED)
+        if each.causality == "input" or (each.is_state and each.name not in _SAID["counted"])
     ]
     said = {"der(slip_time)": [], "der(surface_travel)": ["surface_speed"]}
     return {
@@ -175,7 +156,7 @@ def of_rates(variables: Sequence[Variable]) -> Dependencies:
 
 
 def of_initial_unknowns(
-    variables: Sequence[Variable], starts: Mapping[str, tuple[str, ...]]
+    variables: Sequence[Variable], starts: Mapping[str, Sequence[str]]
 ) -> Dependencies:
     """What is there after the initialisation: outputs, states and rates."""
     return {

@@ -22,7 +22,7 @@ from cosim.fmu import c_tables, native
 from cosim.fmu.archive import digest_of, guid_of, packed
 from cosim.fmu.description import UnitFacts
 from cosim.fmu.libraries import FMI2, FMI3, of_platforms
-from cosim.fmu.thermal.variables import DESCRIPTION, NAME, STARTS, reduced
+from cosim.fmu.thermal.variables import DESCRIPTION, ERRORS, NAME, STARTS, reduced
 from cosim.fmu.variables import Variable, names
 
 if TYPE_CHECKING:  # the heat model needs scikit-fem
@@ -38,16 +38,6 @@ MAKERS = (
     Path(c_tables.__file__),
 )
 CAN = {"HAS_EXCHANGE": False, "TAKES_RATES": False, "BEGINS_WITH_INPUTS": False}
-#: Of the documentation: how far the unit is from the whole model, measured.
-ERRORS = (
-    ("interface_temperature", "1.2e-7 (2e-6)", "4e-7 (2e-6)"),
-    ("ice_face_temperature", "7e-8 (2e-6)", "2.2e-7 (1e-6)"),
-    ("belt_entry_temperature", "2.2e-7 (6e-6)", "1.5e-7 (1e-6)"),
-    ("belt_exit_temperature", "1.6e-6 (3e-5)", "1.3e-6 (5e-6)"),
-    ("belt_share", "1.4e-5", "1.4e-5"),
-    ("heat_stored", "1e-6 (2e-7)", "3e-6 (1.3e-7)"),
-    ("heat_to_air", "1e-6 (2e-6)", "3e-6 (9e-7)"),
-)
 #: Of the C of every unit, what is for model exchange.
 NOT_NEEDED = ("exchange.c", "fmi2_exchange.c", "fmi3_exchange.c")
 

@@ -4,14 +4,13 @@ The slave travels; the package `thermal`, with numpy, scipy and scikit-fem, is t
 Python. `cosim.fmu.python_unit` says how a unit is known by its content.
 """
 
-from dataclasses import asdict
 from pathlib import Path
 
 from cosim.files import write_bytes
 from cosim.fmu import python_unit
 from cosim.fmu.thermal.reference_run import of_heat, reference_parameters
 from cosim.fmu.thermal.variables import DESCRIPTION, NAME, REFERENCE, STARTS, inputs, outputs
-from cosim.fmu.variables import Variable, declared, names
+from cosim.fmu.variables import Variable, declared
 from thermal import ThermalParameters
 
 FMU = f"{NAME}-python.fmu"
@@ -26,7 +25,6 @@ except ImportError as error:
         "BeltIceThermal.fmu needs no Python" % (sys.executable, error)
     ) from None
 """
-SEE = "# see the door of StickSlip3DOF"
 
 
 def parameters() -> list[Variable]:
@@ -49,10 +47,9 @@ def variables() -> list[Variable]:
 
 def sources() -> dict[str, bytes]:
     """Path inside the FMU's resources -> content, before anything is renamed."""
-    door = python_unit.door(NAME, PACKAGE, 11, "has the heat model", NEEDS, SEE)
     travel = {"slave": "thermal_slave", "unit_slave": "unit_slave"}
     return {
-        f"{MODULE}.py": door.encode(),
+        f"{MODULE}.py": python_unit.door(NAME, PACKAGE, 11, "has the heat model", NEEDS),
         f"{PACKAGE}/__init__.py": b'"""The slave of BeltIceThermal, as it travels."""\n',
         **{
             f"{PACKAGE}/{name}.py": python_unit.slave_file(file).read_bytes()
@@ -63,25 +60,11 @@ def sources() -> dict[str, bytes]:
 
 def build(directory: Path) -> Path:
     """Make the unit in a directory and return its path."""
-    every, files = variables(), sources()
-    recipe = {f"recipe/{file.name}": file.read_bytes() for file in python_unit.RECIPE_FILES}
-    recipe["recipe/thermal.py"] = Path(__file__).read_bytes()
-    content = python_unit.hash_of(files | recipe, [asdict(each) for each in every])
+    every = variables()
     said = f"{DESCRIPTION}. Finite elements; for hosts with a Python that has stickslip"
-    facts = python_unit.facts_of(NAME, content, said, starts=STARTS)
-    tells = {
-        "BUILD": content,
-        "GUID": facts.guid,
-        "INPUTS": [
-            (each.name, each.name, each.start, each.min, each.max, each.nominal)
-            for each in every
-            if each.causality == "input"
-        ],
-        "OUTPUTS": [(name, name, "Real") for name in names(every, "output")],
-        "PARAMETERS": [asdict(each) for each in every if each.causality == "parameter"],
-    }
-    files |= {f"{PACKAGE}/variables.py": python_unit.module_of(tells)}
-    raw = python_unit.by_pythonfmu(files, MODULE, PACKAGE, content)
-    documentation = of_heat(reference_parameters(), every)
-    made = python_unit.finished(raw, facts, every, documentation)
+    places = {each.name: each.name for each in every}
+    facts, raw = python_unit.by_pythonfmu(
+        NAME, said, sources(), (MODULE, PACKAGE), every, places, starts=STARTS
+    )
+    made = python_unit.finished(raw, facts, every, of_heat(reference_parameters(), every))
     return write_bytes(made, directory / FMU)

@@ -8,8 +8,6 @@ there as well, with the components' names before the parameters'.
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
-from xml.etree.ElementTree import register_namespace
 
 from stickslip.catalogue import CATALOGUE, Catalogue
 from stickslip.generation.platforms import PLATFORMS, Platform
@@ -37,11 +35,7 @@ CONNECTIONS = (
 )
 #: Outputs that are not connected: with them, who runs the system checks the balance of the heat.
 BALANCE = ("heat_received", "heat_stored", "heat_to_air")
-_NAMES = {
-    "ssd": "http://ssp-standard.org/SSP1/SystemStructureDescription",
-    "ssc": "http://ssp-standard.org/SSP1/SystemStructureCommon",
-    "ssv": "http://ssp-standard.org/SSP1/SystemStructureParameterValues",
-}
+HERE = "cosim.fmu.thermal"
 
 
 def build(
@@ -64,9 +58,9 @@ def build(
 def values(catalogue: Catalogue) -> bytes:
     """The set of values for tools that take it from a file."""
     known = {each.name: each for each in exchange.variables(catalogue)}
-    chosen, spaces = _changed(known), {"xmlns:ssv": _NAMES["ssv"]}
     before = f"{MECHANICS}."
-    return _xml("values.xml.j2", known=known, chosen=chosen, before=before, spaces=spaces)
+    told = {"known": known, "chosen": _changed(known), "before": before, "set": SET}
+    return xml_of("values.xml.j2", HERE, **told)
 
 
 def _changed(known: Mapping[str, Variable]) -> dict[str, float]:
@@ -92,17 +86,12 @@ def description(catalogue: Catalogue) -> bytes:
         ends += [port for port in BALANCE if port in known]
         units.append((name, fmu, known, ends, chosen))
         used |= {known[key].unit or "" for key in (*ends, *chosen)} - {""}
-    return _xml(
+    return xml_of(
         "system.xml.j2",
+        HERE,
+        set=SET,
         units=units,
         connections=CONNECTIONS,
         used={unit: UNITS[unit] or {} for unit in sorted(used)},
         stop=STOP_TIME,
-        spaces={f"xmlns:{prefix}": space for prefix, space in _NAMES.items()},
     )
-
-
-def _xml(template: str, **given: Any) -> bytes:
-    for prefix, space in _NAMES.items():
-        register_namespace(prefix, space)
-    return xml_of(template, "cosim.fmu.thermal", set=SET, **given)

@@ -17,6 +17,8 @@ DESCRIPTION = (
     "heat in, temperature of the interface out"
 )
 _DECLARED = packaged_tables(__package__, "variables.toml")
+#: Output -> how far the reduced unit is from the whole model, at a low and a high speed.
+ERRORS: Mapping[str, list[str]] = _DECLARED["errors"]
 
 
 def _declared(causality: str) -> list[Variable]:

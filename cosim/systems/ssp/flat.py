@@ -10,10 +10,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from cosim.coupling import UnitDefinition
+from cosim.coupling.fmu.variables import NUMERIC
 from cosim.names import unknown_name
 from cosim.systems.specification import Hop, Link, Start, UnitEntry
 from cosim.systems.ssp.package import Package
-from cosim.systems.ssp.structure import NUMBERS, Connector, Element, Ends
+from cosim.systems.ssp.structure import Connector, Element, Ends
 from cosim.systems.ssp.values import bound_values
 from cosim.systems.system_errors import SystemFault
 
@@ -103,7 +104,7 @@ class Flat:
         """`unit.port` of a connector that can be coupled."""
         connector = self._connector(node)
         for wrong, what, allowed in (
-            (connector.type not in NUMBERS, f"a {connector.type}", "numbers"),
+            (connector.type not in NUMERIC, f"a {connector.type}", "numbers"),
             (connector.is_array, "an array", "its elements"),
             (connector.kind not in ("input", "output"), f"a {connector.kind}", "input and output"),
         ):

@@ -15,6 +15,7 @@ from xml.etree.ElementTree import register_namespace
 
 from cosim.coupling import Affine, UnitDefinition
 from cosim.coupling.conversion import BASE_UNITS
+from cosim.coupling.fmu.variables import NUMERIC
 from cosim.systems.system_errors import SystemFault
 
 _NAMES = {
@@ -27,11 +28,8 @@ _SPACES = {
 for _prefix, _space in _SPACES.items():
     register_namespace(_prefix, _space)
 FMU = "application/x-fmu-sharedlibrary"
-#: Types of a connector or a value that are numbers, in SSP 1.0 and 2.0.
-REALS = ("Real", "Float64", "Float32")
-INTEGERS = ("Integer", *(f"{sign}Int{bits}" for sign in ("", "U") for bits in (8, 16, 32, 64)))
-NUMBERS = (*REALS, *INTEGERS, "Boolean", "Enumeration")
-TYPES = (*NUMBERS, "String", "Binary", "Clock")
+#: Types of a connector or a value, in SSP 1.0 and 2.0.
+TYPES = (*NUMERIC, "String", "Binary", "Clock")
 
 
 #: Masters with a fixed step, of OMSimulator and of the OSP tools -> their key of it.
@@ -128,11 +126,8 @@ def units_of(root: Xml, space: str) -> dict[str, UnitDefinition]:
             factor = _number(base, "factor", 1.0)
             if factor == 0.0:
                 raise SystemFault(f"unit {unit.get('name')!r} has factor = 0, allowed is another")
-            found[unit.get("name", "")] = UnitDefinition(
-                exponents,  # type: ignore[arg-type]  # eight of them
-                factor,
-                _number(base, "offset"),
-            )
+            definition = UnitDefinition(exponents, factor, _number(base, "offset"))
+            found[unit.get("name", "")] = definition
     return found
 
 

@@ -9,11 +9,10 @@ from dataclasses import replace
 from xml.etree.ElementTree import Element
 
 from cosim.coupling import UnitDefinition
+from cosim.coupling.fmu.variables import INTEGERS, REALS
 from cosim.systems.specification import Start
 from cosim.systems.ssp.package import Package
 from cosim.systems.ssp.structure import (
-    INTEGERS,
-    REALS,
     below,
     converts,
     local,

@@ -6,8 +6,7 @@
 #include <math.h>
 #include <stdint.h>
 
-#include "kernel.h"
-#include "variables.h"
+#include "model.h"
 
 enum { WORDS = 624, SHIFT = 397 };
 

@@ -8,23 +8,15 @@ them is a value of its own (`stickslip.catalogue`); their files need no more tha
 from collections.abc import Iterable
 from importlib import import_module
 
-from ..plugins.errors import PluginError
-from ..quantity import Table, quantity
-from .candidate import Candidate, FreeParameter, Scales
-from .effect import Case, Effect, State
-
-__all__ = [
-    "EFFECTS",
-    "Candidate",
-    "Case",
-    "Effect",
-    "FreeParameter",
-    "PluginError",
-    "Scales",
-    "State",
-    "Table",
-    "quantity",
-]
+from ..plugins.errors import PluginError as PluginError
+from ..quantity import Table as Table
+from ..quantity import quantity as quantity
+from .candidate import Candidate as Candidate
+from .candidate import FreeParameter as FreeParameter
+from .candidate import Scales as Scales
+from .effect import Case as Case
+from .effect import Effect as Effect
+from .effect import State as State
 
 FILES = (
     "friction.lateral_friction",

@@ -16,7 +16,7 @@ from ..arrays import interface_temperature as temperature_of
 from ..effects.effect import Effect
 from ..generation.functions import arguments
 from ..generation.slots import state_slot
-from ..kernel.layout import DISTANCE, P_NORMAL_FORCE, STICK, TIME, U_TEMPERATURE, W_STATE, X
+from ..kernel.layout import DISTANCE, P_NORMAL_FORCE, TIME, U_TEMPERATURE, W_STATE, X
 from ..packing import GRAVITY
 from ..parameters import Parameters
 from .law import friction_coefficient
@@ -137,12 +137,7 @@ def _settled(asked: _Asked, speed: float) -> float:
 
 def _over_hold(asked: _Asked, reach: float) -> LawCurve:
     x = np.geomspace(1e-2, 1e3, POINTS)
-    p, u, w = asked.arrays()
-    w[W_STATE + asked.kernel.MODE], w[W_STATE + asked.kernel.HOLD_SINCE] = float(STICK), 0.0
-    y = np.empty(x.size)
-    for i, hold in enumerate(x):
-        w[W_STATE + TIME] = hold
-        y[i] = asked.kernel.static_coefficient(p, u, w)
+    y = asked.over(W_STATE + TIME, x, asked.kernel.static_coefficient)  # held since the start
     return LawCurve("time at rest", "s", x, "static friction coefficient", "1", y, True)
 
 

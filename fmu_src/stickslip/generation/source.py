@@ -32,17 +32,9 @@ _MODULE = re.compile(
 )
 
 
-def kernel_source(effects: Sequence[Effect] = EFFECTS) -> str:
-    """The core's files in order, without their mutual imports, between layout and terms."""
-    return _catalogue_source() if effects is EFFECTS else _source(effects)
-
-
 @cache
-def _catalogue_source() -> str:
-    return _source(EFFECTS)
-
-
-def _source(effects: Sequence[Effect]) -> str:
+def kernel_source(effects: tuple[Effect, ...] = EFFECTS) -> str:
+    """The core's files in order, without their mutual imports, between layout and terms."""
     # those of the catalogue stand as functions in this process already
     made_of = terms.TEXT if effects is EFFECTS else terms_source(effects)
     made = {"layout": layout_source(effects), "terms": made_of}
@@ -51,7 +43,7 @@ def _source(effects: Sequence[Effect]) -> str:
     )
 
 
-def travelling(effects: Sequence[Effect] = EFFECTS) -> dict[str, str]:
+def travelling(effects: tuple[Effect, ...] = EFFECTS) -> dict[str, str]:
     """Module -> text of all that travels inside a unit of the block: the kernel, and how named
     parameters and random numbers enter it. In the order in which each imports those before it."""
     names = f"NAMES = {value_names(effects)}\n"

@@ -32,6 +32,7 @@ class Floats(Protocol):
 MODULES = (
     "layout",
     "terms",
+    "cubic",
     "rig.springs",
     "rig.drive",
     "rig.history",

@@ -97,17 +97,11 @@ class Scheme:
         turned: rad, of the block at the start; the mirror images cancel exactly here, so that
         without scatter an unstable straight motion stays straight unless the start is turned.
         """  # fmt: skip
-        motion = self._motion(duration, seed, q=[0.0, 0.0, turned])
-        motion.run(self._rig(seed), self._faults(), self.effects, cycles, float(duration))
-        return _result(motion)
+        return self._follow(seed, cycles, float(duration), q=[0.0, 0.0, turned])
 
-    def slide(
-        self, duration: float, *, x0: float = 0.0, v0: float = 0.0, seed: int = 0
-    ) -> SchemeRun:
+    def slide(self, duration: float, *, x0: float = 0.0) -> SchemeRun:
         """Slip alone, whatever the block's speed, as the study's verification runs do."""
-        motion = self._motion(duration, seed, q=[x0, 0.0, 0.0], v=[v0, 0.0, 0.0])
-        motion.run(self._rig(seed), self._faults(), self.effects, float(duration))
-        return _result(motion)
+        return self._follow(0, float(duration), q=[x0, 0.0, 0.0])
 
     def _rig(self, seed: int) -> SchemeRig:
         normal_force = self.mass * GRAVITY
@@ -116,47 +110,32 @@ class Scheme:
         force_share, arm = float(np.sqrt(np.sum(shares**2))), shares * middles
         if self.common_scatter:
             force_share, arm = float(shares.sum()), np.zeros_like(arm)
+        own = {name: value for name, value in vars(self).items() if hasattr(SchemeRig, name)}
         return SchemeRig(
-            mass=self.mass,
+            **own,
             inertia=self.mass * self.radius**2,
-            stiffness=float(self.stiffness),
             normal_force=normal_force,
-            speed=float(self.speed),
-            curvature=self.curvature,
-            mu_s=self.mu_s,
-            mu_k=self.mu_k,
-            mu_slope=self.mu_slope,
-            mu_k_speed=self.mu_k_speed,
-            static_scatter=self.static_scatter,
             force_scatter=scatter * force_share,
             moment_scatter=scatter * float(np.sqrt(np.sum(arm**2))),
-            correlation_length=self.correlation_length,
             covered=float(shares.sum()),
             reach=1.0 if self.faults.F2 else self.radius,
-            spring_length=self.spring_length,
             updated=self.treatment == "updated",
             strip_wise=self.mu_slope != 0.0,
             seed=seed,
         )
 
     def _faults(self) -> SchemeFaults:
-        faults = self.faults
-        return SchemeFaults(
-            one_spring=faults.F1,
-            white=faults.F5,
-            on_grid=faults.F6,
-            stale=faults.F12,
-            mirrored=not faults.F13,
-            cut=faults.F14,
-            lagging=faults.F15,
-        )
+        f = self.faults
+        # in the order of its fields
+        return SchemeFaults(f.F1, f.F5, f.F6, f.F12, not f.F13, f.F14, f.F15)
 
-    def _motion(self, duration: float, seed: int, **begin: list[float]) -> Motion:
+    def _follow(self, seed: int, *until: float, **begin: list[float]) -> SchemeRun:
+        """From what a run begins with, until so many cycles, where there are any, or a time, s."""
         shares, middles = strips(self.radius)
         # the mean load of all strips where it does not depend on their speeds
         steady = np.array([shares.sum() * self.mu_k * self.mass * GRAVITY, 0.0])
-        return Motion(
-            duration,
+        motion = Motion(
+            until[-1],
             seed,
             alpha=fixed_angles(self.treatment),
             attachment=attachments(self.radius),
@@ -166,6 +145,9 @@ class Scheme:
             middles=middles,
             **{name: np.array(value) for name, value in begin.items()},
         )
+        motion.run(self._rig(seed), self._faults(), self.effects, *until)
+        t, q, velocity, load, mode = np.split(motion.rows, (1, 4, 7, 9), axis=1)
+        return SchemeRun(t[:, 0], q, velocity, load, mode[:, 0], motion.phases)
 
 
 @dataclass(frozen=True)
@@ -196,15 +178,3 @@ class SchemeRun:
     def slips(self) -> int:
         """Slips that ended in stick."""
         return len(self.slip_phases)
-
-
-def _result(motion: Motion) -> SchemeRun:
-    rows = motion.rows
-    return SchemeRun(
-        time=rows[:, 0],
-        q=rows[:, 1:4],
-        velocity=rows[:, 4:7],
-        load=rows[:, 7:9],
-        mode=rows[:, 9],
-        phases=motion.phases,
-    )

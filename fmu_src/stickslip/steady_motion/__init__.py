@@ -1,17 +1,9 @@
 """Which steady motion a run comes to: whether it is stable, and which others exist beside it."""
 
-from .assessment import Assessment, assess
-from .live import Interface, RunEnded
-from .pretension import with_pretension
-from .regimes import regimes
-from .stability import stability
-
-__all__ = [
-    "Assessment",
-    "Interface",
-    "RunEnded",
-    "assess",
-    "regimes",
-    "stability",
-    "with_pretension",
-]
+from .assessment import Assessment as Assessment
+from .assessment import assess as assess
+from .live import Interface as Interface
+from .live import RunEnded as RunEnded
+from .pretension import with_pretension as with_pretension
+from .regimes import regimes as regimes
+from .stability import stability as stability

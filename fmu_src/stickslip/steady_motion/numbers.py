@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import pi
 
 from ..parameters import Parameters
 from .pretension import with_pretension
@@ -35,7 +34,6 @@ class Number:
 def numbers_of(parameters: Parameters) -> list[Number]:
     """Speed, its ramp, damping, pretension where the block is not guided, and mu_s/mu_k."""
     rig, surface, friction = parameters.rig, parameters.surface, parameters.friction
-    critical = 4.0 * pi * parameters.natural_frequency * rig.mass
     damping = parameters.structural_damping.coefficient
     found = [
         Number(SPEED, "m/s", abs(surface.speed), 0.0, 0.01, at_speed),
@@ -45,7 +43,7 @@ def numbers_of(parameters: Parameters) -> list[Number]:
             "N s/m",
             damping,
             0.0,
-            1e-3 * critical,
+            1e-3 * parameters.critical_damping,
             _setting("structural_damping", "coefficient"),
         ),
     ]

@@ -9,6 +9,7 @@ ramp may never come near it.
 from dataclasses import replace
 from math import pi
 
+from ..arrays import STATE
 from ..packing import GRAVITY
 from ..parameters import Parameters
 from .live import DRY, Interface, RunEnded, simulated
@@ -36,7 +37,6 @@ RAMP_TIME = 10.0
 SHORTER, LONGER = 1.0 / 3.0, 3.0
 #: Times of the slowest relaxation after which a place is found to a millionth.
 RELAXATIONS = 15.0
-STATE = ("x", "y", "phi", "vx", "vy", "omega")
 
 
 def other_starts(parameters: Parameters) -> dict[str, Parameters]:

@@ -32,7 +32,8 @@ class Unit(CUnit):
     def __init__(self, fmu: Path, folder: Path) -> None:
         platform = this_platform()
         path = f"binaries/{platform.name}/{NAME}{platform.suffix}"
-        kinds = {each.name: ("Int32", c_int32, int) for each in variables() if each.is_integer}
+        whole = [each.name for each in variables() if each.type == "Integer"]
+        kinds = dict.fromkeys(whole, ("Int32", c_int32, int))
         kinds |= {each.name: ("Boolean", c_bool, bool) for each in variables() if each.is_boolean}
         sizes = {e[0].array or e[0].name: len(e) for e in by_array(variables())}
         library = unpacked_library(fmu, folder, path)

@@ -65,7 +65,7 @@ class Unit(CUnit):
         declared: Sequence[Variable] | None = None,
     ) -> None:
         declared = variables() if declared is None else declared
-        whole = [variable.name for variable in declared if variable.is_integer]
+        whole = [variable.name for variable in declared if variable.type == "Integer"]
         kinds = dict.fromkeys(whole, ("Integer", c_int, int))
         super().__init__(fmu, library_of(fmu, folder, name), 2, references(declared), kinds, {})
         self.library.fmi2Instantiate.restype = c_void_p

@@ -9,7 +9,7 @@ from fmpy_slave import fmpy_slave
 
 from cosim.cli import main
 from cosim.fmu.build import THERMAL
-from cosim.fmu.variables import parameter_table
+from cosim.fmu.variables import variables
 from cosim.scenario.defaults import stated
 
 STOP = 30.0  # s, as the units advise
@@ -33,7 +33,7 @@ def bare(fmu, **options):
 
 
 def test_a_unit_starts_as_a_scenario_that_leaves_all_out():
-    starts = {each["name"]: each["start"] for each in parameter_table()}
+    starts = {each.name: each.start for each in variables()}
     assert {key: starts[key] for key in stated()} == stated()
 
 

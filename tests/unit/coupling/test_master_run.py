@@ -21,7 +21,6 @@ from cosim.coupling import (
     port_table,
     run,
 )
-from cosim.coupling.step_control.control import Grid
 
 
 class Model(Part):
@@ -141,7 +140,7 @@ def test_a_loop_without_a_solution_is_reported_with_what_changes_and_the_remedy(
 
 @pytest.mark.parametrize("stop, macro_step", [(30.0, 0.01), (1.0, 0.3), (0.7, 0.1), (1e3, 1 / 3)])
 def test_grid_hits_the_end_exactly_and_does_not_drift(stop, macro_step):
-    times = list(Grid(0.0, stop, macro_step))
+    times = mirrored(stop=stop, macro_step=macro_step).time.tolist()
     assert times[-1] == stop
     assert times[:-1] == [n * macro_step for n in range(len(times) - 1)]
     assert len(times) - 1 == math.ceil(round(stop / macro_step, 6))

@@ -89,10 +89,10 @@ def built_hash(fmu):
         return archive.read("resources/slavemodule.txt").decode().removeprefix("stickslip3dof_")
 
 
-def test_other_content_makes_another_python_unit(tmp_path):
+def test_other_content_makes_another_python_unit(built_in_python, tmp_path):
     files = python_unit.sources() | {"stickslip/__init__.py": b'"""Another."""\n'}
     other = python_unit.build(tmp_path, files)
-    assert built_hash(other) != python_unit.content_hash()
+    assert built_hash(other) != built_hash(built_in_python)
 
 
 def test_the_fmu_stands_in_build_of_a_checkout_else_in_the_cache(tmp_path, monkeypatch):
@@ -141,10 +141,11 @@ def test_the_slave_needs_the_standard_library_only(built_in_python):
 
 def test_a_host_s_old_python_is_asked_for_a_newer_one_before_anything_else(monkeypatch):
     """What runs first is understood by any Python 3, and the first that it does is to ask."""
-    ast.parse(python_unit.DOOR, feature_version=(3, 4))
+    door = python_unit.sources()[f"{python_unit.MODULE}.py"]
+    ast.parse(door, feature_version=(3, 4))
     monkeypatch.setattr("sys.version_info", (3, 9, 18))
     with pytest.raises(ImportError, match=r"^StickSlip3DOF needs Python 3\.10 or newer, this host"):
-        exec(python_unit.DOOR, {})
+        exec(door, {})
 
 
 def test_only_the_python_unit_says_that_it_needs_another_tool(built, built_in_python):

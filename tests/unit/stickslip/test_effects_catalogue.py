@@ -47,7 +47,7 @@ def test_a_unit_that_the_fmu_cannot_state_is_named(monkeypatch):
     monkeypatch.setattr(variables, "UNITS", known)
     said = "spring_hardening: cubic is in 'N/m3', a unit that UNITS of cosim.fmu.variables"
     with pytest.raises(ValueError, match=said):
-        variables.parameter_table()
+        variables.variables()
 
 
 @EACH

@@ -8,7 +8,7 @@ departs by from its drawing, friction, springs, and the scales that the integrat
 
 from math import cos, log, radians, sin, sqrt
 
-from ..friction.table import end_slope, joined_slope
+from ..cubic import end_slope, joined_slope
 from ..layout import *
 from ..terms import *
 
@@ -50,14 +50,18 @@ def inner_slope(p: Floats, at: int, width: int) -> float:
     return joined_slope(span_before, secant(p, at - width, width), span_after, secant(p, at, width))
 
 
+def set_curve_slopes(p: Floats, first: int, count: int, width: int) -> None:
+    """Slopes at so many points ``p[first:]``; at the ends those of the first and the last piece."""
+    last = first + width * (count - 1)
+    p[first + 2] = secant(p, first, width)
+    p[last + 2] = secant(p, last - width, width)
+    for i in range(1, count - 1):
+        p[first + width * i + 2] = inner_slope(p, first + width * i, width)
+
+
 def departure(d: Floats, i: int, deviation: float) -> float:
     """Draw i, normally distributed with a standard deviation and cut at three of them."""
     return deviation * max(-3.0, min(3.0, d[i]))
-
-
-def set_mass(v: Floats, d: Floats, p: Floats) -> None:
-    """Mass of the block, kg, as this rig has it."""
-    p[P_MASS] = v[V_RIG_MASS] * (1.0 + departure(d, D_MASS, v[V_IMPERFECTIONS_MASS]))
 
 
 def set_start(v: Floats, d: Floats, p: Floats) -> None:
@@ -114,26 +118,18 @@ def set_table(v: Floats, p: Floats) -> None:
 
 def set_row_slopes(p: Floats, row: int, count: int) -> None:
     """PCHIP's slopes of so many points ``p[row:]``."""
-    last = row + TABLE_WIDTH * (count - 1)
-    second = row + TABLE_WIDTH
-    before = last - TABLE_WIDTH
-    first_rise = secant(p, row, TABLE_WIDTH)
-    last_rise = secant(p, before, TABLE_WIDTH)
-    p[row + 2] = first_rise
-    p[last + 2] = last_rise
-    if before == row:  # two points: a straight line
+    set_curve_slopes(p, row, count, TABLE_WIDTH)
+    if count == 2:  # a straight line
         return
-    first_span = p[second] - p[row]
+    second = row + TABLE_WIDTH
     next_span = p[second + TABLE_WIDTH] - p[second]
     next_rise = secant(p, second, TABLE_WIDTH)
-    p[row + 2] = end_slope(first_span, first_rise, next_span, next_rise)
-    last_span = p[last] - p[before]
+    p[row + 2] = end_slope(p[second] - p[row], p[row + 2], next_span, next_rise)
+    last = row + TABLE_WIDTH * (count - 1)
+    before = last - TABLE_WIDTH
     next_span = p[before] - p[before - TABLE_WIDTH]
     next_rise = secant(p, before - TABLE_WIDTH, TABLE_WIDTH)
-    p[last + 2] = end_slope(last_span, last_rise, next_span, next_rise)
-    for i in range(1, count - 1):
-        at = row + TABLE_WIDTH * i
-        p[at + 2] = inner_slope(p, at, TABLE_WIDTH)
+    p[last + 2] = end_slope(p[last] - p[before], p[last + 2], next_span, next_rise)
 
 
 def set_bristles(v: Floats, p: Floats, limit: float) -> None:
@@ -218,12 +214,7 @@ def set_force_curve(v: Floats, p: Floats) -> None:
         return
     p[P_CURVE_POINTS] = float(count)
     copy_points(v, extension, V_SPRINGS_FORCE_CURVE_FORCE, count, p, P_CURVE, CURVE_WIDTH)
-    last = P_CURVE + CURVE_WIDTH * (count - 1)
-    p[P_CURVE + 2] = secant(p, P_CURVE, CURVE_WIDTH)
-    p[last + 2] = secant(p, last - CURVE_WIDTH, CURVE_WIDTH)
-    for i in range(1, count - 1):
-        at = P_CURVE + CURVE_WIDTH * i
-        p[at + 2] = inner_slope(p, at, CURVE_WIDTH)
+    set_curve_slopes(p, P_CURVE, count, CURVE_WIDTH)
     energy = 0.0
     for i in range(1, count):
         at = P_CURVE + CURVE_WIDTH * i
@@ -291,7 +282,7 @@ def set_directions(p: Floats) -> None:
 
 def set_rig(v: Floats, d: Floats, p: Floats) -> None:
     """The block, how it is guided and driven; an inertia of 0 is a disc of the contact radius."""
-    set_mass(v, d, p)
+    p[P_MASS] = v[V_RIG_MASS] * (1.0 + departure(d, D_MASS, v[V_IMPERFECTIONS_MASS]))
     p[P_RADIUS] = v[V_RIG_CONTACT_RADIUS]
     p[P_INERTIA] = v[V_RIG_INERTIA]
     if p[P_INERTIA] == 0.0:

@@ -2,6 +2,7 @@
 
 from math import cos, sin, sqrt
 
+from ..cubic import between
 from ..layout import *
 from ..terms import with_spring_energy, with_spring_force
 
@@ -27,10 +28,7 @@ def curve_force(p: Floats, extension: float) -> float:
         return p[at + 1] + p[at + 2] * (extension - p[at])
     if t > 1.0:
         return p[at + 5] + p[at + 6] * (extension - p[at + 4])
-    rise = p[at + 5] - p[at + 1]
-    a = span * p[at + 2]
-    b = span * p[at + 6]
-    return p[at + 1] + t * (a + t * (3.0 * rise - 2.0 * a - b + t * (a + b - 2.0 * rise)))
+    return between(t, p[at + 1], p[at + 5], span * p[at + 2], span * p[at + 6])
 
 
 def curve_energy(p: Floats, extension: float) -> float:

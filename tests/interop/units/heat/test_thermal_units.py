@@ -13,7 +13,7 @@ from stickslip.generation.platforms import this_platform
 from cosim import read_scenario, run_scenario
 from cosim.fmu.thermal import native_unit, resources
 from cosim.fmu.thermal.python_unit import parameters
-from cosim.fmu.thermal.variables import REFERENCE, reduced
+from cosim.fmu.thermal.variables import ERRORS, REFERENCE, reduced
 from thermal import BeltIceModel, ThermalParameters
 
 # --- description ---
@@ -122,7 +122,8 @@ def test_the_reduced_unit_is_as_near_as_its_documentation_says(native, reference
     speed, given, start, expected = reference
     with instance(native, tmp_path / "unit") as heat:
         error = np.abs(heat.start(**start).run(*given) - expected).max(axis=0)
-    said = {row[0]: float(row[1 + SPEEDS.index(speed)].split()[0]) for row in native_unit.ERRORS}
+    place = SPEEDS.index(speed)
+    said = {name: float(errors[place].split()[0]) for name, errors in ERRORS.items()}
     assert len(said) == 7 and not expected[:, 5:7].any()
     for name, found in zip(OUTPUTS, error, strict=True):
         assert said.get(name, 0.0) / 3.0 <= found <= said.get(name, 1e-13), name

@@ -1,0 +1,17 @@
+from .belt.parameters import Belt as Belt
+from .belt.parameters import Layer as Layer
+from .belt.single_pass import SinglePass as SinglePass
+from .contact.parameters import Contact as Contact
+from .ice.mesh_file import MeshError as MeshError
+from .ice.parameters import Ice as Ice
+from .model import BeltIceModel as BeltIceModel
+from .output import FieldSeries as FieldSeries
+from .output import RigView as RigView
+from .output import collection as collection
+from .output import rig_view as rig_view
+from .parameters import Ambient as Ambient
+from .parameters import ParameterError as ParameterError
+from .parameters import ThermalParameters as ThermalParameters
+from .steady_sliding import NoSteadyState as NoSteadyState
+from .steady_sliding import SlidingState as SlidingState
+from .steady_sliding import SteadySliding as SteadySliding
