@@ -13,17 +13,22 @@ from cosim.files import write_bytes, write_text
 from cosim.report.columns import Columns, Data, write_columns, write_columns_as_csv
 from cosim.scenario.keys import taken_line
 
-from .bounds import bounds_sentences
 from .contents import Views, material_of, stored_tables
 from .coupling import doubts, step_rows
 from .files import write_json
 from .heat_numbers import ambient_degC
 from .material import page_of_material
-from .motion_text import border_sentence, regime_sentence, stability_sentence
 from .page import render
 from .quantities import TABLES, digits, spelled, told, told_at, with_unit, worded
-from .run_answer import headline, tiles
 from .run_summary import summary
+from .run_text import (
+    border_sentence,
+    bounds_sentences,
+    headline,
+    regime_sentence,
+    stability_sentence,
+    tiles,
+)
 
 Progress = Callable[[str], None]
 

@@ -14,17 +14,17 @@ from cosim.cli import FAILED
 from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
-from cosim.cli.runs.closing_lines import closing_lines
 from cosim.cli.runs.run_io import COLLECTION, FIELDS, LAST_OF_DATA, Ending, log_files, own_folder
 from cosim.cli.scenarios import given_scenario
 from cosim.coupling.record import LOG
 from cosim.interrupts import Patience
 from cosim.manifest import other_command
 from cosim.report import Views, write_results
-from cosim.report.bounds import bounds_sentences, is_believed
+from cosim.report.bounds import is_believed
 from cosim.report.columns import Data
 from cosim.report.contents import attach_assessment, material_of
 from cosim.report.coupling import doubts
+from cosim.report.run_text import bounds_sentences, closing_lines
 from cosim.scenario import Scenario, ScenarioError, check_work
 from cosim.scenario.durations import in_words
 from cosim.scenario.units import doubted

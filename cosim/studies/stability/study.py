@@ -14,8 +14,8 @@ from stickslip.steady_motion.starts import STARTS
 
 from cosim.files import write_text
 from cosim.report.files import without_nan
-from cosim.report.motion_text import border_sentence, regime_sentence, stability_sentence
 from cosim.report.page import PageResult, Picture, render, texts, tiles_of
+from cosim.report.run_text import border_sentence, regime_sentence, stability_sentence
 from cosim.scenario import Scenario
 
 from . import maps
