@@ -1,14 +1,12 @@
 """The explorer's page: one file with both models, the controls, scenarios and the scripts."""
 
 import base64
-import json
 import re
 import zlib
 from importlib import resources
 from importlib.metadata import version
 from typing import Any
 
-from markupsafe import Markup
 from stickslip.catalogue import CATALOGUE, Catalogue, default_catalogue
 from stickslip.kernel import layout
 from stickslip.kernel.tables import value_names
@@ -46,14 +44,12 @@ def explorer_page(scenario: Scenario | None = None) -> str:
     return render(
         "explorer.html.j2",
         "cosim.explore",
-        generator=Markup(GENERATOR),
+        generator=GENERATOR,
         version=version("stickslip"),
         style=_text("explorer.css"),
-        data=_inside_script(
-            json.dumps(page_data(scenario, catalogue), ensure_ascii=False, allow_nan=False)
-        ),
+        data=page_data(scenario, catalogue),
         worker=_text(WORKER),
-        programs=[(name, Markup(asset(name))) for name in SHARED]
+        programs=[(name, asset(name)) for name in SHARED]
         + [(name, _text(name)) for name in SCRIPTS],
     )
 
@@ -139,18 +135,18 @@ def _departs(plain: dict[str, Any], table: str, key: str, value: Any) -> bool:
     return key not in entries or entries[key] != value
 
 
-def _text(name: str) -> Markup:
+def _text(name: str) -> str:
     """A file of the folder `page`, as it is."""
     text = (resources.files("cosim.explore") / "page" / name).read_text("utf-8")
-    return _inside_script(text) if name.endswith(".js") else Markup(text)
+    return _inside_script(text) if name.endswith(".js") else text
 
 
-def _inside_script(text: str) -> Markup:
+def _inside_script(text: str) -> str:
     """Text between script tags: nothing in it may look like the tag that ends it, or a comment.
 
     In a string of JavaScript or JSON the backslash means nothing there.
     """
-    return Markup(re.sub(r"<(?=/script|!--)", r"\\u003c", text, flags=re.IGNORECASE))
+    return re.sub(r"<(?=/script|!--)", r"\\u003c", text, flags=re.IGNORECASE)
 
 
 def made_here(text: str) -> bool:
