@@ -1,0 +1,24 @@
+from cosim.coupling.case import CoupledRun as CoupledRun
+from cosim.coupling.case import run_scenario as run_scenario
+from cosim.gap import read_campaign as read_campaign
+from cosim.gap.find import find_gap as find_gap
+from cosim.gap.plan import make_plan as make_plan
+from cosim.gap.plan import read_plan as read_plan
+from cosim.report.compare import compare as compare
+from cosim.report.compare import read_result as read_result
+from cosim.scenario import Scenario as Scenario
+from cosim.scenario import read_scenario as read_scenario
+from cosim.simulated import SimulatedRun as SimulatedRun
+from cosim.simulated import simulate_scenario as simulate_scenario
+from cosim.studies.belt_length import how_long as how_long
+from cosim.studies.friction_map import friction_map as friction_map
+from cosim.studies.reproduction import reproduce as reproduce
+from cosim.studies.stability import case_of as case_of
+from cosim.studies.stability import pretension_map as pretension_map
+from cosim.studies.stability import regime_map as regime_map
+from cosim.studies.stability import stability as stability
+from cosim.studies.stability import stick_slip_range as stick_slip_range
+from cosim.studies.sweep import sweep as sweep
+from cosim.systems import read_system as read_system
+from cosim.systems import run_system as run_system
+# the command line and the master alone start without the models
