@@ -9,33 +9,15 @@ from typing import Any, Literal, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
+from stickslip.packaged import packaged_tables
 from stickslip.quantity import details
 from stickslip.units import QUANTITY, in_unit
 
 from cosim.names import nearest_key
 
 LONGEST_VALUE = 60
-BOUNDS = {
-    "gt": "greater than {:g}",
-    "ge": "at least {:g}",
-    "lt": "less than {:g}",
-    "le": "at most {:g}",
-}
-WRONG = {
-    "finite_number": "not a finite number",
-    "float_type": "not a number",
-    "int_type": "not a whole number",
-    "string_type": "not a text",
-    "model_type": "not a table",
-    "literal_error": "not known",
-    "greater_than": "out of range",
-    "greater_than_equal": "out of range",
-    "less_than": "out of range",
-    "less_than_equal": "out of range",
-    "missing": "has too few entries",
-    "too_long": "has too many entries",
-    "string_pattern_mismatch": "not fit for the name of a folder",
-}
+#: What is wrong and what is allowed, in words.
+WORDS = packaged_tables(__package__, "validation.toml")
 
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -129,7 +111,9 @@ def _describe(key: str, faults: list[Fault], keys: dict[str, FieldInfo]) -> str:
         return _of_several_keys(key, str(fault["ctx"]["error"]), keys)
     if fault["type"] == "extra_forbidden":
         return f"{key}: no such key, {_known_instead(key, keys)}"
-    wrong = WRONG.get(fault["type"], "not possible") if len(faults) == 1 else "not possible"
+    wrong = (
+        WORDS["wrong"].get(fault["type"], "not possible") if len(faults) == 1 else "not possible"
+    )
     if wrong == "not a number" and QUANTITY.fullmatch(str(fault["input"])):
         wrong = not_in(unit_of(keys[key]))
     return f"{key}: {wrong} ({_shown(fault['input'])}), allowed is {allowed(key, keys[key])}"
@@ -193,7 +177,7 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
         bounds = [
             words.format(getattr(bound, name))
             for bound in metadata
-            for name, words in BOUNDS.items()
+            for name, words in WORDS["bounds"].items()
             if getattr(bound, name, None) is not None
         ]
         number = "a number" if kind is float else "a whole number"

@@ -11,13 +11,13 @@ from cosim.cli.numbers import numbers_asked
 from cosim.cli.runs.run_io import progress_over
 from cosim.cli.runs.running import scenario_to_run
 from cosim.manifest import made_by, own_folder, results_in
-from cosim.report import run_dataset, summary, trajectory_dataset
 from cosim.report.compare import Comparison, OneResult, compare, read_result
 from cosim.report.compare.page import cells, curve_cells
 from cosim.report.files import json_text
 from cosim.report.quantities import NONE, digits
+from cosim.report.scenario_run import ScenarioRun
 from cosim.scenario import Scenario
-from cosim.simulated import simulated
+from cosim.simulated import SimulatedRun, simulated
 
 #: Numbers that are on the page only.
 OTHER_STARTS = tuple(f"regimes.{start}." for start in ("disturbed", "rest", "riding", "ramp"))
@@ -65,19 +65,18 @@ def _results(arguments: Namespace) -> list[OneResult]:
 def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
     """A scenario's run, which is kept nowhere."""
     _ = scenario.catalogue.compiled
+    done: ScenarioRun
     with progress_over(scenario.run.duration) as show:
         if coupled:
             from cosim.coupling.case import run_scenario
 
             done = run_scenario(scenario, progress=show)
-            dataset = run_dataset(done.result, scenario, scenario.to_toml())
         else:
-            trajectory = simulated(scenario, show)
-            dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml())
-    numbers = summary(dataset)
+            done = SimulatedRun(scenario, simulated(scenario, show))
+    numbers = done.summary()
     failed = numbers["status"] != "complete"
     remarks = (f"{source}: its run is not complete ({numbers['reason']})",) * failed
-    return OneResult(scenario.name, source, dataset, numbers, scenario.to_toml(), remarks)
+    return OneResult(scenario.name, source, done.to_xarray(), numbers, scenario.to_toml(), remarks)
 
 
 def _table(both: Comparison, folder: Path) -> str:
