@@ -91,13 +91,12 @@ def page_data(scenario: Scenario | None = None, catalogue: Catalogue = CATALOGUE
 def preset(scenario: Scenario) -> dict[str, Any]:
     """Name and tables of a scenario: what departs from the plain model, and what says so."""
     plain = Scenario().to_tables()
-    tables: dict[str, Any] = {}
+    tables = {}
     for name, value in scenario.to_tables().items():
-        if not isinstance(value, dict):
-            continue
-        departs = {key: entry for key, entry in value.items() if _departs(plain, name, key, entry)}
-        if departs:
-            tables[name] = departs
+        if isinstance(value, dict):
+            known = plain.get(name, {}).items()
+            departs = {key: entry for key, entry in value.items() if (key, entry) not in known}
+            tables |= {name: departs} if departs else {}
     top = {name: value for name, value in plain.items() if not isinstance(value, dict)}
     return {"name": scenario.name, "top": top | {"name": scenario.name}, "tables": tables}
 
@@ -128,11 +127,6 @@ def _heat(scenario: Scenario) -> dict[str, Any]:
 
 def _packed(content: bytes) -> str:
     return base64.b64encode(zlib.compress(content, 9)).decode("ascii")
-
-
-def _departs(plain: dict[str, Any], table: str, key: str, value: Any) -> bool:
-    entries = plain.get(table, {})
-    return key not in entries or entries[key] != value
 
 
 def _text(name: str) -> str:

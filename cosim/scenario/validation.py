@@ -50,7 +50,7 @@ def _in_si(tables: Any, model: type[BaseModel]) -> Any:
         return tables
     made = dict(tables)
     for key, field in model.model_fields.items():
-        value, table = made.get(key), _table(field.annotation) or _entries(field.annotation)
+        value, table = made.get(key), table_of(field.annotation) or entries_of(field.annotation)
         if isinstance(value, str) and (number := in_unit(value, unit_of(field))) is not None:
             made[key] = number
         elif table is not None and isinstance(value, tuple):
@@ -60,9 +60,9 @@ def _in_si(tables: Any, model: type[BaseModel]) -> Any:
     return made
 
 
-def _entries(kind: Any) -> type[BaseModel] | None:
+def entries_of(kind: Any) -> type[BaseModel] | None:
     """What a list of tables is made of."""
-    return _table(get_args(kind)[0]) if get_origin(kind) is tuple else None
+    return table_of(get_args(kind)[0]) if get_origin(kind) is tuple else None
 
 
 def known_keys(model: type[BaseModel]) -> dict[str, FieldInfo]:
@@ -70,7 +70,7 @@ def known_keys(model: type[BaseModel]) -> dict[str, FieldInfo]:
     keys = {}
     for name, field in model.model_fields.items():
         keys[name] = field
-        if (table := _table(field.annotation)) is not None:
+        if (table := table_of(field.annotation)) is not None:
             keys |= {f"{name}.{key}": entry for key, entry in table.model_fields.items()}
     return keys
 
@@ -126,9 +126,9 @@ def _inner_table(
     for depth in (1, 2):
         key = ".".join(map(str, loc[:depth]))
         kind = keys[key].annotation if key in keys and len(loc) > depth + 1 else None
-        if get_origin(kind) is tuple and (table := _table(get_args(kind)[0])) is not None:
+        if (table := entries_of(kind)) is not None:
             return f"{key}[{loc[depth] + 1}]", table, loc[depth + 1 :]
-        if get_origin(kind) is dict and (table := _table(get_args(kind)[1])) is not None:
+        if get_origin(kind) is dict and (table := table_of(get_args(kind)[1])) is not None:
             return f"{key}.{loc[depth]}", table, loc[depth + 1 :]
     return None
 
@@ -166,7 +166,7 @@ def not_in(unit: str) -> str:
 
 def allowed(key: str, field: FieldInfo) -> str:
     """What a key may hold, in words."""
-    if (table := _table(field.annotation)) is not None:
+    if (table := table_of(field.annotation)) is not None:
         return f"a table [{key}] with {', '.join(table.model_fields)}"
     unit = unit_of(field)
     return _allowed_type(field.annotation, field.metadata, "" if unit == "1" else f" {unit}")
@@ -194,7 +194,7 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
         return " or ".join(f'"{choice}"' for choice in get_args(kind))
     if get_origin(kind) is tuple:
         return _allowed_list(get_args(kind), unit)
-    if get_origin(kind) is dict and _table(get_args(kind)[1]) is not None:
+    if get_origin(kind) is dict and table_of(get_args(kind)[1]) is not None:
         return "a table of tables"
     if get_origin(kind) is dict:
         return f"a table of names, each with {_allowed_type(get_args(kind)[1], (), unit)}"
@@ -205,7 +205,7 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
 
 
 def _allowed_list(entries: tuple[Any, ...], unit: str) -> str:
-    if (table := _table(entries[0])) is not None:
+    if (table := table_of(entries[0])) is not None:
         return f"a list of tables with {', '.join(table.model_fields)}"
     if entries[-1] is Ellipsis:
         return f"a list of {_allowed_type(entries[0], (), unit)}"
@@ -223,7 +223,7 @@ def _flat_metadata(kind: Any) -> list[Any]:
     ]
 
 
-def _table(kind: Any) -> type[BaseModel] | None:
+def table_of(kind: Any) -> type[BaseModel] | None:
     """The model, where a type is a table of keys."""
     return kind if isinstance(kind, type) and issubclass(kind, BaseModel) else None
 
