@@ -91,7 +91,7 @@ def page_data(scenario: Scenario | None = None, catalogue: Catalogue = CATALOGUE
 def preset(scenario: Scenario) -> dict[str, Any]:
     """Name and tables of a scenario: what departs from the plain model, and what says so."""
     plain = Scenario().to_tables()
-    tables = {}
+    tables: dict[str, Any] = {}
     for name, value in scenario.to_tables().items():
         if isinstance(value, dict):
             known = plain.get(name, {}).items()
