@@ -85,9 +85,8 @@ class Panel:
     levels: heights of broken lines, and what they are. stacked: each filled curve shows what is
     between it and the next, and hovering says that. from_zero: the scale begins at 0. span: the
     least that it spans. top: where it ends. shaded: the figure's phases show. logarithmic: of the
-    scale. linear_to: linear up to here and logarithmic beyond, on both sides of 0 (0: all of it is
-    linear). thermometer: air temperature (degC) and factor to K, for a second scale of degrees.
-    map: a field below a curve of places.
+    scale. thermometer: air temperature (degC) and factor to K, for a second scale of degrees. map:
+    a field below a curve of places.
     """
 
     label: str
@@ -99,7 +98,6 @@ class Panel:
     top: float | None = None
     shaded: bool = True
     logarithmic: bool = False
-    linear_to: float = 0.0
     thermometer: tuple[float, float] | None = None
     map: Map | None = None
 
