@@ -112,7 +112,7 @@ def results_in(
 
 def other_command(folder: Path) -> str:
     """The command line of an earlier result in a folder, if it is of another command; else ""."""
-    line = str(_earlier(folder).get("command", ""))
+    line = str(manifest_of(folder).get("command", ""))
     return line if line.split()[1:2] != sys.argv[1:2] else ""
 
 
@@ -162,18 +162,18 @@ def claim(folder: Path, files: Iterable[str]) -> None:
 
 def list_further(folder: Path, files: Iterable[str]) -> None:
     """List files that were added to a complete result, which is otherwise as it was."""
-    content = _earlier(folder) or made_by()
+    content = manifest_of(folder) or made_by()
     _write(folder, content | {"files": sorted({*content.get("files", ()), *files})})
 
 
 def files_of_earlier(folder: Path) -> set[str]:
     """What the last run here has listed, as names inside the folder; none where there was none."""
-    listed = _earlier(folder).get("files", ())
+    listed = manifest_of(folder).get("files", ())
     names = listed if isinstance(listed, list) else ()
     return {name for name in names if isinstance(name, str) and _is_inside(name)}
 
 
-def _earlier(folder: Path) -> dict[str, Any]:
+def manifest_of(folder: Path) -> dict[str, Any]:
     """What the manifest in a folder says; nothing where there is none, or it is damaged."""
     try:
         content = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))

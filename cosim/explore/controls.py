@@ -5,39 +5,28 @@ show, too; a new effect has its sliders at once.
 """
 
 import math
-from collections.abc import Iterator
 from typing import Any, Literal, get_args, get_origin
 
-from pydantic import BaseModel
 from pydantic.fields import FieldInfo
-from stickslip import Parameters
 from stickslip.catalogue import CATALOGUE, Catalogue
+from stickslip.effects.effect import Effect
 from stickslip.packaged import packaged_tables
 from stickslip.quantity import details
 
 from cosim.fmu.variables import bounds_of
 from cosim.report.page import unit_text
 from cosim.scenario import Scenario
-from cosim.scenario.validation import allowed, unit_of
+from cosim.scenario.validation import allowed, known_keys, unit_of
 
-#: Table -> heading, of what is no effect, in the order of the page; the first are open.
-HEADINGS = {
-    "surface": "Surface",
-    "rig": "Block and rig",
-    "springs": "Springs",
-    "friction": "Friction",
-    "run": "Run and temperature",
-    "initial": "Start",
-    "imperfections": "Imperfections",
-    "solver": "Integrator",
-}
+#: `controls.toml`: headings, and where a slider goes to, of keys whose declarations have no range.
+TABLES = packaged_tables(__package__, "controls.toml")
+RANGES: dict[str, list[float]] = TABLES["ranges"]
+#: Tables whose groups are open.
 OPEN = ("surface", "rig", "springs", "friction")
 #: Keys of other tables that a run of the mechanics alone takes.
 OF_RUN = ("run.duration", "run.output_interval", "ambient.temperature_degC")
 #: Keys that are no numbers of the motion: the file of a table has been read.
 LEFT_OUT = ("friction.table",)
-#: Where a slider goes to, of keys whose declarations have no range: sizes of a rig on a table.
-RANGES: dict[str, list[float]] = packaged_tables(__package__, "ranges.toml")
 #: A slider is logarithmic where its ends are further apart than this.
 DECADES = 30.0
 #: A typical range ends where most rigs do; a slider goes on so much further.
@@ -52,51 +41,28 @@ def groups(catalogue: Catalogue = CATALOGUE) -> list[dict[str, Any]]:
     le), choices, slider (see `slider`; None of what is no single number) and switch, whether it
     turns an effect on.
     """
-    found = [
-        {
-            "id": table,
-            "title": title,
-            "sentence": "",
-            "enters": "",
-            "open": table in OPEN,
-            "controls": [control(key, field) for key, field in _fields(table)],
-        }
-        for table, title in HEADINGS.items()
-    ]
-    for effect in catalogue.effects:
-        fields = effect.table.model_fields.items()
-        controls = [control(f"{effect.id}.{name}", field) for name, field in fields]
-        for each in controls:
-            each["switch"] = each["name"] in effect.switch
-        found.append(
-            {
-                "id": effect.id,
-                "title": effect.id.replace("_", " "),
-                "sentence": effect.sentence,
-                "enters": effect.enters,
-                "open": False,
-                "controls": controls,
-            }
-        )
-    return found
+    effects = {effect.id: effect for effect in catalogue.effects}
+    titles = TABLES["headings"] | {name: name.replace("_", " ") for name in effects}
+    known = known_keys(Scenario.of(catalogue))
+    return [_group(table, title, known, effects.get(table)) for table, title in titles.items()]
 
 
-def _fields(table: str) -> Iterator[tuple[str, FieldInfo]]:
-    """Key and declaration of what a group shows."""
-    if table == "run":
-        for key in OF_RUN:
-            owner, _, name = key.partition(".")
-            yield key, _table(Scenario, owner).model_fields[name]
-        return
-    for name, field in _table(Parameters, table).model_fields.items():
-        if f"{table}.{name}" not in LEFT_OUT:
-            yield f"{table}.{name}", field
-
-
-def _table(model: type[BaseModel], name: str) -> type[BaseModel]:
-    kind: Any = model.model_fields[name].annotation
-    table: type[BaseModel] = kind
-    return table
+def _group(
+    table: str, title: str, known: dict[str, FieldInfo], effect: Effect | None
+) -> dict[str, Any]:
+    """known: every key of a scenario."""
+    own = [key for key in known if key.startswith(f"{table}.") and key not in LEFT_OUT]
+    controls = [control(key, known[key]) for key in (OF_RUN if table == "run" else own)]
+    for each in controls:
+        each["switch"] = effect is not None and each["name"] in effect.switch
+    return {
+        "id": table,
+        "title": title,
+        "sentence": effect.sentence if effect else "",
+        "enters": effect.enters if effect else "",
+        "open": table in OPEN,
+        "controls": controls,
+    }
 
 
 def control(key: str, field: FieldInfo) -> dict[str, Any]:

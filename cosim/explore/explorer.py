@@ -1,14 +1,12 @@
 """The explorer's page: one file with both models, the controls, scenarios and the scripts."""
 
 import base64
-import json
 import re
 import zlib
 from importlib import resources
 from importlib.metadata import version
 from typing import Any
 
-from markupsafe import Markup
 from stickslip.catalogue import CATALOGUE, Catalogue, default_catalogue
 from stickslip.kernel import layout
 from stickslip.kernel.tables import value_names
@@ -46,14 +44,12 @@ def explorer_page(scenario: Scenario | None = None) -> str:
     return render(
         "explorer.html.j2",
         "cosim.explore",
-        generator=Markup(GENERATOR),
+        generator=GENERATOR,
         version=version("stickslip"),
         style=_text("explorer.css"),
-        data=_inside_script(
-            json.dumps(page_data(scenario, catalogue), ensure_ascii=False, allow_nan=False)
-        ),
+        data=page_data(scenario, catalogue),
         worker=_text(WORKER),
-        programs=[(name, Markup(asset(name))) for name in SHARED]
+        programs=[(name, asset(name)) for name in SHARED]
         + [(name, _text(name)) for name in SCRIPTS],
     )
 
@@ -97,11 +93,10 @@ def preset(scenario: Scenario) -> dict[str, Any]:
     plain = Scenario().to_tables()
     tables: dict[str, Any] = {}
     for name, value in scenario.to_tables().items():
-        if not isinstance(value, dict):
-            continue
-        departs = {key: entry for key, entry in value.items() if _departs(plain, name, key, entry)}
-        if departs:
-            tables[name] = departs
+        if isinstance(value, dict):
+            known = plain.get(name, {}).items()
+            departs = {key: entry for key, entry in value.items() if (key, entry) not in known}
+            tables |= {name: departs} if departs else {}
     top = {name: value for name, value in plain.items() if not isinstance(value, dict)}
     return {"name": scenario.name, "top": top | {"name": scenario.name}, "tables": tables}
 
@@ -134,23 +129,18 @@ def _packed(content: bytes) -> str:
     return base64.b64encode(zlib.compress(content, 9)).decode("ascii")
 
 
-def _departs(plain: dict[str, Any], table: str, key: str, value: Any) -> bool:
-    entries = plain.get(table, {})
-    return key not in entries or entries[key] != value
-
-
-def _text(name: str) -> Markup:
+def _text(name: str) -> str:
     """A file of the folder `page`, as it is."""
     text = (resources.files("cosim.explore") / "page" / name).read_text("utf-8")
-    return _inside_script(text) if name.endswith(".js") else Markup(text)
+    return _inside_script(text) if name.endswith(".js") else text
 
 
-def _inside_script(text: str) -> Markup:
+def _inside_script(text: str) -> str:
     """Text between script tags: nothing in it may look like the tag that ends it, or a comment.
 
     In a string of JavaScript or JSON the backslash means nothing there.
     """
-    return Markup(re.sub(r"<(?=/script|!--)", r"\\u003c", text, flags=re.IGNORECASE))
+    return re.sub(r"<(?=/script|!--)", r"\\u003c", text, flags=re.IGNORECASE)
 
 
 def made_here(text: str) -> bool:

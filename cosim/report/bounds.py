@@ -19,7 +19,6 @@ from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
 from cosim.report.columns import Data
 
 from .contents import mechanics_of
-from .quantities import TABLES
 
 Array = NDArray[np.float64]
 Numbers = dict[str, float | None]
@@ -35,9 +34,6 @@ LONGEST = 2.0
 #: some 1e-11. Below so many joules there was no work to tell.
 LEDGER_LIMIT = 1e-2
 LEDGER_JOULES = 1e-6
-#: Sentences; what is added to that of a block that has left the belt, where there is any.
-SAID: dict[str, str] = TABLES["bounds"]
-FURTHER = ("centre_off_since", "heat_as_in_the_middle_since")
 
 
 def bounds_numbers(dataset: Data) -> dict[str, Any]:
@@ -149,24 +145,6 @@ def _turns(parameters: Parameters) -> bool:
 def _first(values: Array, rows: NDArray[np.bool_]) -> float | None:
     """The value in the first of these rows, where there is one."""
     return float(values[rows.argmax()]) if rows.any() else None
-
-
-def bounds_sentences(numbers: Mapping[str, Any]) -> list[str]:
-    """What a run does that its rig could not, or its ledger does not hold, a sentence each."""
-    told = []
-    for name in ("left_belt", "slab_centre", "overstretched"):
-        found = numbers.get(name, {})
-        if found.get("time") is None:
-            continue
-        texts = [SAID[name], *(SAID[key] for key in FURTHER if found.get(key) is not None)]
-        mm = {key: 1e3 * value for key, value in found.items() if value is not None}
-        place = SAID["track" if "slab_centre" in numbers else "edge"]
-        percent = 100.0 * found.get("least_contact_share", 0.0)
-        told.append("".join(texts).format(**found, mm=mm, place=place, percent=percent))
-    if not is_believed(numbers):
-        part = numbers["ledger"]["mechanics"]["relative_residual"]
-        told.append(SAID["ledger"].format(part=part, limit=LEDGER_LIMIT))
-    return told
 
 
 def is_believed(numbers: Mapping[str, Any]) -> bool:

@@ -42,8 +42,8 @@ def heat_ledger(dataset: Data) -> dict[str, float | None]:
     """Heat received and found, J at the end of the run."""
     received, residual = last(dataset, "heat_received"), largest_of(dataset, "heat_residual")
     found = {sink: last(dataset, name) for sink, name in SINKS.items() if name in dataset}
-    railing = other_heat(dataset)["railing"]
-    rubbed = {"from_railing": float(railing[-1])} if railing.any() else {}
+    rubs = "railing_heat" in dataset and dataset["railing_heat"].values.any()
+    rubbed = {"from_railing": last(dataset, "railing_heat")} if rubs else {}
     return {
         "received": received,
         **rubbed,
@@ -61,7 +61,7 @@ def heat_shares(dataset: Data) -> dict[str, float | None]:
     from_contact_to_belt: share of the contact's that entered the belt there, part of which went on
     to the air.
     """
-    received = last(dataset, "heat_received") + float(all_other_heat(dataset)[-1])
+    received = last(dataset, "heat_received") + float(other_heat(dataset)[-1])
     shares = {
         sink: ratio(float(held(dataset, name)[-1]), received)
         for sink, name in SINKS.items()
@@ -72,22 +72,14 @@ def heat_shares(dataset: Data) -> dict[str, float | None]:
     return shares
 
 
-def other_heat(dataset: Data) -> dict[str, np.ndarray]:
-    """What entered the belt beside the contact's heat, J, each (times,).
-
-    From its rubbing on the railing, and from supports that gave more than they took.
-    """
+def other_heat(dataset: Data) -> np.ndarray:
+    """What entered the belt beside the contact's heat, J: of its rubbing on the railing, and of
+    supports that gave more than they took; (times,)."""
     railing, supports = (
         dataset[name].values if name in dataset else np.zeros(dataset.sizes["time"])
         for name in ("railing_heat", "support_heat")
     )
-    return {"railing": railing, "supports": np.maximum(-supports, 0.0)}
-
-
-def all_other_heat(dataset: Data) -> np.ndarray:
-    """What entered the belt beside the contact's heat, J: (times,)."""
-    other = other_heat(dataset)
-    return np.asarray(other["railing"] + other["supports"])
+    return np.asarray(railing + np.maximum(-supports, 0.0))
 
 
 def held(dataset: Data, name: str) -> np.ndarray:

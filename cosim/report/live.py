@@ -85,9 +85,8 @@ class Panel:
     levels: heights of broken lines, and what they are. stacked: each filled curve shows what is
     between it and the next, and hovering says that. from_zero: the scale begins at 0. span: the
     least that it spans. top: where it ends. shaded: the figure's phases show. logarithmic: of the
-    scale. linear_to: linear up to here and logarithmic beyond, on both sides of 0 (0: all of it is
-    linear). thermometer: air temperature (degC) and factor to K, for a second scale of degrees.
-    map: a field below a curve of places.
+    scale. thermometer: air temperature (degC) and factor to K, for a second scale of degrees. map:
+    a field below a curve of places.
     """
 
     label: str
@@ -99,7 +98,6 @@ class Panel:
     top: float | None = None
     shaded: bool = True
     logarithmic: bool = False
-    linear_to: float = 0.0
     thermometer: tuple[float, float] | None = None
     map: Map | None = None
 
@@ -202,26 +200,19 @@ class Series(NamedTuple):
     curve: Curve
 
 
-def on_one_axis(series: Sequence[Series]) -> tuple[Array, list[Curve]]:
-    """All times of all series, rising, and the curves at them; NaN outside a curve's own.
-
-    Dots are at their own times only: none is made up between them.
-    """
-    times = np.unique(np.concatenate([one.time for one in series]))
-    return times, [replace(one.curve, values=_at(times, one)) for one in series]
-
-
 def panels_on_one_axis(
     panels: Sequence[tuple[Panel, Sequence[Series]]], span: tuple[float, float] = (-np.inf, np.inf)
 ) -> tuple[Array, list[Panel]]:
-    """The times of all series of all panels within a span, s, and the panels with their curves."""
-    times, curves = on_one_axis([one for _, series in panels for one in series])
-    seen, rest = (times >= span[0]) & (times <= span[1]), iter(curves)
-    found = []
-    for panel, series in panels:
-        own = [next(rest) for _ in series]
-        own = [replace(curve, values=curve.values[seen]) for curve in own]
-        found.append(replace(panel, curves=own))
+    """The times of all series of all panels within a span, s, and the panels with their curves.
+
+    A curve has NaN outside its own times, one of dots between them, too.
+    """
+    times = np.unique(np.concatenate([one.time for _, series in panels for one in series]))
+    seen = (times >= span[0]) & (times <= span[1])
+    found = [
+        replace(panel, curves=[replace(one.curve, values=_at(times, one)[seen]) for one in series])
+        for panel, series in panels
+    ]
     return times[seen], found
 
 

@@ -14,7 +14,6 @@ the window is narrow, its words behind their heads.
 from __future__ import annotations
 
 import base64
-import json
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping
@@ -25,7 +24,6 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from jinja2 import ChoiceLoader, Environment, PackageLoader, StrictUndefined, select_autoescape
-from markupsafe import Markup
 
 from cosim.files import writable, write_bytes, write_text
 from cosim.result import Result
@@ -83,10 +81,10 @@ def render(template: str, package: str, **values: Any) -> str:
     environment = _environment(package)
     parts: Any = environment.get_template("parts.html.j2").module
 
-    def drawn(picture: Picture, alt: str = "") -> Markup:
+    def drawn(picture: Picture, alt: str = "") -> Any:
         if picture.live is not None:
             kinds.add(picture.live["kind"])
-        return Markup(parts.figure(picture, alt or picture.alt or picture.caption))
+        return parts.figure(picture, alt or picture.alt or picture.caption)
 
     told = {"figure": drawn, "boxes": parts.boxes, "scripts": lambda: _scripts(kinds)}
     return environment.get_template(template).render(**values, **told)
@@ -146,13 +144,10 @@ def tiles_of(text: str) -> list[tuple[str, str]]:
     return [(name.strip(), value.strip()) for name, _, value in parts]
 
 
-def _scripts(kinds: set[str]) -> Markup:
-    """The scripts that these kinds of live pictures need, each once."""
-    files = dict.fromkeys(file for kind in SCRIPTS if kind in kinds for file in SCRIPTS[kind])
-    return Markup("").join(
-        Markup("<script>\n{}</script>\n").format(Markup(asset(file)))
-        for file in (*files, EVERYWHERE)
-    )
+def _scripts(kinds: set[str]) -> list[str]:
+    """The files of scripts that these kinds of live pictures need, each once."""
+    files = (file for kind in SCRIPTS if kind in kinds for file in SCRIPTS[kind])
+    return list(dict.fromkeys([*files, EVERYWHERE]))
 
 
 @cache
@@ -173,16 +168,13 @@ def _environment(package: str) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    own = {"number": number, "unit": unit_text, "g": "{:g}".format, "json": _json}
+    own = {"number": number, "unit": unit_text, "g": "{:g}".format}
     environment.filters |= own | {"base64": lambda data: base64.b64encode(data).decode("ascii")}
-    environment.globals["asset"] = lambda file: Markup(asset(file))
+    environment.globals["asset"] = asset
+    # of the filter `tojson`, whose text is safe inside a script element, in which no entity is read
+    how = {"allow_nan": False, "ensure_ascii": False, "separators": (",", ":")}
+    environment.policies["json.dumps_kwargs"] = how
     return environment
-
-
-def _json(content: Mapping[str, Any]) -> Markup:
-    """JSON that is safe inside a script element, in which no entity is read."""
-    text = json.dumps(content, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
-    return Markup(text.replace("<", "\\u003c"))
 
 
 def unit_text(unit: str) -> str:

@@ -13,22 +13,19 @@ from cosim.files import write_bytes, write_text
 from cosim.report.columns import Columns, Data, write_columns, write_columns_as_csv
 from cosim.scenario.keys import taken_line
 
-from .bounds import bounds_sentences
+from . import quantities, run_text
 from .contents import Views, material_of, stored_tables
 from .coupling import doubts, step_rows
 from .files import write_json
 from .heat_numbers import ambient_degC
 from .material import page_of_material
-from .motion_text import border_sentence, regime_sentence, stability_sentence
 from .page import render
-from .quantities import TABLES, digits, spelled, told, told_at, with_unit, worded
-from .run_answer import headline, tiles
 from .run_summary import summary
 
 Progress = Callable[[str], None]
 
 ANIMATION = "temperature.gif"
-OWN_FILES: dict[str, str] = TABLES["files"]
+OWN_FILES: dict[str, str] = quantities.TABLES["files"]
 CASES = {"coupled": "mechanics coupled to belt and ice", "mechanics": "mechanics alone"}
 
 
@@ -112,54 +109,11 @@ def run_page(
     """HTML of a run: numbers of `summary`, its figures, the files beside it."""
     from .figures import plates_of
 
-    values: dict[str, Any] = {
-        "numbers": numbers,
-        "files": files or {},
-        "command": command,
-        "starts": STARTS,
-    }
-    values |= {"headline": headline(numbers), "tiles": tiles(numbers), "step_rows": step_rows}
-    values |= {"parameters": stored_tables(dataset), "worded": worded, "told_at": told_at}
-    values |= {"defaults": taken_line(numbers["defaults"])}
-    values |= {"figures": [plate.picture(dataset) for plate in plates_of(dataset)]}
-    # the template calls what this module knows
-    html = render("run.html.j2", __package__ or "", **globals() | values)
+    told: dict[str, Any] = {"numbers": numbers, "files": files or {}, "command": command}
+    told |= {"starts": STARTS, "cases": CASES, "step_rows": step_rows, "doubts": doubts}
+    told |= {"parameters": stored_tables(dataset), "defaults": taken_line(numbers["defaults"])}
+    told |= {"created": datetime.fromisoformat(numbers["created"])}
+    told |= {"figures": [plate.picture(dataset) for plate in plates_of(dataset)]}
+    # the template calls what these modules know
+    html = render("run.html.j2", __package__ or "", **vars(quantities) | vars(run_text) | told)
     return page_of_material(html, material_of(dataset))
-
-
-def made(numbers: Mapping[str, Any]) -> str:
-    """When the run was made."""
-    return datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z")
-
-
-def simulated(numbers: Mapping[str, Any]) -> str:
-    """How long the run was, and how long it took: to two digits, for that is the machine's mood."""
-    took = numbers.get("wall_time")
-    computing = "" if took is None else f", computed in {told(float(f'{took:.2g}'), 's')}"
-    return f"{told(numbers['time_reached'], 's')} of motion{computing}"
-
-
-def beyond(numbers: Mapping[str, Any]) -> list[str]:
-    """Sentences on what the block does that its rig could not; none where all is well."""
-    found = (*bounds_sentences(numbers), *doubts(numbers.get("coupling", {})))
-    return [f"{said[0].upper()}{said[1:]}." for said in found]
-
-
-def assessed(numbers: Mapping[str, Any]) -> list[str]:
-    """Sentences on stability and regimes; none for a run that was not assessed."""
-    if "stability" not in numbers:
-        return []
-    return [stability_sentence(numbers), regime_sentence(numbers), border_sentence(numbers)]
-
-
-def valued(entry: Mapping[str, Any]) -> str:
-    """A parameter's value; a unit only behind numbers."""
-    value = entry["value"]
-    if isinstance(value, str):
-        return digits(value)
-    return with_unit(digits(value), spelled(entry["unit"]))
-
-
-def degrees(value: float | None) -> str:
-    """A temperature to 0.01 K: the rise beside it has the digits that it is worth."""
-    return "–" if value is None else f"{value:z.2f} °C".replace("-", "−")

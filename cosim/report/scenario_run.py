@@ -60,7 +60,7 @@ class ScenarioRun(RunResult):
         return summary(self._columns)
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
-        from cosim.report.run_answer import headline, tiles
+        from cosim.report.run_text import headline, tiles
 
         numbers = self.summary()
         return headline(numbers), tiles(numbers)

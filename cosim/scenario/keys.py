@@ -1,14 +1,13 @@
 """Every key of a scenario in words: what it is, its unit, its default, what is allowed."""
 
 from collections.abc import Iterator, Mapping
-from typing import Any, NamedTuple, get_args, get_origin
+from typing import Any, NamedTuple
 
-from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from cosim.scenario.defaults import IN_PROPORTION, stated
 from cosim.scenario.scenario import scenario_type
-from cosim.scenario.validation import allowed, known_keys, unit_of
+from cosim.scenario.validation import allowed, entries_of, known_keys, table_of, unit_of
 
 
 class Key(NamedTuple):
@@ -42,7 +41,7 @@ def all_keys() -> list[Key]:
     return [
         key
         for name, field in known_keys(scenario_type()).items()
-        if not _is_table(field.annotation)
+        if table_of(field.annotation) is None
         for key in _with_entries(name, field)
     ]
 
@@ -50,9 +49,8 @@ def all_keys() -> list[Key]:
 def _with_entries(name: str, field: FieldInfo) -> Iterator[Key]:
     """A key, and behind it those of each table where it is a list of tables."""
     yield _key(name, field, stated().get(name, FOLLOWS.get(name, field.default)))
-    entries = get_args(field.annotation)
-    if get_origin(field.annotation) is tuple and _is_table(entries[0]):
-        for entry, inner in entries[0].model_fields.items():
+    if (table := entries_of(field.annotation)) is not None:
+        for entry, inner in table.model_fields.items():
             yield _key(f"{name}[].{entry}", inner, inner.default)
 
 
@@ -106,7 +104,3 @@ def shown(value: Any) -> str:
 def spaced(unit: str) -> str:
     """A unit behind a number; "" for none."""
     return "" if unit == "1" else " " + unit.replace(".", " ")
-
-
-def _is_table(kind: Any) -> bool:
-    return isinstance(kind, type) and issubclass(kind, BaseModel)

@@ -9,33 +9,15 @@ from typing import Any, Literal, TypeVar, get_args, get_origin
 
 from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
+from stickslip.packaged import packaged_tables
 from stickslip.quantity import details
 from stickslip.units import QUANTITY, in_unit
 
 from cosim.names import nearest_key
 
 LONGEST_VALUE = 60
-BOUNDS = {
-    "gt": "greater than {:g}",
-    "ge": "at least {:g}",
-    "lt": "less than {:g}",
-    "le": "at most {:g}",
-}
-WRONG = {
-    "finite_number": "not a finite number",
-    "float_type": "not a number",
-    "int_type": "not a whole number",
-    "string_type": "not a text",
-    "model_type": "not a table",
-    "literal_error": "not known",
-    "greater_than": "out of range",
-    "greater_than_equal": "out of range",
-    "less_than": "out of range",
-    "less_than_equal": "out of range",
-    "missing": "has too few entries",
-    "too_long": "has too many entries",
-    "string_pattern_mismatch": "not fit for the name of a folder",
-}
+#: What is wrong and what is allowed, in words.
+WORDS = packaged_tables(__package__, "validation.toml")
 
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -68,7 +50,7 @@ def _in_si(tables: Any, model: type[BaseModel]) -> Any:
         return tables
     made = dict(tables)
     for key, field in model.model_fields.items():
-        value, table = made.get(key), _table(field.annotation) or _entries(field.annotation)
+        value, table = made.get(key), table_of(field.annotation) or entries_of(field.annotation)
         if isinstance(value, str) and (number := in_unit(value, unit_of(field))) is not None:
             made[key] = number
         elif table is not None and isinstance(value, tuple):
@@ -78,9 +60,9 @@ def _in_si(tables: Any, model: type[BaseModel]) -> Any:
     return made
 
 
-def _entries(kind: Any) -> type[BaseModel] | None:
+def entries_of(kind: Any) -> type[BaseModel] | None:
     """What a list of tables is made of."""
-    return _table(get_args(kind)[0]) if get_origin(kind) is tuple else None
+    return table_of(get_args(kind)[0]) if get_origin(kind) is tuple else None
 
 
 def known_keys(model: type[BaseModel]) -> dict[str, FieldInfo]:
@@ -88,7 +70,7 @@ def known_keys(model: type[BaseModel]) -> dict[str, FieldInfo]:
     keys = {}
     for name, field in model.model_fields.items():
         keys[name] = field
-        if (table := _table(field.annotation)) is not None:
+        if (table := table_of(field.annotation)) is not None:
             keys |= {f"{name}.{key}": entry for key, entry in table.model_fields.items()}
     return keys
 
@@ -129,7 +111,9 @@ def _describe(key: str, faults: list[Fault], keys: dict[str, FieldInfo]) -> str:
         return _of_several_keys(key, str(fault["ctx"]["error"]), keys)
     if fault["type"] == "extra_forbidden":
         return f"{key}: no such key, {_known_instead(key, keys)}"
-    wrong = WRONG.get(fault["type"], "not possible") if len(faults) == 1 else "not possible"
+    wrong = (
+        WORDS["wrong"].get(fault["type"], "not possible") if len(faults) == 1 else "not possible"
+    )
     if wrong == "not a number" and QUANTITY.fullmatch(str(fault["input"])):
         wrong = not_in(unit_of(keys[key]))
     return f"{key}: {wrong} ({_shown(fault['input'])}), allowed is {allowed(key, keys[key])}"
@@ -142,9 +126,9 @@ def _inner_table(
     for depth in (1, 2):
         key = ".".join(map(str, loc[:depth]))
         kind = keys[key].annotation if key in keys and len(loc) > depth + 1 else None
-        if get_origin(kind) is tuple and (table := _table(get_args(kind)[0])) is not None:
+        if (table := entries_of(kind)) is not None:
             return f"{key}[{loc[depth] + 1}]", table, loc[depth + 1 :]
-        if get_origin(kind) is dict and (table := _table(get_args(kind)[1])) is not None:
+        if get_origin(kind) is dict and (table := table_of(get_args(kind)[1])) is not None:
             return f"{key}.{loc[depth]}", table, loc[depth + 1 :]
     return None
 
@@ -182,7 +166,7 @@ def not_in(unit: str) -> str:
 
 def allowed(key: str, field: FieldInfo) -> str:
     """What a key may hold, in words."""
-    if (table := _table(field.annotation)) is not None:
+    if (table := table_of(field.annotation)) is not None:
         return f"a table [{key}] with {', '.join(table.model_fields)}"
     unit = unit_of(field)
     return _allowed_type(field.annotation, field.metadata, "" if unit == "1" else f" {unit}")
@@ -193,7 +177,7 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
         bounds = [
             words.format(getattr(bound, name))
             for bound in metadata
-            for name, words in BOUNDS.items()
+            for name, words in WORDS["bounds"].items()
             if getattr(bound, name, None) is not None
         ]
         number = "a number" if kind is float else "a whole number"
@@ -210,7 +194,7 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
         return " or ".join(f'"{choice}"' for choice in get_args(kind))
     if get_origin(kind) is tuple:
         return _allowed_list(get_args(kind), unit)
-    if get_origin(kind) is dict and _table(get_args(kind)[1]) is not None:
+    if get_origin(kind) is dict and table_of(get_args(kind)[1]) is not None:
         return "a table of tables"
     if get_origin(kind) is dict:
         return f"a table of names, each with {_allowed_type(get_args(kind)[1], (), unit)}"
@@ -221,7 +205,7 @@ def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:
 
 
 def _allowed_list(entries: tuple[Any, ...], unit: str) -> str:
-    if (table := _table(entries[0])) is not None:
+    if (table := table_of(entries[0])) is not None:
         return f"a list of tables with {', '.join(table.model_fields)}"
     if entries[-1] is Ellipsis:
         return f"a list of {_allowed_type(entries[0], (), unit)}"
@@ -239,7 +223,7 @@ def _flat_metadata(kind: Any) -> list[Any]:
     ]
 
 
-def _table(kind: Any) -> type[BaseModel] | None:
+def table_of(kind: Any) -> type[BaseModel] | None:
     """The model, where a type is a table of keys."""
     return kind if isinstance(kind, type) and issubclass(kind, BaseModel) else None
 

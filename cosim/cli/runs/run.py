@@ -3,7 +3,7 @@
 import shlex
 import time
 from argparse import Namespace
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -57,10 +57,10 @@ def execute(arguments: Namespace) -> int:
         pictures = done.snapshots
         dataset = run_columns(done.result, scenario, scenario.to_toml(), snapshots=pictures)
         running.assess_motion(dataset, scenario, ending.patience)
-        for name in run_io.field_files(job.results) if pictures.file else ():
+        fields = run_io.field_files(job.results) if pictures.file else []
+        for name in fields:
             results.add(job.results / name)
-        files = _field_files(done, job.results)
-        return running.finish(dataset, ending, files, pictures.views)
+        return running.finish(dataset, ending, _collections(fields), pictures.views)
 
     return job.carried_out(began, numbers, arguments.verbose, run, write)
 
@@ -114,17 +114,15 @@ def _resume(results: Path, scenario: Scenario) -> str:
     return shlex.join(["stickslip", "run", "--resume", str(results), *effects])
 
 
-def _field_files(done: CoupledRun, folder: Path) -> dict[str, str]:
-    """The temperature fields as the page lists them."""
-    if done.snapshots.file is None:
-        return {}
-    true = done.snapshots.file
-    listed = {
-        true.relative_to(folder).as_posix(): "temperature fields of belt and ice for ParaView, to "
-        "scale: colour by rise_K"
-    }
-    for thicker in running.stretched_fields(folder):
-        times = thicker.stem.rpartition("_")[2].removesuffix("x")
-        name = thicker.relative_to(folder).as_posix()
-        listed[name] = f"the same with the belt drawn {times} times as thick as it is"
+def _collections(fields: Iterable[str]) -> dict[str, str]:
+    """Of the files of the temperature fields those to be opened, as the page lists them."""
+    listed = {}
+    for name in fields:
+        file = Path(name)
+        times = file.stem.partition("_belt_")[2].removesuffix("x")
+        if file.suffix == ".pvd" and times:
+            listed[name] = f"the same with the belt drawn {times} times as thick as it is"
+        elif file.suffix == ".pvd":
+            what = "temperature fields of belt and ice for ParaView, to scale: colour by rise_K"
+            listed[name] = what
     return listed

@@ -3,7 +3,6 @@
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -14,17 +13,17 @@ from cosim.cli import FAILED
 from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
-from cosim.cli.runs.closing_lines import closing_lines
-from cosim.cli.runs.run_io import COLLECTION, FIELDS, LAST_OF_DATA, Ending, log_files, own_folder
+from cosim.cli.runs.run_io import LAST_OF_DATA, Ending, log_files, own_folder
 from cosim.cli.scenarios import given_scenario
 from cosim.coupling.record import LOG
 from cosim.interrupts import Patience
 from cosim.manifest import other_command
 from cosim.report import Views, write_results
-from cosim.report.bounds import bounds_sentences, is_believed
+from cosim.report.bounds import is_believed
 from cosim.report.columns import Data
 from cosim.report.contents import attach_assessment, material_of
 from cosim.report.coupling import doubts
+from cosim.report.run_text import bounds_sentences, closing_lines
 from cosim.scenario import Scenario, ScenarioError, check_work
 from cosim.scenario.durations import in_words
 from cosim.scenario.units import doubted
@@ -63,11 +62,6 @@ def results_folder(given: str | None, scenario: Scenario, force: bool = False) -
     return own_folder(folder, RESULT_FILES, force)
 
 
-def stretched_fields(folder: Path) -> list[Path]:
-    """The collections of the fields with a thicker belt: one, or none where it needs none."""
-    return sorted((folder / FIELDS).glob(f"{Path(COLLECTION).stem}_belt_*x.pvd"))
-
-
 def assess_motion(dataset: Data, scenario: Scenario, patience: Patience) -> None:
     """Let a complete run's dataset carry the assessment of its motion.
 
@@ -100,18 +94,6 @@ class _StoppedError(Exception):
     """A Ctrl-C has ended the assessment."""
 
 
-@contextmanager
-def progress_over_files() -> Iterator[Callable[[str], None]]:
-    """A line that counts and names the files written; none when stderr is no terminal."""
-    with Bar(bar_format="{n} files written, {desc} the last") as bar:
-
-        def written(name: str) -> None:
-            bar.set_description_str(name, refresh=False)
-            bar.update()
-
-        yield written
-
-
 def finish(
     dataset: Data, ending: Ending, files: Mapping[str, str] | None = None, views: Views = ()
 ) -> int:
@@ -123,15 +105,15 @@ def finish(
     further: Any = {"files": listed, "views": views, "command": ending.command, **ending.shown}
 
     def write(released: Callable[[str], None]) -> Mapping[str, Any]:
-        with progress_over_files() as show:
+        with Bar(bar_format="{n} files written, {desc} the last") as bar:
 
             def written(name: str) -> None:
-                show(name)
+                bar.set_description_str(name, refresh=False)
+                bar.update()
                 released(name)
 
             write_results(dataset, ending.folder, progress=written, **further)
-        summary = (ending.folder / LAST_OF_DATA).read_text("utf-8")
-        numbers: Mapping[str, Any] = json.loads(summary)
+        numbers: Mapping[str, Any] = json.loads((ending.folder / LAST_OF_DATA).read_text("utf-8"))
         return numbers
 
     def lines_of(numbers: Mapping[str, Any]) -> Iterator[str]:

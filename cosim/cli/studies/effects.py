@@ -12,7 +12,7 @@ from cosim.files import writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, results_in
 from cosim.report.page import Picture
-from cosim.studies.effects import Entry, allowed, chosen, described
+from cosim.studies.effects import Entry, chosen, described, written
 
 RESULT, PAGE = "effects.json", "effects.html"
 
@@ -29,22 +29,8 @@ def execute(arguments: Namespace) -> int:
         with results_in(folder, made_by(), names, arguments.force):
             _write(entries, told, folder)
     if not asked.give(json.dumps(entries, indent=1)):
-        for entry in entries:
-            _print(entry)
+        print(written().printed(entries), end="")
     return DONE
-
-
-def _print(entry: dict[str, Any]) -> None:
-    print(f"{entry['id']}: {entry['sentence']}")
-    print(f"    enters {entry['enters']}; {entry['source']}")
-    for parameter in entry["parameters"]:
-        typical = parameter["typical"]
-        usual = f", typical {typical[0]:g} to {typical[1]:g}" if typical else ""
-        print(
-            f"    {parameter['key']} [{parameter['unit']}] = {parameter['default']:g}, allowed "
-            f"{allowed(parameter)}{usual}"
-        )
-        print(f"        {parameter['description']}")
 
 
 def _write(entries: list[dict[str, Any]], told: list[Entry], folder: Path) -> None:

@@ -4,7 +4,6 @@ import json
 import sys
 import time
 from argparse import Namespace
-from typing import Any
 
 from cosim.cli import DONE
 from cosim.cli.bar import Bar
@@ -13,7 +12,7 @@ from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.fmu.build import own_fmu
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.studies.friction_map import friction_map
-from cosim.studies.friction_map.measured import differences
+from cosim.studies.friction_map.page import printed
 
 RESULT, PAGE = "friction_map.json", "report.html"
 TABLE, FIGURE = "friction_map.csv", "friction_map.png"
@@ -39,30 +38,9 @@ def execute(arguments: Namespace) -> int:
         found.save(folder, made["command"])
     if asked.give(json.dumps(found.summary(), indent=1)):
         return DONE
-    for ambient in found.ambients:
-        _print(found.regimes(ambient))
+    print(printed(found), end="")
     for reason in found.failed:
         print(f"warning: left out: {reason}", file=sys.stderr)
-    if differ := differences(found):
-        print(differ)
     wall_time = time.perf_counter() - began
     print(f"{total} coupled runs in {wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")
     return DONE
-
-
-def _print(regimes: dict[str, Any]) -> None:
-    print(f"{regimes['ambient_degC']:g} degC")
-    for key, name in (
-        ("steepest_fall", "steepest fall"),
-        ("steepest_fall_over_warming", "  over T_m - T"),
-        ("steepest_rise", "steepest rise"),
-    ):
-        slope = regimes[key]
-        if slope is not None:
-            print(
-                f"    {name}: slope {round(slope['slope'], 4) + 0.0:+.4f} "
-                f"from {slope['low']:.3g} to {slope['high']:.3g} m/s"
-            )
-    lowest = regimes["minimum"]
-    if lowest is not None:
-        print(f"    minimum: {lowest['friction']:.4f} at {lowest['speed']:.3g} m/s")

@@ -4,8 +4,6 @@ import json
 import sys
 import time
 from argparse import Namespace
-from pathlib import Path
-from typing import Any
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.bar import Bar
@@ -13,7 +11,7 @@ from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.studies.stability import NotAMotion, Stability, case_of, stick_slip_range
-from cosim.studies.stability.study import PAGE, RESULT
+from cosim.studies.stability.study import PAGE, RESULT, printed
 
 #: By which keys RESULT is known.
 KEYS = ("name", "stability", "regime_map")
@@ -45,21 +43,7 @@ def execute(arguments: Namespace) -> int:
     with results_in(folder, made, force=arguments.force) as results:
         found.save(folder)
         results.complete = status == DONE
-    numbers = found.summary()
-    if not asked.give(json.dumps(numbers, indent=1)):
-        _print(numbers, found.sentences, folder, time.perf_counter() - began)
+    if not asked.give(json.dumps(found.summary(), indent=1)):
+        print(printed(found), end="")
+        print(f"{time.perf_counter() - began:.1f} s; {folder / PAGE}, {folder / RESULT}")
     return status
-
-
-def _print(numbers: dict[str, Any], sentences: list[str], folder: Path, wall_time: float) -> None:
-    print(f"{numbers['name']}: {sentences[0]}")
-    print("\n".join(sentences[1:]))
-    found = numbers["regime_map"]
-    if found is not None and found["cells_that_differ"] is not None:
-        cells = 3 * len(found["ratios"]) * len(found["speeds"])
-        differ, fastest = found["cells_that_differ"], found["fastest_from_rest"]
-        print(
-            f"closed form of the Coulomb oscillator: {differ} of {cells} runs differ; from rest "
-            f"it sticks up to {fastest:.4f} m/s"
-        )
-    print(f"{wall_time:.1f} s; {folder / PAGE}, {folder / RESULT}")

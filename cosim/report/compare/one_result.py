@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from cosim.manifest import COMPLETE, MANIFEST
+from cosim.manifest import COMPLETE, manifest_of
 
 DATA, NUMBERS = "result.nc", "summary.json"
 #: What a system's numbers have of how it was run, and of each of its units.
@@ -81,7 +81,7 @@ def read_result(folder: Path) -> OneResult:
         raise NotAResult(f"{folder}: its {DATA} or {NUMBERS} cannot be read ({said})") from None
     if "time" not in dataset.dims or dataset.sizes["time"] == 0:
         raise NotAResult(f"{folder}: its {DATA} has no row, allowed is a run that has one")
-    made = _made_by(folder)
+    made = manifest_of(folder)
     remarks = []
     if status != "complete":
         remarks.append(
@@ -92,14 +92,6 @@ def read_result(folder: Path) -> OneResult:
         remarks.append(f"{folder}: its results are not complete, writing them was cut off")
     scenario = str(made.get("scenario") or dataset.attrs.get("scenario", ""))
     return OneResult(name, str(folder), dataset, numbers, scenario, tuple(remarks))
-
-
-def _made_by(folder: Path) -> dict[str, Any]:
-    try:
-        content = json.loads((folder / MANIFEST).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return {}
-    return content if isinstance(content, dict) else {}
 
 
 def _of_system(numbers: Mapping[str, Any]) -> dict[str, Any]:

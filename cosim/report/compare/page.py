@@ -8,7 +8,7 @@ from typing import Any
 
 from cosim.report import quantities
 from cosim.report.files import write_json
-from cosim.report.page import Picture, render
+from cosim.report.page import Picture, render, sentences, texts, tiles_of
 from cosim.report.quantities import DIGITS, FOUND, NONE, digits, is_share, told, worded
 
 from .compare import SAME, Comparison, Difference
@@ -21,8 +21,8 @@ DEGREES = {"degC": "K"}
 MANY = 10.0
 #: Of two numbers that differ by less than is told of them.
 EQUAL = "equal within rounding"
-#: Curves among the figures at the top.
-CURVES_AT_TOP = 2
+#: Numbers that are on the page only.
+OTHER_STARTS = tuple(f"regimes.{start}." for start in ("disturbed", "rest", "riding", "ramp"))
 #: Unit -> what no rig tells from nothing: a part of it, or a figure at the top, would say nothing.
 UNFELT = {"m": 1e-7, "m/s": 1e-6, "rad": 1e-6, "rad/s": 1e-5, "N": 1e-6, "N.m": 1e-7, "K": 1e-6}
 #: Digits that a difference is worth.
@@ -54,26 +54,26 @@ def page(both: Comparison, command: str = "") -> tuple[str, list[Picture]]:
 
 def headline(both: Comparison) -> str:
     """Whether the two differ, and by how much, in one sentence."""
-    names = f"{both.a.label} and {both.b.label}"
-    different, curves = len(both.different), _felt(both)
-    if not different and not both.curves:
-        return f"{names} are equal within rounding, in all that both have."
-    told = f"{names} differ in {different} of {different + equal_count(both)} numbers"
-    if curves:
-        most, part = _at_top(curves[0]), curve_cells(curves[0])[-1]
-        told += f"; {_plain(curves[0].name)} by up to {most}"
-        told += f", {part} of what it spans" if part != NONE else ""
-    return f"{told}."
+    return " ".join(sentences(_text().headline(both, _felt(both))))
 
 
 def tiles(both: Comparison) -> list[tuple[str, str]]:
     """Up to four figures: what differs in what made them, in the numbers, and how far in curves."""
-    different = len(both.different)
-    found = [(f"of {different + equal_count(both)} numbers differ", str(different))]
-    if bool(both.a.scenario) is bool(both.b.scenario):
-        found.insert(0, ("different keys", str(len(both.keys))))
-    curves = _felt(both)[:CURVES_AT_TOP]
-    return [*found, *((f"{_plain(one.name)}, apart at most", _at_top(one)) for one in curves)]
+    return tiles_of(_text().tiles(both, _felt(both)))
+
+
+def printed(both: Comparison) -> str:
+    """What the command prints: what differs in the scenarios, and in the numbers."""
+    told = [one for one in both.different if not one.name.startswith(OTHER_STARTS)]
+    rows = [("number", "A", "B", "B - A", "relative"), *((one.name, *cells(one)) for one in told)]
+    name, *others = (max(map(len, column)) for column in zip(*rows, strict=True))
+    shown = [[first.ljust(name), *map(str.rjust, cells_of, others)] for first, *cells_of in rows]
+    return str(_text().printed(both, shown if told else ()))
+
+
+def _text() -> Any:
+    """The macros of `compare.txt.j2`, which call what this module knows."""
+    return texts("compare.txt.j2", __package__ or "", globals())
 
 
 def _felt(both: Comparison) -> list[Apart]:
@@ -85,12 +85,9 @@ def _unfelt(one: Apart) -> float:
     return max(quantities.ROUNDING.get(unit, 0.0), UNFELT.get(unit, 0.0))
 
 
-def _at_top(one: Apart) -> str:
+def at_top(one: Apart) -> str:
+    """The largest difference of a curve, at the top of the page."""
     return told(abs(one.largest), DEGREES.get(one.unit, one.unit), count=FOUND)
-
-
-def _plain(name: str) -> str:
-    return name.replace("_", " ")
 
 
 def equal_count(both: Comparison) -> int:
@@ -99,8 +96,13 @@ def equal_count(both: Comparison) -> int:
 
 
 def keyed(value: Any) -> str:
-    """A key's value, where there is one."""
-    return "(not there)" if value is None else digits(value) if value != [] else "[]"
+    """A key's value on the page, where there is one."""
+    return key_text(value) if value != [] else "[]"
+
+
+def key_text(value: Any) -> str:
+    """The same on the terminal."""
+    return "(not there)" if value is None else digits(value)
 
 
 def groups(numbers: Iterable[Difference]) -> list[tuple[str, list[tuple[str, ...]]]]:

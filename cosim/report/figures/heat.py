@@ -10,7 +10,7 @@ from stickslip.friction.law import feels_water
 from cosim.report import palette as ink
 from cosim.report.columns import Data
 from cosim.report.contents import mechanics_of
-from cosim.report.heat_numbers import SINKS, Film, all_other_heat, ambient_degC, film_of, held
+from cosim.report.heat_numbers import SINKS, Film, ambient_degC, film_of, held, other_heat
 from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.palette import Scaled, readable
 
@@ -30,7 +30,7 @@ SMALLEST_PART = 2e-3
 
 def heat(dataset: Data) -> TimeFigure:
     """Heat flow, cumulative heat and, where there is a thermal model, the shares."""
-    sinks, beside = sinks_of(dataset), all_other_heat(dataset)
+    sinks, beside = sinks_of(dataset), other_heat(dataset)
     power, produced = dataset["heat_flow"].values, dataset["heat"].values
     flow, total = readable(power, "W"), readable(produced + beside, "J")
     sums = [
@@ -63,7 +63,7 @@ def sinks_of(dataset: Data) -> dict[str, tuple[str, str]]:
 
 
 def _shares(dataset: Data, sinks: dict[str, tuple[str, str]]) -> list[Curve]:
-    received = dataset["heat_received"].values + all_other_heat(dataset)
+    received = dataset["heat_received"].values + other_heat(dataset)
     # of the first joules the parts are rounding and the mesh's
     least = SMALLEST_PART * float(np.nanmax(received, initial=0.0))
     whole = np.where(received > least, received, np.nan)

@@ -124,9 +124,6 @@
     };
   }
 
-  // Linear near 0 and logarithmic beyond, or logarithmic, or linear.
-  const distrOf = ({ linear_to: linear, logarithmic }) => linear ? { distr: 4, asinh: linear } : { distr: logarithmic ? 3 : 1 };
-
   // Room for the names of levels, the same for all panels of a figure.
   function besidePlots(data) {
     const names = data.panels.flatMap((each) => each.levels.map(([, text]) => text.length));
@@ -153,7 +150,7 @@
       height: (floor ? MAP_HEIGHT : HEIGHT) + (first && data.marks.length ? 14 : 0) + (last ? 18 : 0),
       padding: [first && data.marks.length ? 20 : 6, besidePlots(data), 0, 0],
       legend: { show: false },
-      scales: { x: { time: false }, y: { range: range(panel), ...distrOf(panel) } },
+      scales: { x: { time: false }, y: { range: range(panel), distr: panel.logarithmic ? 3 : 1 } },
       axes: [
         { ...look, size: 26, label: last ? "time [s]" : undefined, labelSize: 18 },
         isAbove(panel, data)

@@ -12,6 +12,8 @@ from dataclasses import replace
 from itertools import product
 from typing import Any
 
+from stickslip.packaged import packaged_tables
+
 from cosim.processes import processes
 from thermal import Belt, NoSteadyState, ParameterError
 
@@ -25,18 +27,8 @@ from .rigs import FEWEST_SAMPLES, runs_for
 from .uncertainty import uncertainty
 
 Progress = Callable[[int], object]
-#: Option -> field of a case, unit, above this or, where True follows, also this; at most that.
-BOUNDS = {
-    "length": ("length", "m", 0.0, False, 100.0),
-    "speed": ("speed", "m/s", 0.0, False, 100.0),
-    "mass": ("mass", "kg", 0.0, False, 1e5),
-    "h": ("h", "W/m2K", 0.0, True, 1e4),
-    "conductivity": ("conductivity", "W/mK", 0.0, False, 1e4),
-    "friction": ("friction", "", 0.0, False, 10.0),
-    "ambient": ("ambient_degC", "degC", -100.0, True, 500.0),
-    "conductance": ("conductance", "W/m2K", 0.0, False, 1e12),
-    "thickness": ("thickness", "m", 0.0, False, 0.1),
-}
+#: Option -> field of a case, unit, bounds.
+BOUNDS = packaged_tables(__package__, "options.toml")
 #: Least of a belt's layer: a thin metal foil, and a tenth of still air.
 LEAST = (("thickness", "m", 1e-6), ("conductivity", "W/mK", 2e-3))
 #: Strongest fall of friction with temperature, 1/K: nothing is left one kelvin warmer.

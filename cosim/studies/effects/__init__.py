@@ -14,8 +14,9 @@ from stickslip.quantity import details
 
 from cosim.fmu.variables import bounds_of
 from cosim.names import nearest
+from cosim.report.page import texts
 
-__all__ = ["Entry", "allowed", "chosen", "described"]
+__all__ = ["Entry", "allowed", "chosen", "described", "written"]
 
 
 class UnknownEffect(ValueError):
@@ -95,3 +96,8 @@ def allowed(parameter: dict[str, Any]) -> str:
     high = parameter.get("le", parameter.get("lt", math.inf))
     ends = "[" if "ge" in parameter else "(", "]" if "le" in parameter else ")"
     return f"{ends[0]}{low:g}, {high:g}{ends[1]}"
+
+
+def written() -> Any:
+    """The macros of `effects.txt.j2`."""
+    return texts("effects.txt.j2", __name__, {"allowed": allowed})

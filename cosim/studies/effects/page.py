@@ -16,11 +16,11 @@ from stickslip import Parameters, Trajectory, simulate
 from stickslip.friction.law_curves import LawCurve, axis_of, law_curve
 
 from cosim.report.live import Curve, Live, Panel, Series, TimeFigure, panels_on_one_axis
-from cosim.report.page import Picture, render, texts, unit_text
+from cosim.report.page import Picture, render, unit_text
 from cosim.report.palette import BLUE, GREY
 from cosim.report.style import panels, picture
 from cosim.studies import FIGURES
-from cosim.studies.effects import Entry, allowed, described
+from cosim.studies.effects import Entry, allowed, described, written
 
 INTERVAL = 0.005  # s
 #: A rig that sticks and slips from the start: pretensioned springs, friction along x.
@@ -57,7 +57,7 @@ def page(told: Sequence[Entry], pictures: dict[str, Picture]) -> str:
 
 def sentence(rooms: Mapping[str, Sequence[Any]]) -> str:
     """How many effects there are of what."""
-    return str(_text().sentence(rooms))
+    return str(written().sentence(rooms))
 
 
 @picture("overview", **FIGURES["overview"])
@@ -83,14 +83,9 @@ def draw_overview(entries: Sequence[Entry]) -> Figure:
 def effect_figure(entry: Entry) -> Picture:
     """PNG of the law and the two motions, with the numbers of the case in its caption."""
     curve = "its law, and " if axis_of(entry.effect) else ""
-    caption = str(_text().caption(entry.effect.case, curve))
+    caption = str(written().caption(entry.effect.case, curve))
     alt = f"{entry.effect.id}: {curve}the motion without and with it"
     return replace(picture(entry.effect.id, caption, alt=alt)(_draw)(entry), live=_live(entry))
-
-
-def _text() -> Any:
-    """The macros of `effects.txt.j2`."""
-    return texts("effects.txt.j2", "cosim.studies.effects", {})
 
 
 def _live(entry: Entry) -> Live:

@@ -167,6 +167,11 @@ def tiles(found: FrictionMap) -> list[tuple[str, str]]:
     return tiles_of(_text().tiles(found))
 
 
+def printed(found: FrictionMap) -> str:
+    """What the command prints."""
+    return str(_text().printed(found))
+
+
 def _text() -> Any:
     """The macros of `friction_map.txt.j2`, which call what this module knows."""
     return texts("friction_map.txt.j2", __package__ or "", globals())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict
@@ -13,7 +14,7 @@ from stickslip.reference.scheme_errors import DESCRIPTIONS
 
 from cosim.files import write_text
 from cosim.report.files import json_text, without_nan
-from cosim.report.page import render, write_page
+from cosim.report.page import render, texts, write_page
 from cosim.result import Result
 
 from .claim import WRITTEN, Claim
@@ -68,6 +69,16 @@ class Reproduction(list[Claim], Result):
         """Numbers first, then figures, then the page."""
         write_text(json_text(self.summary()), folder / RESULT)
         write_page(self._page(), [one for claim in self for one in claim.pictures], folder)
+
+
+def printed(claims: Reproduction) -> str:
+    """What the command prints."""
+    written = texts("printed.txt.j2", __package__ or "", {})
+    return str(written.printed(claims, DESCRIPTIONS, _names))
+
+
+def _names(text: str, code: str) -> bool:
+    return re.search(rf"\b{code}\b", text) is not None
 
 
 def _named(claim: Claim, words: str) -> dict[str, Any]:

@@ -14,8 +14,8 @@ from stickslip.steady_motion.starts import STARTS
 
 from cosim.files import write_text
 from cosim.report.files import without_nan
-from cosim.report.motion_text import border_sentence, regime_sentence, stability_sentence
 from cosim.report.page import PageResult, Picture, render, texts, tiles_of
+from cosim.report.run_text import border_sentence, regime_sentence, stability_sentence
 from cosim.scenario import Scenario
 
 from . import maps
@@ -128,6 +128,16 @@ def write_numbers(found: Stability, folder: Path) -> None:
     write_text(json.dumps(found.summary(), indent=1), folder / RESULT)
 
 
+def printed(found: Stability) -> str:
+    """What the command prints."""
+    return str(_text().printed(found.summary(), found.sentences))
+
+
+def _text() -> Any:
+    """The macros of `stability.txt.j2`."""
+    return texts("stability.txt.j2", __package__ or "", {})
+
+
 def headline(found: Stability) -> str:
     """What was asked first."""
     return found.sentences[0]
@@ -152,4 +162,4 @@ def page(found: Stability, command: str = "") -> tuple[str, list[Picture]]:
 def tiles(found: Stability) -> list[tuple[str, str]]:
     """Four figures: where stick-slip stops if that is asked, how disturbances grow, what would
     help, and what the run does."""
-    return tiles_of(texts("stability.txt.j2", __package__ or "", {}).tiles(found.summary()))[:4]
+    return tiles_of(_text().tiles(found.summary()))[:4]

@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from itertools import groupby
-from operator import itemgetter
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
 from cosim.names import unknown_name
-from cosim.report.page import number, texts, unit_text
+from cosim.report.page import texts, tiles_of, unit_text
 
 from .axis import SweepError
 from .features import ALL
@@ -21,13 +20,6 @@ from .features import ALL
 STILL = 1e-3
 MOVES, SLIDES, HOLDS = "sticks and slips", "slides", "never slips"
 
-#: What is told of the run in which it is largest, in thousandths.
-LARGEST = (
-    ("x_std", "largest standard deviation of x", "mm"),
-    ("interface_rise", "warmest contact, over the air", "mK"),
-)
-
-#: A run: dimensions, linked keys, features, status, reason.
 Record = Mapping[str, Any]
 
 
@@ -115,23 +107,16 @@ def sentence(rows: Sequence[Record], dims: Mapping[str, str]) -> str:
     complete = _complete(rows)
     does = Counter(map(regime, complete)).most_common()
     turns = [(what, list(some)) for what, some in groupby(complete, regime)]
-    written = texts("words.txt.j2", __package__ or "", {})
-    return str(written.sentence(rows, complete, does, turns, dims))
+    return str(_text().sentence(rows, complete, does, turns, dims))
 
 
 def tiles(rows: Sequence[Record], dims: Mapping[str, str]) -> list[tuple[str, str]]:
     """Up to four figures: how many stick and slip, how often, and the largest of what is usual."""
     complete = _complete(rows)
     moving = [row["frequency"] for row in complete if regime(row) == MOVES]
-    told = [(f"of {len(complete)} complete runs stick and slip", str(len(moving)))]
-    # a single break-away has none
-    if often := sorted(each for each in moving if each > 0.0):
-        ends = " to ".join(dict.fromkeys(number(each, 3) for each in (often[0], often[-1])))
-        told.append(("break-aways in a second", f"{ends} Hz"))
-    for name, words, unit in LARGEST:
-        found = [row for row in complete if row.get(name, np.nan) > 0.0]
-        if found:
-            row = max(found, key=itemgetter(name))
-            at = ", ".join(f"{dim} = {number(row[dim])}{of}" for dim, of in dims.items())
-            told.append((f"{words}, at {at}", f"{number(1e3 * row[name], 3)} {unit}"))
-    return told
+    return tiles_of(_text().tiles(complete, moving, dims))
+
+
+def _text() -> Any:
+    """The macros of `words.txt.j2`."""
+    return texts("words.txt.j2", __package__ or "", {})

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from cosim.cli import main
-from cosim.cli.runs.closing_lines import closing_lines
+from cosim.report.run_text import closing_lines
 
 MECHANICS = {
     "name": "case",

@@ -8,10 +8,10 @@ from test_report_dataset import coupled_dataset, mechanics_dataset
 from cosim.report import summary, write_results
 from cosim.report.bounds import (
     allowed_aside,
-    bounds_sentences,
     contact_share,
     spring_lengths,
 )
+from cosim.report.run_text import bounds_sentences
 
 # of the scenario that the datasets are of
 RADIUS, WIDE = 0.04, 0.075

@@ -5,7 +5,7 @@ import base64
 import numpy as np
 from matplotlib.figure import Figure
 
-from cosim.report.live import Curve, Series, on_one_axis
+from cosim.report.live import Curve, Panel, Series, panels_on_one_axis
 from cosim.report.live_of_figure import live_of
 
 
@@ -17,7 +17,8 @@ def test_curves_of_other_times_share_an_axis():
     line = Curve("line", np.array([0.0, 4.0]), "#000000")
     dots = Curve("dots", np.array([5.0]), "#ff0000", dots=True)
     series = [Series(np.array([0.0, 2.0]), line), Series(np.array([1.0]), dots)]
-    times, (joined, single) = on_one_axis(series)
+    times, (panel,) = panels_on_one_axis([(Panel("", []), series)])
+    joined, single = panel.curves
     np.testing.assert_array_equal(times, [0.0, 1.0, 2.0])
     np.testing.assert_array_equal(joined.values, [0.0, 2.0, 4.0])
     np.testing.assert_array_equal(single.values, [np.nan, 5.0, np.nan])

@@ -15,8 +15,8 @@ from cosim.report.figures import plates_of
 from cosim.report.page import number
 from cosim.report.quantities import told
 from cosim.report.results import run_page
-from cosim.report.run_answer import headline, tiles
 from cosim.report.run_summary import summary
+from cosim.report.run_text import headline, tiles
 
 
 class References(HTMLParser):

@@ -9,9 +9,8 @@ import json
 import re
 import tomllib
 from functools import partial
+from html import escape
 from pathlib import Path
-
-from markupsafe import Markup, escape
 
 from cosim.files import write_atomically, write_text
 from cosim.report.material import page_of_material
@@ -64,7 +63,7 @@ def page(study: Study, command: str = "") -> tuple[str, list[Picture]]:
     return page_of_material(html, study.material), pictures
 
 
-def _on_page(sentence: str) -> Markup:
-    """A sentence of the terminal as a page has it: signs, units, what is typed."""
-    text = str(escape(_MINUS.sub("−", sentence).replace("W/m2K", "W/(m² K)")))
-    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", text))
+def _on_page(sentence: str) -> str:
+    """A sentence of the terminal, escaped, as HTML: signs, units, what is typed."""
+    text = escape(_MINUS.sub("−", sentence).replace("W/m2K", "W/(m² K)"), quote=False)
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", text)

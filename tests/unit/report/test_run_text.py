@@ -2,7 +2,7 @@
 
 import pytest
 
-from cosim.report.motion_text import border_sentence, stability_sentence, unstable_line
+from cosim.report.run_text import border_sentence, macros, stability_sentence
 
 FOUND = {
     "verdict": "unstable",
@@ -35,19 +35,21 @@ def numbers(**changed):
     ],
 )
 def test_the_pretension_that_helps_is_the_nearest(windows, told):
-    line = unstable_line(numbers(unstable_pretensions=windows))
+    line = macros().unstable(numbers(unstable_pretensions=windows))
     assert (
         line == f"disturbances of the line grow tenfold in 3.4 s, so that no rig keeps to it{told}"
     )
 
 
 def test_a_border_has_no_more_digits_than_it_is_known_to():
-    line = unstable_line(numbers(pretension_resolution=2e-3, unstable_pretensions=[(0.0, 0.0091)]))
+    line = macros().unstable(
+        numbers(pretension_resolution=2e-3, unstable_pretensions=[(0.0, 0.0091)])
+    )
     assert "stable from about 10 mm" in line
 
 
 def test_what_grows_slower_than_the_run_lasts_is_no_reason_that_no_rig_keeps_to_it():
-    line = unstable_line(numbers(time_to_grow=300.0))
+    line = macros().unstable(numbers(time_to_grow=300.0))
     assert "no rig keeps" not in line and "in a run that lasts 20 s" in line
     assert "no rig" not in stability_sentence(numbers(time_to_grow=300.0))
 
