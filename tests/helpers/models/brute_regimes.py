@@ -15,8 +15,6 @@ from stickslip.steady_motion.regimes import regime_of
 from stickslip.steady_motion.starts import OWN, started
 
 GRAVITY = 9.81
-#: At constant speed, s; starts.
-STEADY, STARTS = 600.0, 30
 
 
 def drawn_rig(draw):
@@ -39,7 +37,7 @@ def drawn_rig(draw):
     )
 
 
-def drawn_starts(parameters, draw, count=STARTS):
+def drawn_starts(parameters, draw, count):
     """In turn: carried by the surface, sliding about its place, at rest with and without a ramp.
 
     Half of them are as straight as a rig can be made, half are 5 mm aside and turned by 9 degrees.
@@ -65,7 +63,7 @@ def drawn_starts(parameters, draw, count=STARTS):
         yield started(parameters, state, ramp)
 
 
-def by_force(parameters, draw, steady=STEADY, count=STARTS):
+def by_force(parameters, draw, steady, count):
     """Distinct regimes of those starts, and all runs: some have come to none by their end."""
     distinct, runs = [], []
     for start in drawn_starts(parameters, draw, count):

@@ -134,7 +134,7 @@ def test_a_stick_that_creeps_as_fast_as_the_surface_is_refused_or_said():
 
 
 def test_six_rigs_have_the_regimes_that_a_search_by_force_finds():
-    """12 starts of 200 s each; `regimes_by_force` is the same with 200 rigs, 30 starts, 600 s."""
+    """12 starts of 200 s each; on record are 200 rigs with 30 starts of 600 s."""
     several = 0
     for i in range(6):
         draw = np.random.default_rng([0, i])
