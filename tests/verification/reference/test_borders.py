@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
-from stickslip import Friction, LateralFriction, Parameters, Rig, StructuralDamping, Surface
+from stickslip import Parameters
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
 from stickslip.steady_motion import Interface
@@ -24,11 +24,11 @@ MU_S, MU_K, LOAD, STIFFNESS = 0.2815, 0.2086, 0.67 * 9.81, 4.0 * 20.17
 def rig(damping=0.0):
     """The published rig, pretensioned, as drawn."""
     return Parameters(
-        rig=Rig(spring_natural_length=0.17),
-        lateral_friction=LateralFriction(ratio=1.0),
-        surface=Surface(speed=0.15, run_up_time=10.0),
-        friction=Friction(mu_s=MU_S, mu_k=MU_K),
-        structural_damping=StructuralDamping(coefficient=damping),
+        rig=dict(spring_natural_length=0.17),
+        lateral_friction=dict(ratio=1.0),
+        surface=dict(speed=0.15, run_up_time=10.0),
+        friction=dict(mu_s=MU_S, mu_k=MU_K),
+        structural_damping=dict(coefficient=damping),
     )
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from brute_regimes import by_force, drawn_rig, missed, searched
-from stickslip import Friction, LateralFriction, Parameters, Rig, StructuralDamping, Surface
+from stickslip import Parameters
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
 from stickslip.steady_motion.regimes import (
@@ -36,11 +36,11 @@ def rig(speed, mu_s=0.2815, damping=0.0, **blocks):
     """The published rig, pretensioned, so that it keeps to its line."""
     return Parameters(
         **{
-            "rig": Rig(spring_natural_length=0.17),
-            "lateral_friction": LateralFriction(ratio=1.0),
-            "friction": Friction(mu_s=mu_s, mu_k=MU_K),
-            "surface": Surface(speed=speed, run_up_time=10.0),
-            "structural_damping": StructuralDamping(coefficient=damping),
+            "rig": dict(spring_natural_length=0.17),
+            "lateral_friction": dict(ratio=1.0),
+            "friction": dict(mu_s=mu_s, mu_k=MU_K),
+            "surface": dict(speed=speed, run_up_time=10.0),
+            "structural_damping": dict(coefficient=damping),
         }
         | blocks
     )
@@ -124,13 +124,13 @@ def test_a_swing_that_dies_out_is_on_its_way_to_steady_sliding():
 
 def test_a_stick_that_creeps_as_fast_as_the_surface_is_refused_or_said():
     with pytest.raises(ValueError, match=r"friction.stick_creep = 0.2 m/s is not below surface"):
-        Parameters(friction=Friction(stick_creep=0.2), surface=Surface(speed=0.15))
-    Parameters(friction=Friction(stick_creep=0.2), surface=Surface(speed=0.0))
+        Parameters(friction=dict(stick_creep=0.2), surface=dict(speed=0.15))
+    Parameters(friction=dict(stick_creep=0.2), surface=dict(speed=0.0))
     # what grows stronger by its age can creep for ever below the refused speed
     strong = {"static_strengthening": {"saturating": 1.0, "saturation_time": 0.1}}
-    slow = rig(0.02, friction=Friction(mu_s=0.2815, mu_k=MU_K, stick_creep=0.015), **strong)
+    slow = rig(0.02, friction=dict(mu_s=0.2815, mu_k=MU_K, stick_creep=0.015), **strong)
     assert regimes(slow)[OWN].name == CREEPING
-    assert regimes(rig(0.02, surface=Surface(speed=0.0)))[OWN].name == STICKING
+    assert regimes(rig(0.02, surface=dict(speed=0.0)))[OWN].name == STICKING
 
 
 def test_six_rigs_have_the_regimes_that_a_search_by_force_finds():
