@@ -118,11 +118,7 @@ def answer(made: Campaign) -> dict[str, Any]:
 
 
 def write_suite(
-    suite: str,
-    folder: Path,
-    seed: int,
-    count: int | None = None,
-    answers: Path | None = None,
+    suite: str, folder: Path, seed: int, count: int | None = None, answers: Path | None = None
 ) -> dict[str, dict]:
     """Write the campaigns of a suite and their answers (FOLDER/answers.json); the answers."""
     orders = orders_of(suite, seed, count)

@@ -53,10 +53,7 @@ class Law:
 
     def apply(self, p: Record, strength: float, reference: Reference) -> None:
         """Put the law into a run's record, its strength scaled to the run's mass and speed."""
-        ratio = {
-            "mass": p["mass"] / reference.mass,
-            "speed": p["belt_speed"] / reference.speed,
-        }
+        ratio = {"mass": p["mass"] / reference.mass, "speed": p["belt_speed"] / reference.speed}
         for quantity, power in self.exponents.items():
             strength = strength * float(ratio[quantity]) ** power
         self.write(p, strength)

@@ -96,11 +96,7 @@ class Unit:
     """A library; `instance` makes instances. name, declared: of another unit than the block's."""
 
     def __init__(
-        self,
-        fmu: Path,
-        folder: Path,
-        name: str = NAME,
-        declared: Sequence[Variable] | None = None,
+        self, fmu: Path, folder: Path, name: str = NAME, declared: Sequence[Variable] | None = None
     ) -> None:
         self.version = 3 if "fmi3" in fmu.name else 2
         self.guid = built_guid(fmu).encode()

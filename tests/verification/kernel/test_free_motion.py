@@ -32,9 +32,7 @@ def test_runaway_without_springs(ratio):
     """k = 0: x = F t^2 / (2 m) under the constant friction F, until the surface is caught up."""
     run = simulate(
         Parameters(
-            springs=dict(stiffness=0.0),
-            surface=dict(speed=5.0),
-            lateral_friction=dict(ratio=ratio),
+            springs=dict(stiffness=0.0), surface=dict(speed=5.0), lateral_friction=dict(ratio=ratio)
         ),
         4.0,
     )
@@ -59,8 +57,7 @@ def test_block_at_rest_on_a_standing_belt_stays():
 def test_everything_zero():
     """No speed, no springs, no friction: nothing moves and nothing fails."""
     run = simulate(
-        Parameters(surface=dict(speed=0.0), springs=dict(stiffness=0.0), friction=FRICTIONLESS),
-        5.0,
+        Parameters(surface=dict(speed=0.0), springs=dict(stiffness=0.0), friction=FRICTIONLESS), 5.0
     )
     assert run.complete
     assert all(np.all(run[name] == 0.0) for name in ("x", "y", "phi", "heat", "energy_residual"))

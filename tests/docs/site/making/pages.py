@@ -5,17 +5,7 @@ Each part is a Markdown file in `made/`, which a page takes in by `{include}`.
 
 from pathlib import Path
 
-from . import (
-    benchmarks,
-    commands,
-    effects,
-    examples,
-    fmu,
-    keys,
-    python,
-    results,
-    verification,
-)
+from . import benchmarks, commands, effects, examples, fmu, keys, python, results, verification
 
 PARTS = {
     "commands": commands.text,
