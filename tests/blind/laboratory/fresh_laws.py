@@ -12,7 +12,7 @@ from . import curves
 from .apparatus import MODES, Record, spread_contact
 from .curves import CURVES, SPRINGS, WAVES
 from .friction_law import FOLLOWS, SCALES, STAYS
-from .laws import Law, Named, Reference, one_of, sets
+from .laws import Law, Named, Reference, one_of, ruler, sets
 
 LAWS = Named()
 KEPT = {STAYS: "mu_s stays", SCALES: "mu_s in proportion", FOLLOWS: "mu_s by as much"}
@@ -125,15 +125,13 @@ def spring_hardening(rng: np.random.Generator, r: Reference) -> Law:
     form = int(one_of(rng, *SPRINGS))
 
     def write(p: Record, strength: float) -> None:
-        ruler = abs(float(p["anchor_x"][0] - p["hook_x"][0])) - float(p["natural"][0])
-        ruler += r.deflection
         p["spring_form"] = form
         reach = {
             curves.LESS_THAN_CUBIC: (strength / 1.7) ** (1 / 0.7),
             curves.ENDING: (strength / 3) ** 0.5,
             curves.TENSION_POWER: (strength / 2.4) ** (1 / 1.4),
         }
-        p["spring_b"] = ruler / reach[form]
+        p["spring_b"] = ruler(p, r) / reach[form]
 
     text = f"each spring {SPRINGS[form]} in its extension e, stiffer by strength at the static load"
     return Law(SPRINGS[form], text, write, 0.2, 2.0)

@@ -84,6 +84,11 @@ class Named(dict):
 LAWS = Named()
 
 
+def ruler(p: Record, r: Reference) -> float:
+    """Extension of a spring at the static load, m."""
+    return abs(float(p["anchor_x"][0] - p["hook_x"][0])) - float(p["natural"][0]) + r.deflection
+
+
 def one_of(rng: np.random.Generator, *options):
     return options[int(rng.integers(len(options)))]
 
@@ -223,11 +228,9 @@ def spring_hardening(rng: np.random.Generator, r: Reference) -> Law:
     form = int(rng.integers(1, 4))
 
     def write(p: Record, strength: float) -> None:
-        ruler = abs(float(p["anchor_x"][0] - p["hook_x"][0])) - float(p["natural"][0])
-        ruler += r.deflection
         p["spring_form"] = form
         power = {1: strength**-0.25, 2: (6 * strength) ** -0.5, 3: strength**-0.5}[form]
-        p["spring_b"] = ruler * power
+        p["spring_b"] = ruler(p, r) * power
 
     shape = {1: "quintic", 2: "sinh", 3: "cubic in tension only"}[form]
     text = (

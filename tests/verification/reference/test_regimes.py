@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from brute_regimes import by_force, drawn_rig, missed, searched
+from line_rig import published
 from stickslip import Parameters
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
@@ -33,17 +34,8 @@ MU_K, LOAD, STIFFNESS = 0.2086, 0.67 * 9.81, 4.0 * 20.17
 
 
 def rig(speed, mu_s=0.2815, damping=0.0, **blocks):
-    """The published rig, pretensioned, so that it keeps to its line."""
-    return Parameters(
-        **{
-            "rig": dict(spring_natural_length=0.17),
-            "lateral_friction": dict(ratio=1.0),
-            "friction": dict(mu_s=mu_s, mu_k=MU_K),
-            "surface": dict(speed=speed, run_up_time=10.0),
-            "structural_damping": dict(coefficient=damping),
-        }
-        | blocks
-    )
+    friction = {"mu_s": mu_s, "mu_k": MU_K} | blocks.pop("friction", {})
+    return published(damping=damping, surface={"speed": speed}, friction=friction, **blocks)
 
 
 def closed_form(speed, mu_s, damping, run_up=10.0):
@@ -128,9 +120,9 @@ def test_a_stick_that_creeps_as_fast_as_the_surface_is_refused_or_said():
     Parameters(friction=dict(stick_creep=0.2), surface=dict(speed=0.0))
     # what grows stronger by its age can creep for ever below the refused speed
     strong = {"static_strengthening": {"saturating": 1.0, "saturation_time": 0.1}}
-    slow = rig(0.02, friction=dict(mu_s=0.2815, mu_k=MU_K, stick_creep=0.015), **strong)
+    slow = rig(0.02, friction={"stick_creep": 0.015}, **strong)
     assert regimes(slow)[OWN].name == CREEPING
-    assert regimes(rig(0.02, surface=dict(speed=0.0)))[OWN].name == STICKING
+    assert regimes(published(surface={"speed": 0.0, "run_up_time": 0.0}))[OWN].name == STICKING
 
 
 def test_six_rigs_have_the_regimes_that_a_search_by_force_finds():
