@@ -125,14 +125,22 @@ def test_a_stick_that_creeps_as_fast_as_the_surface_is_refused_or_said():
     assert regimes(published(surface={"speed": 0.0, "run_up_time": 0.0}))[OWN].name == STICKING
 
 
-def test_six_rigs_have_the_regimes_that_a_search_by_force_finds():
-    """12 starts of 200 s each; on record are 200 rigs with 30 starts of 600 s."""
+@pytest.mark.parametrize(
+    ("rigs", "steady", "starts"),
+    [(6, 200.0, 12), pytest.param(24, 600.0, 30, marks=pytest.mark.slow)],
+)
+def test_rigs_have_the_regimes_that_a_search_by_force_finds(rigs, steady, starts):
+    """On record are 200 rigs with 30 starts of 600 s each: none is missed.
+
+    Long runs from few starts may not come to a regime that few starts lead to.
+    """
     several = 0
-    for i in range(6):
+    for i in range(rigs):
         draw = np.random.default_rng([0, i])
         parameters = drawn_rig(draw)
         ours = searched(regimes(parameters))
-        theirs, runs = by_force(parameters, draw, 200.0, 12)
+        theirs, runs = by_force(parameters, draw, steady, starts)
         several += len(ours) > 1
-        assert not missed(theirs, ours) and not missed(ours, runs)
+        assert not missed(theirs, ours), i
+        assert rigs > 6 or not missed(ours, runs), i
     assert several >= 3
