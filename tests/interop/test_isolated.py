@@ -177,10 +177,7 @@ def test_what_it_writes_and_logs_is_kept(path, place, capfd):
     with started(isolated(path, PRINTS, at=0.0)) as unit:
         unit.step(0.0, 0.25)
     said = {str(message) for message in unit.messages}
-    assert said == {
-        "unit: t = 0 s: output: a line of the unit",
-        "unit: t = 0 s: output: another",
-    }
+    assert said == {"unit: t = 0 s: output: a line of the unit", "unit: t = 0 s: output: another"}
     with started(isolated(path, LOGS, at=0.0)) as unit:
         unit.step(0.0, 0.25)
         assert [str(m) for m in unit.messages] == ["unit: t = 0 s: warning [heat]: warm"]

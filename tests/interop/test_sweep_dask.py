@@ -19,10 +19,7 @@ distributed = pytest.importorskip("distributed")
 
 # the springs of a rig free in x only: no run is long
 BASE = Parameters(rig={"degrees_of_freedom": ("x",)}, surface={"run_up_time": 1.0})
-VARY = {
-    "rig.mass": np.linspace(0.3, 2.0, 20),
-    "surface.speed": np.linspace(0.05, 0.8, 12),
-}
+VARY = {"rig.mass": np.linspace(0.3, 2.0, 20), "surface.speed": np.linspace(0.05, 0.8, 12)}
 CASE = {"duration": 12.0, "output_interval": 0.02}
 
 

@@ -17,8 +17,10 @@ import numpy as np
 from .campaign import Campaign, make_campaign
 from .recording import film
 from .simulation import SAMPLE
+from .size import Size
 from .suites import SUITES, orders_of
 
+CONTACT = "mu_s mu_k fall_speed fall_power presliding"
 OTHER_CONTACTS = "bristle_damping elastic_share creep_speed"  # numbers that they have
 
 
@@ -61,6 +63,12 @@ def write_campaign(made: Campaign, folder: Path) -> None:
     (folder / "campaign.toml").write_text("\n".join(lines) + "\n")
 
 
+def told(name: str, shape: str, law: str, strength: float, size: Size) -> dict[str, Any]:
+    """A hidden thing."""
+    kept = {"name": name, "shape": shape, "law": law, "strength": strength}
+    return kept | {"size": asdict(size)}
+
+
 def answer(made: Campaign) -> dict[str, Any]:
     """What is true of a campaign: verdicts and effects that are right, and all that was hidden."""
     order, plan = made.order, made.plan
@@ -75,36 +83,16 @@ def answer(made: Campaign) -> dict[str, Any]:
         more["fault_runs"] = [j + 1 for j in made.fault_runs]
     also = ["lateral_friction"] if "turning_surface" in effects else []
     hidden = [
-        {
-            "name": each.name,
-            "shape": each.shape,
-            "law": each.text,
-            "strength": each.strength,
-            "size": asdict(size),
-        }
+        told(each.name, each.shape, each.text, each.strength, size)
         for each, size in zip(made.hidden, made.sizes, strict=False)
     ]
     if made.fault and order.fault:
         what, amount = made.fault
         text = " ".join((what.__doc__ or what.__name__).split())
-        size = asdict(made.sizes[-1])
-        hidden.append(
-            {
-                "name": order.fault,
-                "shape": what.__name__,
-                "law": text,
-                "strength": amount,
-                "size": size,
-            }
-        )
+        hidden.append(told(order.fault, what.__name__, text, amount, made.sizes[-1]))
     p = plan.runs[0].plain
-    contact = {
-        name: float(p[name])
-        for name in (
-            "mu_s mu_k fall_speed fall_power presliding "
-            + ("rebuild_time slider_creep" if order.in_room else OTHER_CONTACTS)
-        ).split()
-    }
+    own = "rebuild_time slider_creep" if order.in_room else OTHER_CONTACTS
+    contact = {name: float(p[name]) for name in f"{CONTACT} {own}".split()}
     return {
         "verdict": verdict,
         "effects": effects,
@@ -130,22 +118,19 @@ def answer(made: Campaign) -> dict[str, Any]:
 
 
 def write_suite(
-    suite: str,
-    folder: Path,
-    seed: int,
-    count: int | None = None,
-    answers: Path | None = None,
+    suite: str, folder: Path, seed: int, count: int | None = None, answers: Path | None = None
 ) -> dict[str, dict]:
     """Write the campaigns of a suite and their answers (FOLDER/answers.json); the answers."""
     orders = orders_of(suite, seed, count)
-    told = {}
+    answers_of = {}
     for number, order in enumerate(orders):
         name = f"c{number + 1:03d}"
         made = make_campaign(order, [seed, list(SUITES).index(suite), number])
         write_campaign(made, folder / name)
-        told[name] = answer(made)
-        (answers or folder / "answers.json").write_text(json.dumps(told, indent=1) + "\n")
-    return told
+        answers_of[name] = answer(made)
+        text = json.dumps(answers_of, indent=1) + "\n"
+        (answers or folder / "answers.json").write_text(text)
+    return answers_of
 
 
 def main() -> None:
@@ -155,9 +140,9 @@ def main() -> None:
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--count", type=int, help="campaigns; the suite's own number if left out")
     parser.add_argument("--answers", type=Path, help="FOLDER/answers.json if left out")
-    told = parser.parse_args()
-    told.folder.mkdir(parents=True, exist_ok=True)
-    write_suite(told.suite, told.folder, told.seed, told.count, told.answers)
+    asked = parser.parse_args()
+    asked.folder.mkdir(parents=True, exist_ok=True)
+    write_suite(asked.suite, asked.folder, asked.seed, asked.count, asked.answers)
 
 
 if __name__ == "__main__":

@@ -7,12 +7,13 @@ from math import exp, pi, sin
 import numpy as np
 from numba import njit
 
-from .apparatus import GRAVITY, Record
+from .apparatus import GRAVITY
 from .friction_law import OTHER
-from .laws import Reference
+from .laws import Named, Reference
 
 FIRST_KIND = 201
 SECOND_MASS, BELT_MASS, RATTLE, BOUC_WEN, HUMIDITY, TURNING_TILT, SPIN_UP = range(201, 208)
+KINDS = Named()
 
 
 @njit
@@ -57,58 +58,43 @@ def fresh_kind(p, slow, t, h, s, friction):
     return push, load, 1.0, mu, extra
 
 
-def second_mass(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(SECOND_MASS)
+def second_mass(size: float, rng: np.random.Generator, r: Reference):
     """A second mass, hung on the block by a soft spring beside it: 1.2 to 2.5 Hz."""
-    p["other_form"] = SECOND_MASS
-    p["other"][:3] = 0.3 * size, 2 * np.pi * rng.uniform(1.2, 2.5), rng.uniform(0.01, 0.04)
+    return 0.3 * size, 2 * np.pi * rng.uniform(1.2, 2.5), rng.uniform(0.01, 0.04)
 
 
-def springy_belt(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(BELT_MASS)
+def springy_belt(size: float, rng: np.random.Generator, r: Reference):
     """A belt on a spring, with a mass of its own: it rings at 4 to 9 Hz."""
-    p["other_form"] = BELT_MASS
-    p["other"][:3] = 0.01 * size, 2 * np.pi * rng.uniform(4, 9), rng.uniform(0.03, 0.1)
+    return 0.01 * size, 2 * np.pi * rng.uniform(4, 9), rng.uniform(0.03, 0.1)
 
 
-def rattling_load(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(RATTLE)
+def rattling_load(size: float, rng: np.random.Generator, r: Reference):
     """A normal force that shakes at three tones of 1.5 to 9 Hz."""
-    p["other_form"] = RATTLE
-    p["other"][0] = 0.4 * size
-    p["other"][1:4] = rng.uniform((1.5, 3.0, 5.5), (3.0, 5.5, 9.0))
+    return 0.4 * size, *rng.uniform((1.5, 3.0, 5.5), (3.0, 5.5, 9.0))
 
 
-def hysteretic_springs(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(BOUC_WEN)
+def hysteretic_springs(size: float, rng: np.random.Generator, r: Reference):
     """Springs whose force hangs back in a rounded loop (Bouc and Wen)."""
-    p["other_form"] = BOUC_WEN
-    p["other"][:2] = 0.3 * size, rng.uniform(0.15, 0.4) * r.deflection
+    return 0.3 * size, rng.uniform(0.15, 0.4) * r.deflection
 
 
-def humidity_pulses(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(HUMIDITY)
+def humidity_pulses(size: float, rng: np.random.Generator, r: Reference):
     """Breaths of damp air at irregular times: friction rises at once and dries back in a second."""
-    p["other_form"] = HUMIDITY
-    p["other"][:3] = 0.2 * size, rng.uniform(0.25, 0.6), rng.uniform(0.4, 1.2)
+    return 0.2 * size, rng.uniform(0.25, 0.6), rng.uniform(0.4, 1.2)
 
 
-def turning_tilt(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(TURNING_TILT)
+def turning_tilt(size: float, rng: np.random.Generator, r: Reference):
     """A table that is not level and turns below the whole rig, once in 5 to 12 s."""
-    p["other_form"] = TURNING_TILT
-    p["other"][:2] = 0.03 * size, 1 / rng.uniform(5, 12)
+    return 0.03 * size, 1 / rng.uniform(5, 12)
 
 
-def machine_spins_up(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(SPIN_UP)
+def machine_spins_up(size: float, rng: np.random.Generator, r: Reference):
     """A machine beside the rig that runs up and shakes it ever faster."""
-    p["other_form"] = SPIN_UP
-    p["other"][:3] = 0.03 * size, rng.uniform(0.3, 1.0), rng.uniform(0.05, 0.25)
-
-
-KINDS = {
-    kind.__name__: kind
-    for kind in (
-        second_mass,
-        springy_belt,
-        rattling_load,
-        hysteretic_springs,
-        humidity_pulses,
-        turning_tilt,
-        machine_spins_up,
-    )
-}
+    return 0.03 * size, rng.uniform(0.3, 1.0), rng.uniform(0.05, 0.25)

@@ -6,16 +6,15 @@ speed and one mass, two effects of the catalogue then say exactly the same of th
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from . import curves
 from .apparatus import MODES, Record, spread_contact
 from .curves import CURVES, SPRINGS, WAVES
 from .friction_law import FOLLOWS, SCALES, STAYS
-from .laws import Law, Reference, fields, one_of
+from .laws import Law, Named, Reference, one_of, ruler, sets
 
+LAWS = Named()
 KEPT = {STAYS: "mu_s stays", SCALES: "mu_s in proportion", FOLLOWS: "mu_s by as much"}
 
 
@@ -26,6 +25,7 @@ def hollow_disc(p: Record, radius: float, ahead: float) -> None:
     p["point_weight"] *= 1 + ahead * p["point_x"] / radius
 
 
+@LAWS.add
 def lateral_friction(rng: np.random.Generator, r: Reference) -> Law:
     ahead = float(one_of(rng, 0.0, 0.2))
     shape = "hollow" if ahead == 0 else "hollow and nose-heavy"
@@ -34,9 +34,10 @@ def lateral_friction(rng: np.random.Generator, r: Reference) -> Law:
     def write(p: Record, strength: float) -> None:
         hollow_disc(p, r.contact_radius, ahead)
 
-    return Law("lateral_friction", shape, text, write, 1.0, 1.0, sized=False, planar=True)
+    return Law(shape, text, write, 1.0, 1.0, sized=False, planar=True)
 
 
+@LAWS.add
 def turning_surface(rng: np.random.Generator, r: Reference) -> Law:
     side, behind = float(one_of(rng, -1, 1)), float(one_of(rng, 0.0, np.tan(rng.uniform(0.1, 0.2))))
 
@@ -46,42 +47,46 @@ def turning_surface(rng: np.random.Generator, r: Reference) -> Law:
 
     text = f"slab about a point 1/strength m abreast, {behind:.3f} of it behind; hollow disc"
     shape = "hollow, behind" if behind else "hollow disc"
-    return Law("turning_surface", shape, text, write, 1.0, 3.0, planar=True)
+    return Law(shape, text, write, 1.0, 3.0, planar=True)
 
 
+@LAWS.add
 def static_strengthening(rng: np.random.Generator, r: Reference) -> Law:
     form = int(one_of(rng, curves.STRETCHED, curves.HYPERBOLA, curves.ARCTAN))
     time, q = float(rng.uniform(0.2, 1.0)), 0.5
     slip = float(rng.uniform(2e-4, 1e-3))
-    set_to = fields(ageing_form=form, ageing_time=time, ageing_power=q, ageing_slip=slip)
+    write = sets("ageing", form=form, time=time, power=q, slip=slip)
     text = (
         f"mu_s grows by strength * mu_k * ({CURVES[form]}), u = hold time / {time:.3f} s, q = {q}"
     )
     text += f"; lost over {slip * 1e3:.2f} mm of slip"
     shape = CURVES[form]
-    return Law("static_strengthening", shape, text, lambda p, s: set_to(p, "ageing", s), 0.3, 1.5)
+    return Law(shape, text, write, 0.3, 1.5)
 
 
+@LAWS.add
 def velocity_weakening(rng: np.random.Generator, r: Reference) -> Law:
     form = int(one_of(rng, curves.SLOW_HYPERBOLA, curves.ARCTAN, curves.STRETCHED))
     speed = float(rng.uniform(0.4, 1.2)) * r.speed
     q = 0.6 if form == curves.SLOW_HYPERBOLA else 1.0
-    set_to = fields(weakening_form=form, weakening_speed=speed, weakening_power=q)
+    write = sets("weakening", form=form, speed=speed, power=q)
     text = f"mu_k (1 - strength * ({CURVES[form]})), u = sliding speed / {speed:.4g} m/s, q = {q}"
     shape = CURVES[form]
-    return Law("velocity_weakening", shape, text, lambda p, s: set_to(p, "weakening", s), 0.3, 0.7)
+    return Law(shape, text, write, 0.3, 0.7)
 
 
+@LAWS.add
 def film_drag(rng: np.random.Generator, r: Reference) -> Law:
     form, q = int(one_of(rng, curves.POWER, curves.TANH, curves.ASINH)), 1.3
     speed = r.speed * (float(rng.uniform(0.6, 1.5)) if form == curves.TANH else 1.0)
-    set_to = fields(film_form=form, film_speed=speed, film_power=q)
+    write = sets("film", r.friction, form=form, speed=speed, power=q)
     text = f"drag strength * {r.friction:.4g} N * ({CURVES[form]}), u = sliding speed / "
     text += f"{speed:.4g} m/s, q = {q}"
     shape = CURVES[form]
-    return Law("film_drag", shape, text, lambda p, s: set_to(p, "film", s * r.friction), 0.06, 0.8)
+    return Law(shape, text, write, 0.06, 0.8)
 
 
+@LAWS.add
 def thermal_weakening(rng: np.random.Generator, r: Reference) -> Law:
     form, static = int(one_of(rng, curves.TANH, curves.DELAYED)), int(one_of(rng, *KEPT))
     per = str(one_of(rng, "joule", "kilogram"))
@@ -90,68 +95,59 @@ def thermal_weakening(rng: np.random.Generator, r: Reference) -> Law:
     rates[:3] = 1 / times
     weights[:3] = np.array([0.2, 0.4, 0.4]) * rates[:3]
     power = r.friction * r.speed
-    set_to = fields(
-        heat_form=form,
-        heat_reference=power,
-        heat_static=static,
-        heat_weight=weights,
-        heat_rate=rates,
-    )
+    write = sets("heat", form=form, reference=power, static=static, weight=weights, rate=rates)
     text = f"mu_k (1 - 0.9 ({CURVES[form]})), u = strength * (0.2, 0.4, 0.4 of the friction power, "
     text += f"means of the last {times[0]:.2f}, {times[1]:.1f}, {times[2]:.0f} s) / {power:.4g} W; "
     return Law(
-        "thermal_weakening",
         f"three-stage, {CURVES[form]}, per {per}",
         text + KEPT[static],
-        lambda p, s: set_to(p, "heat", s),
+        write,
         0.3,
         1.5,
         exponents={"mass": -1.0} if per == "kilogram" else {},
     )
 
 
+@LAWS.add
 def run_in(rng: np.random.Generator, r: Reference) -> Law:
     form = int(one_of(rng, curves.STRETCHED, curves.DELAYED, curves.RETURNING))
     static, sign = int(one_of(rng, STAYS, SCALES)), float(rng.choice((-1, 1), p=(0.7, 0.3)))
     q, distance = float(rng.uniform(0.45, 0.7)), float(rng.uniform(0.15, 0.35)) * r.longest
-    set_to = fields(
-        run_in_form=form, run_in_distance=distance, run_in_power=q, run_in_static=static
-    )
+    write = sets("run_in", sign, form=form, distance=distance, power=q, static=static)
     text = f"mu_k (1 {sign:+.0f} strength * ({CURVES[form]})), u = distance / {distance:.3g} m, "
     text += f"q = {q:.2f}; {KEPT[static]}"
     name = f"{CURVES[form]}, {KEPT[static]}"
-    return Law("run_in", name, text, lambda p, s: set_to(p, "run_in", sign * s), 0.2, 0.5)
+    return Law(name, text, write, 0.2, 0.5)
 
 
+@LAWS.add
 def spring_hardening(rng: np.random.Generator, r: Reference) -> Law:
     form = int(one_of(rng, *SPRINGS))
 
     def write(p: Record, strength: float) -> None:
-        ruler = abs(float(p["anchor_x"][0] - p["hook_x"][0])) - float(p["natural"][0])
-        ruler += r.deflection
         p["spring_form"] = form
         reach = {
             curves.LESS_THAN_CUBIC: (strength / 1.7) ** (1 / 0.7),
             curves.ENDING: (strength / 3) ** 0.5,
             curves.TENSION_POWER: (strength / 2.4) ** (1 / 1.4),
         }
-        p["spring_b"] = ruler / reach[form]
+        p["spring_b"] = ruler(p, r) / reach[form]
 
     text = f"each spring {SPRINGS[form]} in its extension e, stiffer by strength at the static load"
-    return Law("spring_hardening", SPRINGS[form], text, write, 0.2, 2.0)
+    return Law(SPRINGS[form], text, write, 0.2, 2.0)
 
 
+@LAWS.add
 def structural_damping(rng: np.random.Generator, r: Reference) -> Law:
     form, q = one_of(rng, (curves.POWER, 3.0), (curves.POWER, 1.25), (curves.TANH, 1.0))
-    set_to = fields(damping_form=form, damping_power=q, damping_speed=r.speed)
+    write = sets("damping", r.friction, form=form, power=q, speed=r.speed)
     text = f"against the frame strength * {r.friction:.4g} N * ({CURVES[form]}), u = speed / "
     text += f"{r.speed:.4g} m/s, q = {q}"
     shape = f"{CURVES[form]} {q}"
-    return Law(
-        "structural_damping", shape, text, lambda p, s: set_to(p, "damping", s * r.friction), 0.03
-    )
+    return Law(shape, text, write, 0.03)
 
 
+@LAWS.add
 def speed_ripple(rng: np.random.Generator, r: Reference) -> Law:
     form, frequency = int(one_of(rng, *list(WAVES)[:3])), float(rng.uniform(0.25, 1.3))
     roller, own = bool(rng.random() < 0.5), bool(rng.random() < 0.6)
@@ -163,9 +159,10 @@ def speed_ripple(rng: np.random.Generator, r: Reference) -> Law:
 
     rate = f"{frequency:.3g} Hz" + (f" at {r.speed:.3g} m/s, in proportion" if roller else "")
     shape = WAVES[form] + (", roller" if roller else "")
-    return Law("speed_ripple", shape, f"speed (1 + strength * {shape}), {rate}", write, 0.1, 0.5)
+    return Law(shape, f"speed (1 + strength * {shape}), {rate}", write, 0.1, 0.5)
 
 
+@LAWS.add
 def surface_pattern(rng: np.random.Generator, r: Reference) -> Law:
     form = int(one_of(rng, curves.TRIANGLE, curves.HALF_WAVE, curves.RAMP))
     length = float(max(rng.uniform(0.12, 0.3) * r.travel, 4 * r.deflection))
@@ -179,20 +176,22 @@ def surface_pattern(rng: np.random.Generator, r: Reference) -> Law:
 
     start = "same start in every run" if common else "own start in every run"
     text = f"mu (1 + strength * {WAVES[form]}) every {length:.3g} m of surface; {start}"
-    return Law("surface_pattern", WAVES[form], text, write, 0.15, 0.6)
+    return Law(WAVES[form], text, write, 0.15, 0.6)
 
 
+@LAWS.add
 def load_dependence(rng: np.random.Generator, r: Reference) -> Law:
     hertz, sign = bool(rng.random() < 0.5), float(rng.choice((-1, 1), p=(0.7, 0.3)))
-    set_to = fields(load_form=curves.FRESH + hertz, load_reference=r.load)
+    write = sets("load", sign, form=curves.FRESH + hertz, reference=r.load)
     curve = (
         f"1 {sign:+.0f} strength (1 - n^(-1/3))" if hertz else f"exp({sign:+.0f} strength (n-1))"
     )
     text = f"mu times {curve}, n = load / {r.load:.4g} N"
     shape, most = ("Hertzian part", 1.2) if hertz else ("exponential", 0.5)
-    return Law("load_dependence", shape, text, lambda p, s: set_to(p, "load", sign * s), 0.3, most)
+    return Law(shape, text, write, 0.3, most)
 
 
+@LAWS.add
 def spring_misalignment(rng: np.random.Generator, r: Reference) -> Law:
     shape, first = str(one_of(rng, "frame turned", "diagonal pair")), int(rng.integers(2))
     sign = float(one_of(rng, -1, 1))
@@ -207,62 +206,38 @@ def spring_misalignment(rng: np.random.Generator, r: Reference) -> Law:
             p["anchor_y"][pair] = y[pair] + sign * strength * abs(x[pair] - p["hook_x"][pair])
 
     text = f"{shape}: by strength, rad, or by strength times the spring's length sideways"
-    return Law("spring_misalignment", shape, text, write, 0.05, 0.35, planar=True)
+    return Law(shape, text, write, 0.05, 0.35, planar=True)
 
 
 def straight_film(rng: np.random.Generator, r: Reference) -> Law:
-    set_to = fields(film_form=curves.POWER, film_speed=r.speed, film_power=1.0)
+    write = sets("film", r.friction, form=curves.POWER, speed=r.speed, power=1.0)
     text = f"drag strength * {r.friction:.4g} N * sliding speed / {r.speed:.4g} m/s"
-    return Law("film_drag", "linear", text, lambda p, s: set_to(p, "film", s * r.friction), 0.05)
+    return Law("linear", text, write, 0.05)
 
 
 def straight_damping(rng: np.random.Generator, r: Reference) -> Law:
-    set_to = fields(damping_form=curves.POWER, damping_speed=r.speed, damping_power=1.0)
+    write = sets("damping", r.friction, form=curves.POWER, speed=r.speed, power=1.0)
     text = f"against the frame strength * {r.friction:.4g} N * speed / {r.speed:.4g} m/s"
-    return Law(
-        "structural_damping",
-        "linear",
-        text,
-        lambda p, s: set_to(p, "damping", s * r.friction),
-        0.05,
-    )
+    return Law("linear", text, write, 0.05)
 
 
 def plain_run_in(rng: np.random.Generator, r: Reference) -> Law:
     distance = float(rng.uniform(6, 12)) * r.speed
-    set_to = fields(run_in_form=curves.STRETCHED, run_in_distance=distance, run_in_power=1.0)
+    write = sets("run_in", -1.0, form=curves.STRETCHED, distance=distance, power=1.0)
     text = f"mu_k (1 - strength * (1 - exp(-distance / {distance:.3g} m))); mu_s stays"
-    return Law("run_in", "exponential", text, lambda p, s: set_to(p, "run_in", -s), 0.2, 0.5)
+    return Law("exponential", text, write, 0.2, 0.5)
 
 
 def plain_heat(rng: np.random.Generator, r: Reference) -> Law:
     weights, rates = np.zeros(MODES), np.zeros(MODES)
     weights[0] = rates[0] = 1 / rng.uniform(7, 14)
     power = r.friction * r.speed
-    set_to = fields(heat_form=1, heat_reference=power, heat_weight=weights, heat_rate=rates)
+    write = sets("heat", form=1, reference=power, weight=weights, rate=rates)
     text = f"mu_k (1 - strength * mean friction power of the last {1 / rates[0]:.1f} s / "
     text += f"{power:.4g} W); mu_s stays"
-    return Law("thermal_weakening", "linear", text, lambda p, s: set_to(p, "heat", s), 0.2, 0.5)
+    return Law("linear", text, write, 0.2, 0.5)
 
 
-LAWS: dict[str, Callable[[np.random.Generator, Reference], Law]] = {
-    law.__name__: law
-    for law in (
-        lateral_friction,
-        turning_surface,
-        static_strengthening,
-        velocity_weakening,
-        film_drag,
-        thermal_weakening,
-        run_in,
-        spring_hardening,
-        structural_damping,
-        speed_ripple,
-        surface_pattern,
-        load_dependence,
-        spring_misalignment,
-    )
-}
 ALIKE = LAWS | {
     "film_drag": straight_film,
     "structural_damping": straight_damping,

@@ -12,12 +12,13 @@ from math import exp, pi, sin, sqrt, tanh
 import numpy as np
 from numba import njit
 
-from .apparatus import GRAVITY, Record
+from .apparatus import GRAVITY
 from .friction_law import OTHER
-from .laws import Reference
+from .laws import Named, Reference
 
 HYSTERESIS, SPRING_DRIFT, SAG_WAVE, MAGNET, PLATE, DRAUGHT, WEAK_MOTOR = range(101, 108)
 GUSTS = 6
+KINDS = Named()
 
 
 @njit
@@ -49,60 +50,45 @@ def held_back(p, slow, t, h, s, friction):
     return push, load, spring, mu, extra
 
 
-def spring_hysteresis(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(HYSTERESIS)
+def spring_hysteresis(size: float, rng: np.random.Generator, r: Reference):
     """Springs that rub in their mounts: a part of their force hangs back at every turn."""
-    p["other_form"] = HYSTERESIS
-    p["other"][:2] = 0.3 * size, rng.uniform(0.1, 0.3) * r.deflection
+    return 0.3 * size, rng.uniform(0.1, 0.3) * r.deflection
 
 
-def spring_drift(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(SPRING_DRIFT)
+def spring_drift(size: float, rng: np.random.Generator, r: Reference):
     """Springs that stiffen or soften as the room warms them, in the same way in every run."""
-    p["other_form"] = SPRING_DRIFT
-    p["other"][:2] = 0.2 * size * rng.choice((-1, 1)), rng.uniform(5, 15)
+    return 0.2 * size * rng.choice((-1, 1)), rng.uniform(5, 15)
 
 
-def belt_sag_wave(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(SAG_WAVE)
+def belt_sag_wave(size: float, rng: np.random.Generator, r: Reference):
     """A belt that hangs through and swings up and down: a load that goes with time."""
-    p["other_form"] = SAG_WAVE
-    p["other"][:2] = 0.2 * size, rng.uniform(0.7, 4.0)
+    return 0.2 * size, rng.uniform(0.7, 4.0)
 
 
-def magnet(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(MAGNET)
+def magnet(size: float, rng: np.random.Generator, r: Reference):
     """Something at one place of the frame that draws the block to it."""
-    p["other_form"] = MAGNET
     place = 0.8 * r.deflection
-    p["other"][:3] = 0.05 * size, rng.uniform(0.8, 1.2) * place, rng.uniform(0.15, 0.3) * place
+    return 0.05 * size, rng.uniform(0.8, 1.2) * place, rng.uniform(0.15, 0.3) * place
 
 
-def support_plate(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(PLATE)
+def support_plate(size: float, rng: np.random.Generator, r: Reference):
     """A plate under the belt that presses more on one side of a place in the frame."""
-    p["other_form"] = PLATE
     place = 0.8 * r.deflection
-    p["other"][:3] = 0.2 * size, rng.uniform(0.8, 1.2) * place, rng.uniform(0.05, 0.2) * place
+    return 0.2 * size, rng.uniform(0.8, 1.2) * place, rng.uniform(0.05, 0.2) * place
 
 
-def air_draught(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(DRAUGHT)
+def air_draught(size: float, rng: np.random.Generator, r: Reference):
     """Gusts on the block, of many lengths."""
-    p["other_form"] = DRAUGHT
-    p["other"][0] = 0.03 * size
-    p["other"][1 : 1 + GUSTS] = rng.uniform(0, 1, GUSTS)
+    return 0.03 * size, *rng.uniform(0, 1, GUSTS)
 
 
-def weak_motor(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(WEAK_MOTOR)
+def weak_motor(size: float, rng: np.random.Generator, r: Reference):
     """A belt that loses speed as the block pulls on it, and takes it up again late."""
-    p["other_form"] = WEAK_MOTOR
-    p["other"][:2] = size, rng.uniform(0.05, 0.3)
-
-
-KINDS = {
-    kind.__name__: kind
-    for kind in (
-        spring_hysteresis,
-        spring_drift,
-        belt_sag_wave,
-        magnet,
-        support_plate,
-        air_draught,
-        weak_motor,
-    )
-}
+    return size, rng.uniform(0.05, 0.3)

@@ -7,8 +7,9 @@ can have.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from functools import wraps
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +42,6 @@ class Law:
     beside what `text` states: none where mu-laws are shares of mu, forces are N, heat is J
     """
 
-    effect: str
     shape: str
     text: str
     write: Callable[[Record, float], None]
@@ -53,30 +53,60 @@ class Law:
 
     def apply(self, p: Record, strength: float, reference: Reference) -> None:
         """Put the law into a run's record, its strength scaled to the run's mass and speed."""
-        ratio = {
-            "mass": p["mass"] / reference.mass,
-            "speed": p["belt_speed"] / reference.speed,
-        }
+        ratio = {"mass": p["mass"] / reference.mass, "speed": p["belt_speed"] / reference.speed}
         for quantity, power in self.exponents.items():
             strength = strength * float(ratio[quantity]) ** power
         self.write(p, strength)
+
+
+class Named(dict):
+    """Functions by their names, in the order in which they are written."""
+
+    def add(self, function: Callable) -> Callable:
+        self[function.__name__] = function
+        return function
+
+    def of(self, form: int) -> Callable[[Callable], Callable]:
+        """The same of what draws the numbers of a kind that no catalogue holds, the size first."""
+
+        def add(numbers: Callable[[float, np.random.Generator, Reference], Iterable]) -> Callable:
+            @wraps(numbers)
+            def write(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+                p["other_form"] = form
+                drawn = [*numbers(size, rng, r)]
+                p["other"][: len(drawn)] = drawn
+
+            return self.add(write)
+
+        return add
+
+
+LAWS = Named()
+
+
+def ruler(p: Record, r: Reference) -> float:
+    """Extension of a spring at the static load, m."""
+    return abs(float(p["anchor_x"][0] - p["hook_x"][0])) - float(p["natural"][0]) + r.deflection
 
 
 def one_of(rng: np.random.Generator, *options):
     return options[int(rng.integers(len(options)))]
 
 
-def fields(**numbers: float | NDArray) -> Callable[[Record, str, float], None]:
-    """A writer of constant numbers and of the strength into the field named."""
+def sets(
+    name: str, scale: float = 1.0, **numbers: float | NDArray
+) -> Callable[[Record, float], None]:
+    """A writer of the strength, scaled, into the field named; numbers: of NAME_KEY for each key."""
 
-    def write(p: Record, name: str, strength: float) -> None:
+    def write(p: Record, strength: float) -> None:
         for key, value in numbers.items():
-            p[key] = value
-        p[name] = strength
+            p[f"{name}_{key}"] = value
+        p[name] = scale * strength
 
     return write
 
 
+@LAWS.add
 def lateral_friction(rng: np.random.Generator, r: Reference) -> Law:
     pressure = str(one_of(rng, *PRESSURES))
 
@@ -85,9 +115,10 @@ def lateral_friction(rng: np.random.Generator, r: Reference) -> Law:
         spread_contact(p, r.contact_radius, pressure)
 
     text = f"friction against the slip of every point of a disc, pressure {pressure}"
-    return Law("lateral_friction", pressure, text, write, 1.0, 1.0, sized=False, planar=True)
+    return Law(pressure, text, write, 1.0, 1.0, sized=False, planar=True)
 
 
+@LAWS.add
 def turning_surface(rng: np.random.Generator, r: Reference) -> Law:
     pressure, side = str(one_of(rng, *PRESSURES)), float(one_of(rng, -1, 1))
     ahead = float(one_of(rng, 0.0, np.tan(np.radians(rng.uniform(1, 4)))))
@@ -100,14 +131,15 @@ def turning_surface(rng: np.random.Generator, r: Reference) -> Law:
 
     shape = "abreast" if ahead == 0 else "ahead"
     text = f"slab turning about a point 1/strength m abreast, {ahead:.3f} of it ahead; disc"
-    return Law("turning_surface", shape, text, write, 1.0, 3.0, planar=True)
+    return Law(shape, text, write, 1.0, 3.0, planar=True)
 
 
+@LAWS.add
 def static_strengthening(rng: np.random.Generator, r: Reference) -> Law:
     form = int(one_of(rng, 1, 2, 3))
     time = {1: rng.uniform(0.01, 0.05), 2: 1.0, 3: rng.uniform(0.25, 1.0)}[form]
     power = float(rng.uniform(0.25, 0.5))
-    set_to = fields(ageing_form=form, ageing_time=time, ageing_power=power)
+    write = sets("ageing", form=form, time=time, power=power)
     shape = {1: "logarithm", 2: "power", 3: "saturating"}[form]
     curve = {
         1: f"log10(1 + t/{time:.3f} s)",
@@ -115,30 +147,33 @@ def static_strengthening(rng: np.random.Generator, r: Reference) -> Law:
         3: f"1 - exp(-t/{time:.2f} s)",
     }[form]
     text = f"mu_s grows by strength * mu_k * ({curve}) over hold time t, lost over 0.3 mm of slip"
-    return Law("static_strengthening", shape, text, lambda p, s: set_to(p, "ageing", s), 0.2, 1.5)
+    return Law(shape, text, write, 0.2, 1.5)
 
 
+@LAWS.add
 def velocity_weakening(rng: np.random.Generator, r: Reference) -> Law:
     form = int(one_of(rng, 1, 2, 3))
     speed = 2 * r.fastest if form != 2 else float(rng.uniform(0.3, 1.0)) * r.speed
     power = float(one_of(rng, 0.5, 0.7, 1.5))
-    set_to = fields(weakening_form=form, weakening_speed=speed, weakening_power=power)
+    write = sets("weakening", form=form, speed=speed, power=power)
     shape = {1: f"power {power}", 2: "hyperbola", 3: "logarithm"}[form]
     curve = {1: f"u^{power}", 2: "u/(1 + u)", 3: "ln(1 + 3u)"}[form]
     text = f"mu_k (1 - strength * {curve}), u = sliding speed / {speed:.4g} m/s"
     most = {1: 0.7, 2: 0.7, 3: 0.5}[form]
-    return Law("velocity_weakening", shape, text, lambda p, s: set_to(p, "weakening", s), 0.3, most)
+    return Law(shape, text, write, 0.3, most)
 
 
+@LAWS.add
 def film_drag(rng: np.random.Generator, r: Reference) -> Law:
     form, power = int(one_of(rng, 1, 1, 2)), float(one_of(rng, 0.5, 0.7, 1.5))
-    set_to = fields(film_form=form, film_speed=r.speed, film_power=power)
+    write = sets("film", r.friction, form=form, speed=r.speed, power=power)
     shape = f"power {power}" if form == 1 else "thinning"
     curve = f"u^{power}" if form == 1 else "u/(1 + u)"
     text = f"drag strength * {r.friction:.4g} N * {curve}, u = sliding speed / {r.speed:.4g} m/s"
-    return Law("film_drag", shape, text, lambda p, s: set_to(p, "film", s * r.friction), 0.06, 0.8)
+    return Law(shape, text, write, 0.06, 0.8)
 
 
+@LAWS.add
 def thermal_weakening(rng: np.random.Generator, r: Reference) -> Law:
     memory, form = (
         str(one_of(rng, "half-space", "half-space", "two-stage")),
@@ -154,13 +189,7 @@ def thermal_weakening(rng: np.random.Generator, r: Reference) -> Law:
         rates[:2] = 1 / rng.uniform(0.3, 1.0), 1 / rng.uniform(6, 15)
         weights[:2] = 0.4 * rates[0], 0.6 * rates[1]
         typical = power
-    set_to = fields(
-        heat_form=form,
-        heat_reference=typical,
-        heat_static=static,
-        heat_weight=weights,
-        heat_rate=rates,
-    )
+    write = sets("heat", form=form, reference=typical, static=static, weight=weights, rate=rates)
     curve = {1: "1 - q", 2: "exp(-q)", 3: "1/(1 + q)"}[form]
     way = {STAYS: "mu_s stays", SCALES: "mu_s in proportion", FOLLOWS: "mu_s by as much"}[static]
     text = (
@@ -169,17 +198,10 @@ def thermal_weakening(rng: np.random.Generator, r: Reference) -> Law:
     )
     exponents = {"mass": -1.0} if per == "kilogram" else {}
     shape = f"{memory}, {curve}, per {per}"
-    return Law(
-        "thermal_weakening",
-        shape,
-        text,
-        lambda p, s: set_to(p, "heat", s),
-        0.3,
-        1.5,
-        exponents=exponents,
-    )
+    return Law(shape, text, write, 0.3, 1.5, exponents=exponents)
 
 
+@LAWS.add
 def run_in(rng: np.random.Generator, r: Reference) -> Law:
     form, static = int(rng.integers(1, 5)), int(one_of(rng, STAYS, SCALES))
     distance = float(rng.uniform(0.3, 0.8)) * r.longest
@@ -187,9 +209,7 @@ def run_in(rng: np.random.Generator, r: Reference) -> Law:
         distance *= 0.4
     sign = -1.0 if rng.random() < 0.7 else 1.0
     power = float(rng.uniform(0.5, 1.2))
-    set_to = fields(
-        run_in_form=form, run_in_distance=distance, run_in_power=power, run_in_static=static
-    )
+    write = sets("run_in", sign, form=form, distance=distance, power=power, static=static)
     shape = {1: "exponential", 2: "power", 3: "two-stage", 4: "logarithm"}[form]
     curve = {
         1: "1 - exp(-u)",
@@ -200,40 +220,34 @@ def run_in(rng: np.random.Generator, r: Reference) -> Law:
     kept = "mu_s in proportion" if static == SCALES else "mu_s stays"
     text = f"mu_k (1 {sign:+.0f} strength * ({curve})), u = distance / {distance:.3g} m; {kept}"
     name = f"{shape}, {kept}"
-    return Law("run_in", name, text, lambda p, s: set_to(p, "run_in", sign * s), 0.2, 0.5)
+    return Law(name, text, write, 0.2, 0.5)
 
 
+@LAWS.add
 def spring_hardening(rng: np.random.Generator, r: Reference) -> Law:
     form = int(rng.integers(1, 4))
 
     def write(p: Record, strength: float) -> None:
-        ruler = abs(float(p["anchor_x"][0] - p["hook_x"][0])) - float(p["natural"][0])
-        ruler += r.deflection
         p["spring_form"] = form
         power = {1: strength**-0.25, 2: (6 * strength) ** -0.5, 3: strength**-0.5}[form]
-        p["spring_b"] = ruler * power
+        p["spring_b"] = ruler(p, r) * power
 
     shape = {1: "quintic", 2: "sinh", 3: "cubic in tension only"}[form]
     text = (
         f"each spring {shape} in its full extension, stiffer by about strength at the static load"
     )
-    return Law("spring_hardening", shape, text, write, 0.2, 3.0)
+    return Law(shape, text, write, 0.2, 3.0)
 
 
+@LAWS.add
 def structural_damping(rng: np.random.Generator, r: Reference) -> Law:
     power = float(one_of(rng, 2.0, 1.5, 0.7))
-    set_to = fields(damping_power=power, damping_speed=r.speed)
+    write = sets("damping", r.friction, power=power, speed=r.speed)
     text = f"against the frame strength * {r.friction:.4g} N * (speed / {r.speed:.4g} m/s)^{power}"
-    return Law(
-        "structural_damping",
-        f"power {power}",
-        text,
-        lambda p, s: set_to(p, "damping", s * r.friction),
-        0.03,
-        1.0,
-    )
+    return Law(f"power {power}", text, write, 0.03, 1.0)
 
 
+@LAWS.add
 def speed_ripple(rng: np.random.Generator, r: Reference) -> Law:
     form, roller = int(rng.integers(1, 4)), bool(rng.random() < 0.35)
     frequency, own = float(rng.uniform(0.3, 1.6)), bool(rng.random() < 0.6)
@@ -248,9 +262,10 @@ def speed_ripple(rng: np.random.Generator, r: Reference) -> Law:
     shape = {1: "bump once a turn", 2: "two harmonics", 3: "sawtooth"}[form]
     rate = f"{frequency:.3g} Hz" + (f" at {r.speed:.3g} m/s, in proportion" if roller else "")
     name = shape + (", roller" if roller else "")
-    return Law("speed_ripple", name, f"speed (1 + strength * {shape}), {rate}", write, 0.1, 0.5)
+    return Law(name, f"speed (1 + strength * {shape}), {rate}", write, 0.1, 0.5)
 
 
+@LAWS.add
 def surface_pattern(rng: np.random.Generator, r: Reference) -> Law:
     form = int(rng.integers(1, 4))
     length = float(max(rng.uniform(0.15, 0.35) * r.travel, 4 * r.deflection))
@@ -266,20 +281,22 @@ def surface_pattern(rng: np.random.Generator, r: Reference) -> Law:
     shape = {1: "bumps", 2: "joints", 3: "two materials"}[form]
     phase = "same start in every run" if common else "own start in every run"
     text = f"mu (1 + strength * {shape}) every {length:.3g} m of surface; {phase}"
-    return Law("surface_pattern", shape, text, write, 0.15, 0.6)
+    return Law(shape, text, write, 0.15, 0.6)
 
 
+@LAWS.add
 def load_dependence(rng: np.random.Generator, r: Reference) -> Law:
     form = int(rng.integers(1, 4))
     sign = -1.0 if form == 1 or rng.random() < 0.6 else 1.0
     sign = 1.0 if form == 2 else sign
-    set_to = fields(load_form=form, load_reference=r.load)
+    write = sets("load", sign, form=form, reference=r.load)
     shape = {1: "power", 2: "adhesion", 3: "logarithm"}[form]
     curve = {1: "n^-strength", 2: "1 - strength + strength/n", 3: f"1 {sign:+.0f} strength ln n"}
     text = f"mu times {curve[form]}, n = load / {r.load:.4g} N"
-    return Law("load_dependence", shape, text, lambda p, s: set_to(p, "load", sign * s), 0.25, 0.6)
+    return Law(shape, text, write, 0.25, 0.6)
 
 
+@LAWS.add
 def spring_misalignment(rng: np.random.Generator, r: Reference) -> Law:
     shape = str(one_of(rng, "one anchor", "one side turned", "one spring's two ends"))
     which, sign = int(rng.integers(4)), float(one_of(rng, -1, 1))
@@ -297,24 +314,4 @@ def spring_misalignment(rng: np.random.Generator, r: Reference) -> Law:
             p["hook_y"][which] -= 0.3 * shift
 
     text = f"{shape} off by strength times the spring's length, sideways"
-    return Law("spring_misalignment", shape, text, write, 0.05, 0.35, planar=True)
-
-
-LAWS: dict[str, Callable[[np.random.Generator, Reference], Law]] = {
-    law.__name__: law
-    for law in (
-        lateral_friction,
-        turning_surface,
-        static_strengthening,
-        velocity_weakening,
-        film_drag,
-        thermal_weakening,
-        run_in,
-        spring_hardening,
-        structural_damping,
-        speed_ripple,
-        surface_pattern,
-        load_dependence,
-        spring_misalignment,
-    )
-}
+    return Law(shape, text, write, 0.05, 0.35, planar=True)

@@ -14,9 +14,10 @@ from numba import njit
 
 from .apparatus import GRAVITY, Record
 from .friction_law import OTHER
-from .laws import Reference
+from .laws import Named, Reference
 
 GUIDES, SLACK, LOOSE, LIFT, SOFT_BELT, THUMPS, BELT_DRIFT, ROCKING = range(1, 9)
+KINDS = Named()
 
 
 @njit
@@ -61,16 +62,19 @@ def out_of_catalogue(p, slow, t, h, s, friction):
     return push, load, spring, mu, extra
 
 
-def guide_friction(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(GUIDES)
+def guide_friction(size: float, rng: np.random.Generator, r: Reference):
     """Dry friction between the block and what guides it, in the frame."""
-    p["other_form"], p["other"][0] = GUIDES, 0.03 * size
+    return (0.03 * size,)
 
 
+@KINDS.add
 def slack_springs(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Cords for springs: they pull, and give way instead of pushing."""
     p["slack"] = min(size, 1.0)
 
 
+@KINDS.add
 def loose_mass(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
     """Something sprung inside the block, weighed with it: 3 to 7 Hz, lightly damped."""
     share = min(0.15 * size, 0.5)
@@ -80,46 +84,31 @@ def loose_mass(p: Record, size: float, rng: np.random.Generator, r: Reference) -
     p["other"][:3] = share, 2 * pi * rng.uniform(3, 7), rng.uniform(0.01, 0.05)
 
 
-def lifting_springs(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(LIFT)
+def lifting_springs(size: float, rng: np.random.Generator, r: Reference):
     """Springs mounted above the plane: they lift with travel and with speed."""
-    p["other_form"] = LIFT
-    p["other"][:2] = 0.05 * size, rng.uniform(0.1, 0.4)
+    return 0.05 * size, rng.uniform(0.1, 0.4)
 
 
-def soft_belt(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(SOFT_BELT)
+def soft_belt(size: float, rng: np.random.Generator, r: Reference):
     """A belt that stretches between its rollers and lags behind the pull on it."""
-    p["other_form"] = SOFT_BELT
-    p["other"][:2] = 0.01 * size, rng.uniform(0.02, 0.08)
+    return 0.01 * size, rng.uniform(0.02, 0.08)
 
 
-def thumps(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(THUMPS)
+def thumps(size: float, rng: np.random.Generator, r: Reference):
     """Knocks from outside, at no particular time."""
-    p["other_form"] = THUMPS
-    p["other"][:3] = 0.05 * size, rng.uniform(0.4, 1.0), 0.015
+    return 0.05 * size, rng.uniform(0.4, 1.0), 0.015
 
 
-def belt_drift(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(BELT_DRIFT)
+def belt_drift(size: float, rng: np.random.Generator, r: Reference):
     """A motor that warms up: the belt gains or loses speed steadily over each run."""
-    p["other_form"] = BELT_DRIFT
-    p["other"][:2] = 0.08 * size * rng.choice((-1, 1)), r.duration
+    return 0.08 * size * rng.choice((-1, 1)), r.duration
 
 
-def rocking_table(p: Record, size: float, rng: np.random.Generator, r: Reference) -> None:
+@KINDS.of(ROCKING)
+def rocking_table(size: float, rng: np.random.Generator, r: Reference):
     """A floor that sways slowly."""
-    p["other_form"] = ROCKING
-    p["other"][:2] = 0.03 * size, rng.uniform(0.12, 0.5)
-
-
-KINDS = {
-    kind.__name__: kind
-    for kind in (
-        guide_friction,
-        slack_springs,
-        loose_mass,
-        lifting_springs,
-        soft_belt,
-        thumps,
-        belt_drift,
-        rocking_table,
-    )
-}
+    return 0.03 * size, rng.uniform(0.12, 0.5)

@@ -10,12 +10,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from .apparatus import ELASTO_PLASTIC, GRAVITY, IWAN, LUGRE, SMOOTH, Record
-from .contacts import (
-    elasto_plastic_step,
-    jump_step,
-    lugre_step,
-    smooth_step,
-)
+from .contacts import elasto_plastic_step, jump_step, lugre_step, smooth_step
 from .forces import belt_speed, disturbance
 from .friction_law import TRAVEL, age_contact, kinetic_and_excess
 from .iwan import march_iwan
@@ -41,39 +36,30 @@ def march(records, start, begin, count, every, h):
     s, z, slow = row[:BRISTLES], row[BRISTLES:SLOWS], row[SLOWS:FRICTION]
     rows = np.empty((count + 1, COLUMNS))
     total, friction = np.zeros(3), row[FRICTION]
-    slip = 0.0
-    for k in range(count + 1):
-        if k > 0:
-            for j in range(every):
-                t = begin + ((k - 1) * every + j) * h
-                push, load, springs, mu, extra = disturbance(p, slow, t, h, s, friction)
-                load *= p.mass * GRAVITY
-                belt = belt_speed(p, t + 0.5 * h) + extra
-                kinetic, excess = kinetic_and_excess(p, slow, s[0], load)
-                kinetic *= mu
-                excess *= mu
-                if p.contact == LUGRE:
-                    friction = lugre_step(
-                        p, s, z, push, springs, load, kinetic, excess, belt, h, total
-                    )
-                elif p.contact == ELASTO_PLASTIC:
-                    friction = elasto_plastic_step(
-                        p, s, z, push, springs, load, kinetic, excess, belt, h, total
-                    )
-                elif p.contact == SMOOTH:
-                    friction = smooth_step(
-                        p, s, z, push, springs, load, kinetic, excess, belt, h, total
-                    )
-                else:
-                    friction = jump_step(
-                        p, s, z, push, springs, load, kinetic, excess, belt, h, total
-                    )
-                ux, uy = s[3] - belt, s[4] if p.planar else 0.0
-                slip = sqrt(ux * ux + uy * uy)
-                slow[TRAVEL] += belt * h
-                age_contact(p, slow, slip, abs(friction * ux), h)
-        rows[k] = row
-        rows[k, FRICTION], rows[k, SLIP] = friction, slip
+    rows[0] = row
+    rows[0, SLIP] = 0.0
+    for k in range(count):
+        for j in range(every):
+            t = begin + (k * every + j) * h
+            push, load, springs, mu, extra = disturbance(p, slow, t, h, s, friction)
+            load *= p.mass * GRAVITY
+            belt = belt_speed(p, t + 0.5 * h) + extra
+            kinetic, excess = kinetic_and_excess(p, slow, s[0], load)
+            given = (p, s, z, push, springs, load, kinetic * mu, excess * mu, belt, h, total)
+            if p.contact == LUGRE:
+                friction = lugre_step(*given)
+            elif p.contact == ELASTO_PLASTIC:
+                friction = elasto_plastic_step(*given)
+            elif p.contact == SMOOTH:
+                friction = smooth_step(*given)
+            else:
+                friction = jump_step(*given)
+            ux, uy = s[3] - belt, s[4] if p.planar else 0.0
+            slip = sqrt(ux * ux + uy * uy)
+            slow[TRAVEL] += belt * h
+            age_contact(p, slow, slip, abs(friction * ux), h)
+        rows[k + 1] = row
+        rows[k + 1, FRICTION], rows[k + 1, SLIP] = friction, slip
     return rows
 
 

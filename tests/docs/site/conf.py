@@ -20,13 +20,7 @@ author = "The stickslip developers"
 project_copyright = "The stickslip developers, BSD-3-Clause"
 release = version = installed_version("stickslip")
 
-extensions = [
-    "myst_nb",
-    "sphinx.ext.autodoc",
-    "making.docstrings",
-    "making.mathml",
-    "making.pages",
-]
+extensions = ["myst_nb", "sphinx.ext.autodoc", "making.docstrings", "making.mathml", "making.pages"]
 # parts of pages, which are taken in by these
 exclude_patterns = ["made"]
 myst_enable_extensions = ["dollarmath", "colon_fence", "deflist"]

@@ -24,7 +24,7 @@ LEFT = {
     "rig_coupled": {
         "results/soft_springs/report.html": (
             *("soft_springs", "stick-slip frequency", "warmest contact, over the air", "Energy"),
-        ),
+        )
     },
 }
 

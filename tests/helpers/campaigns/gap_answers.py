@@ -9,18 +9,7 @@ import numpy as np
 from gap_campaigns import NOISE, motion, noisy, write_campaign
 
 from cosim.gap import read_campaign
-from cosim.gap.result import (
-    Doubt,
-    Exponent,
-    Gap,
-    Law,
-    Ranked,
-    Rates,
-    RigNumber,
-    Rung,
-    Score,
-    Where,
-)
+from cosim.gap.result import Doubt, Exponent, Gap, Law, Ranked, Rates, RigNumber, Rung, Score, Where
 from cosim.gap.windows import Number, fit, user_model, windows_of_campaign
 
 TRUE = {"velocity_weakening": {"linear": 0.8}}

@@ -4,6 +4,8 @@ import numpy as np
 import tomli_w
 from stickslip import Parameters, simulate
 
+from cosim.gap import read_campaign
+
 NOISE = 2e-4
 KNOWN = {"mass": 0.87, "stiffness": 38.5}
 RIG = {"spring_natural_length": 0.17}
@@ -11,11 +13,11 @@ RIG = {"spring_natural_length": 0.17}
 
 def motion(
     speed=0.06, mass=0.87, mu_s=0.3, mu_k=0.2, duration=20.0, interval=0.01, creep=0.0,
-    stiffness=KNOWN["stiffness"], run_up=0.0, **blocks,
+    stiffness=KNOWN["stiffness"], run_up=0.0, free=("x", "y", "phi"), **blocks,
 ):  # fmt: skip
     """The exact motion of a block that sticks and slips; creep: in stick, m/s; run_up: s."""
     parameters = Parameters(
-        rig={"mass": mass, **RIG},
+        rig={"mass": mass, "degrees_of_freedom": free, **RIG},
         springs={"stiffness": stiffness},
         friction={"mu_s": mu_s, "mu_k": mu_k, "stick_creep": creep},
         surface={"speed": speed, "run_up_time": run_up},
@@ -26,6 +28,16 @@ def motion(
 
 def noisy(values, seed, noise=NOISE):
     return values + noise * np.random.default_rng(seed).standard_normal(len(values))
+
+
+def seen(run, seed, noise=NOISE, **table):
+    """A table of [[run]] with the run's columns along x, as a tracker has them."""
+    return table | {"columns": {"t": run.time, "x": noisy(run["x"], seed, noise)}}
+
+
+def campaign_with(folder, runs, **tables):
+    """The campaign of these runs, read; its noise is stated."""
+    return read_campaign(write_campaign(folder, runs, **{"noise": {"x": NOISE}} | tables))
 
 
 def write_csv(path, columns):

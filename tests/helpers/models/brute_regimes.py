@@ -1,22 +1,12 @@
 """Every regime of a rig by force: long runs of one length from many starts, of all kinds."""
 
 import numpy as np
-from stickslip import (
-    Friction,
-    LateralFriction,
-    Parameters,
-    Rig,
-    Springs,
-    StructuralDamping,
-    Surface,
-)
+from stickslip import Parameters
 from stickslip.steady_motion import RunEnded
 from stickslip.steady_motion.regimes import regime_of
 from stickslip.steady_motion.starts import OWN, started
 
 GRAVITY = 9.81
-#: At constant speed, s; starts.
-STEADY, STARTS = 600.0, 30
 
 
 def drawn_rig(draw):
@@ -28,18 +18,16 @@ def drawn_rig(draw):
     pretension = draw.choice([0.0, draw.uniform(0.0, 0.04)], p=[0.1, 0.9])
     damping = draw.choice([0.0, draw.uniform(0.0, 0.01)], p=[0.2, 0.8])
     return Parameters(
-        rig=Rig(mass=mass, spring_length=0.2, spring_natural_length=0.2 - pretension),
-        springs=Springs(stiffness=stiffness),
-        friction=Friction(mu_s=mu_k * draw.uniform(1.05, 1.7), mu_k=mu_k),
-        lateral_friction=LateralFriction(ratio=1.0),
-        structural_damping=StructuralDamping(
-            coefficient=2.0 * mass * rate * damping, rotational=1e-4
-        ),
-        surface=Surface(speed=speed, run_up_time=draw.choice([0.0, 3.0, 10.0])),
+        rig=dict(mass=mass, spring_length=0.2, spring_natural_length=0.2 - pretension),
+        springs=dict(stiffness=stiffness),
+        friction=dict(mu_s=mu_k * draw.uniform(1.05, 1.7), mu_k=mu_k),
+        lateral_friction=dict(ratio=1.0),
+        structural_damping=dict(coefficient=2.0 * mass * rate * damping, rotational=1e-4),
+        surface=dict(speed=speed, run_up_time=draw.choice([0.0, 3.0, 10.0])),
     )
 
 
-def drawn_starts(parameters, draw, count=STARTS):
+def drawn_starts(parameters, draw, count):
     """In turn: carried by the surface, sliding about its place, at rest with and without a ramp.
 
     Half of them are as straight as a rig can be made, half are 5 mm aside and turned by 9 degrees.
@@ -65,7 +53,7 @@ def drawn_starts(parameters, draw, count=STARTS):
         yield started(parameters, state, ramp)
 
 
-def by_force(parameters, draw, steady=STEADY, count=STARTS):
+def by_force(parameters, draw, steady, count):
     """Distinct regimes of those starts, and all runs: some have come to none by their end."""
     distinct, runs = [], []
     for start in drawn_starts(parameters, draw, count):

@@ -1,17 +1,7 @@
 """Rigs whose friction falls with speed, steeply too, and whether disturbances of theirs grow."""
 
 import numpy as np
-from stickslip import (
-    Friction,
-    LateralFriction,
-    Parameters,
-    Rig,
-    Springs,
-    StructuralDamping,
-    Surface,
-    VelocityWeakening,
-    simulate,
-)
+from stickslip import Parameters, simulate
 from stickslip.steady_motion import stability
 from stickslip.steady_motion.stability import GRAZING, UNSTABLE
 
@@ -43,15 +33,13 @@ def drawn_rig(draw):
         law = {"power": draw.uniform(0.2, 2.0), "exponent": draw.uniform(0.4, 2.0)}
         law["power_speed"] = speed * draw.uniform(0.05, 1.0)
     return Parameters(
-        rig=Rig(mass=mass, spring_natural_length=0.2 - draw.uniform(0.0, 0.03)),
-        springs=Springs(stiffness=stiffness),
-        friction=Friction(**friction),
-        velocity_weakening=VelocityWeakening(**law),
-        lateral_friction=LateralFriction(ratio=1.0),
-        structural_damping=StructuralDamping(
-            coefficient=2.0 * mass * rate * draw.uniform(0.0, 0.01)
-        ),
-        surface=Surface(speed=speed, run_up_time=5.0),
+        rig=dict(mass=mass, spring_natural_length=0.2 - draw.uniform(0.0, 0.03)),
+        springs=dict(stiffness=stiffness),
+        friction=dict(**friction),
+        velocity_weakening=dict(**law),
+        lateral_friction=dict(ratio=1.0),
+        structural_damping=dict(coefficient=2.0 * mass * rate * draw.uniform(0.0, 0.01)),
+        surface=dict(speed=speed, run_up_time=5.0),
     )
 
 

@@ -1,4 +1,4 @@
-"""A block on springs along one line, so that they are linear; on the surface at the start."""
+"""A block on springs along one line, so that they are linear; and the rig of the source study."""
 
 from stickslip import Parameters
 
@@ -19,4 +19,19 @@ def line(speed: float, law: dict[str, float], **tables) -> Parameters:
         "initial": {"vx": speed},
     }
     merged = {name: own.get(name, {}) | tables.get(name, {}) for name in {**own, **tables}}
+    return Parameters(**merged)
+
+
+def published(pretension: float = 0.03, damping: float = 0.0, **blocks) -> Parameters:
+    """The published rig on a belt that runs up in 10 s, its friction in the plane.
+
+    pretension: m of each spring; with 30 mm the block keeps to its line
+    """
+    tables = {
+        "rig": {"spring_natural_length": 0.2 - pretension},
+        "lateral_friction": {"ratio": 1.0},
+        "surface": {"speed": 0.15, "run_up_time": 10.0},
+        "structural_damping": {"coefficient": damping},
+    }
+    merged = {name: tables.get(name, {}) | blocks.get(name, {}) for name in {**tables, **blocks}}
     return Parameters(**merged)

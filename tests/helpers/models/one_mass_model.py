@@ -30,6 +30,7 @@ class OneMass:
     speed, acceleration : of the belt, of t
     relaxation : s, in which recent heat is forgotten
     judged : part of the load by which stick is judged
+    lag : m/s, by which a stick creeps behind the belt, of the state
     """
 
     mass: float
@@ -41,6 +42,7 @@ class OneMass:
     damping: float = 0.0
     relaxation: float = np.inf
     judged: float = 1.0
+    lag: Callable[[np.ndarray], float] = lambda state: 0.0
     max_step: float = 0.02
 
     def run(self, times: np.ndarray, x: float = 0.0):
@@ -65,7 +67,8 @@ class OneMass:
     def _stick(self, t, since, state, times):
         def slopes(t, s):
             fading = -s[RECENT_HEAT] / self.relaxation
-            return [self.speed(t), self.acceleration(t), 0.0, fading, 0.0, self.speed(t)]
+            speed = self.speed(t)
+            return [speed - self.lag(s), self.acceleration(t), 0.0, fading, 0.0, speed]
 
         def gives_way(t, s):
             return abs(self._holding(t, s)) * self.judged - self.static(t - since, s)
@@ -109,4 +112,6 @@ class OneMass:
             s[V] = self.speed(t)
             if abs(holding) * self.judged < self.static(0.0, s):
                 return 0.0
+        else:
+            s[V] -= self.lag(s)
         return -np.sign(holding)

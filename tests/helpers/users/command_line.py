@@ -35,11 +35,7 @@ def python(program, *arguments, **more):
 def stickslip_here(folder, *arguments):
     """The same of this process."""
     words, out, err = [str(word) for word in arguments], io.StringIO(), io.StringIO()
-    with (
-        contextlib.chdir(folder),
-        contextlib.redirect_stdout(out),
-        contextlib.redirect_stderr(err),
-    ):
+    with contextlib.chdir(folder), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
         try:
             status = main(words)
         except SystemExit as stop:  # argparse ends the process

@@ -149,10 +149,7 @@ def test_no_room_is_said_before_and_while_unpacking(unit, tmp_path, monkeypatch,
     with monkeypatch.context() as patch:
         usage = shutil.disk_usage(tmp_path)
         patch.setattr(shutil, "disk_usage", lambda folder: usage._replace(free=10))
-        refused(
-            unit,
-            rf"unpacked in {there}: takes 0 MiB, there are 0 MiB; .*TMPDIR",
-        )
+        refused(unit, rf"unpacked in {there}: takes 0 MiB, there are 0 MiB; .*TMPDIR")
     with monkeypatch.context() as patch:
         patch.setattr(zipfile.ZipFile, "extract", full_disk)
         refused(unit, rf"unpacked in {there}: No space left on device; .*TMPDIR")

@@ -6,9 +6,8 @@ from xml.etree import ElementTree
 
 import fmpy
 import pytest
-from c_instance import ERROR, OK
 from c_library import compiled, compiler, unpacked
-from fmi3_unit import Unit
+from c_unit import ERROR, OK, Unit
 from plain_start import values
 from stickslip import Parameters, simulate
 

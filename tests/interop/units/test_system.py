@@ -141,10 +141,7 @@ def test_a_run_that_was_cut_off_goes_on_to_the_last_bit(system, in_turn, tmp_pat
         again = run_system(specification, folder=RunFolder.found(tmp_path))
     assert again.result.status == "complete" and again.steps.count == in_turn.steps
     same(again.result, in_turn)
-    with (
-        read_system(system, changes | {"run.stop": 12.0}) as other,
-        pytest.raises(CheckpointError),
-    ):
+    with read_system(system, changes | {"run.stop": 12.0}) as other, pytest.raises(CheckpointError):
         run_system(other, folder=RunFolder.found(tmp_path))
 
 

@@ -2,9 +2,8 @@
 
 import numpy as np
 import pytest
-from gap_campaigns import KNOWN, RIG, noisy, write_campaign
+from gap_campaigns import KNOWN, RIG, campaign_with, noisy
 
-from cosim.gap import read_campaign
 from cosim.gap.data.campaign_file import Rig
 from cosim.gap.extended import part_of
 from cosim.gap.naming import Naming
@@ -35,7 +34,7 @@ def campaign_of(folder, of_film, **how):
     for number, speed in enumerate(SPEEDS):
         time, x = ringing(speed, of_film, **how)
         runs.append({"surface_speed": speed, "columns": {"t": time, "x": noisy(x, number, NOISE)}})
-    return read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
+    return campaign_with(folder, runs, noise={"x": NOISE})
 
 
 @pytest.mark.parametrize("of_film", [True, False])

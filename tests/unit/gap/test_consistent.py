@@ -89,6 +89,13 @@ def contradictions(gap):
         yield "certain", members > 0.5 or gap.verdict == "partial"
         yield "most probable", first.probability == max(row.probability for row in gap.ranking)
         yield "helps", gap.after.of_verdict < gap.before.of_verdict
+    yield "none is said", ("No effect is missing" in said) == (gap.verdict == "none")
+    order = [row.probability for row in gap.ranking]
+    yield "in order", order == sorted(order, reverse=True)
+    if gap.verdict == "class":
+        least = min(row.evidence for row in gap.ranking if row.effect in gap.effects)
+        rest = [row.evidence for row in gap.ranking if row.effect not in gap.effects]
+        yield "members first", max(rest, default=-np.inf) <= least and "cannot tell" in said
     if gap.verdict == "none":
         yield "none is certain", all(row.probability < 0.5 for row in gap.ranking)
         yield "none is noise", "held-out runs is more" not in text.what_is_left(gap)

@@ -14,14 +14,7 @@ from stickslip.effects.contact.static_strengthening import EFFECT
 
 from cosim.gap import models
 from cosim.gap.extended import Part
-from cosim.gap.judge import (
-    Verdict,
-    halves,
-    judge,
-    may_be_spurious,
-    rivals_of,
-    with_steps,
-)
+from cosim.gap.judge import Verdict, halves, judge, may_be_spurious, rivals_of, with_steps
 from cosim.gap.laws import Context, FreeCurve, laws_of
 from cosim.gap.models import Models
 from cosim.gap.plan.next_run import NextRun
@@ -85,6 +78,17 @@ TWO_NEAR = {"film_drag": -2.9, "other.time": -1.0}
         # held-out runs judge where there are some: fitted ones have 9 before and after; worse
         (["run_in"], 5.0, None, 1.0, {}, ("unknown", ())),
         (["run_in"], 1.2, 1.25, 1.0, {}, ("unknown", ())),
+        (["run_in"], 2.0, 2.1, 0.9, {}, ("unknown", ())),
+        # two that explain the runs; one of them may be another's
+        (["run_in", "film_drag"], 5.0, 1.0, 1.0, {}, ("named", ("run_in", "film_drag"))),
+        (
+            ["run_in", "film_drag"],
+            5.0,
+            1.0,
+            1.0,
+            {"speed_ripple": -1.0},
+            ("named", ("run_in", "film_drag")),
+        ),
         # what has no name
         (["other.time"], 5.0, 1.0, 1.0, {}, ("unknown", ())),
         (["run_in", "other.time"], 5.0, 1.0, 1.0, {}, ("unknown", ())),

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import tomli_w
 from command_line import refusal
+from gap_campaigns import write_campaign
 from plan_campaigns import made, named
 from stickslip import EFFECTS
 
@@ -22,15 +22,13 @@ from cosim.gap.plan.planned import as_measured, asked_as_planned
 from cosim.gap.plan.sizes import Design, Size, false_names, is_named, sizes_of
 
 RUN = {"mass": 0.87, "stiffness": 38.5, "duration": 8.0}
-RIG = {"spring_natural_length": 0.17}
 FRICTION = {"mu_s": 0.3, "mu_k": 0.22}
 SCATTER = 0.02
 
 
 def written(folder, runs=({},), **tables):
-    content = {"name": "planned", "rig": RIG, "noise": {"x": 2e-4}, "friction": FRICTION} | tables
-    content["run"] = [RUN | {"surface_speed": 0.06} | run for run in runs]
-    (folder / "campaign.toml").write_text(tomli_w.dumps(content), encoding="utf-8")
+    content = {"name": "planned", "noise": {"x": NOISE}, "friction": FRICTION} | tables
+    write_campaign(folder, [RUN | run for run in runs], **content)
     return folder
 
 

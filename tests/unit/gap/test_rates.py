@@ -7,10 +7,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from gap_campaigns import motion, noisy, write_campaign
+from gap_campaigns import campaign_with, motion, seen
 from scipy.stats import multivariate_normal
 
-from cosim.gap.data import read_campaign
 from cosim.gap.rates import (
     NONE,
     Decision,
@@ -41,10 +40,9 @@ def campaign_of(folder, masses):
     runs = []
     for number, (mass, speed) in enumerate((m, v) for m in masses for v in (0.05, 0.1, 0.2)):
         run = motion(speed, mass, duration=10.0, velocity_weakening={"linear": 0.4})
-        columns = {"t": run.time, "x": noisy(run["x"], number)}
-        runs.append({"surface_speed": speed, "mass": mass, "columns": columns})
+        runs.append(seen(run, number, surface_speed=speed, mass=mass))
     folder.mkdir(exist_ok=True)
-    campaign = read_campaign(write_campaign(folder, runs, noise={"x": 2e-4}))
+    campaign = campaign_with(folder, runs)
     system = System(campaign, [rows_of(smooth(run), campaign.rig) for run in campaign.runs])
     unknowns = Arguments(campaign, system.runs, system.level).unknowns()
     return system, {name: unknowns[name] for name in ASKED}

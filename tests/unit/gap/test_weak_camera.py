@@ -4,7 +4,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from gap_campaigns import RIG, motion, noisy, write_campaign
+from gap_campaigns import RIG, campaign_with, motion, noisy
 from scipy.special import logsumexp
 
 from cosim.gap.data import read_campaign
@@ -84,11 +84,10 @@ def system(folder, fault="", size=0.0, among=ALL, runs=RUNS, **tables):
         if number in among:
             t, x = written(fault, size, t, x)
         columns = {"t": t[::EVERY], "x": noisy(x[::EVERY], number, NOISE)}
-        entries.append(
-            {"surface_speed": speed, "mass": mass, "columns": columns, "hold_out": number == 4}
-        )
+        entry = {"surface_speed": speed, "mass": mass, "columns": columns}
+        entries.append(entry | {"hold_out": number == 4})
     rig = {**RIG, "degrees_of_freedom": ["x"]}
-    campaign = read_campaign(write_campaign(folder, entries, noise={"x": NOISE}, rig=rig, **tables))
+    campaign = campaign_with(folder, entries, noise={"x": NOISE}, rig=rig, **tables)
     made = System(
         campaign, [with_corners(rows_of(smooth(run), campaign.rig)) for run in campaign.runs]
     )
@@ -229,7 +228,7 @@ def test_a_long_delay_is_taken_whole(tmp_path):
         np.testing.assert_allclose(leaning(t, late, 0.04)[50:-50], x[50:-50], atol=1e-6)
         columns = {"t": t[::EVERY], "x": noisy(late[::EVERY], number, NOISE)}
         entries.append({"surface_speed": speed, "mass": mass, "columns": columns})
-    campaign = read_campaign(write_campaign(tmp_path, entries, noise={"x": NOISE}))
+    campaign = campaign_with(tmp_path, entries, noise={"x": NOISE})
     made = System(campaign, [rows_of(smooth(run), campaign.rig) for run in campaign.runs])
     rung = made.rung()
     _, added = rung.offered(camera_faults(rung)["measurement.latency"])

@@ -6,11 +6,10 @@ from functools import cache
 
 import numpy as np
 import pytest
-from gap_campaigns import KNOWN, NOISE, motion, noisy, write_campaign
+from gap_campaigns import KNOWN, NOISE, campaign_with, motion, noisy, seen
 from scipy.special import logsumexp
 from scipy.stats import multivariate_normal
 
-from cosim.gap import read_campaign
 from cosim.gap.agreement import Fitting
 from cosim.gap.extended import part_of
 from cosim.gap.naming import Naming
@@ -61,10 +60,10 @@ def written(folder, parts=None, more=None, duration=10.0, held_out=(), seed=0, *
     for number, (mass, speed) in enumerate(RUNS):
         part = 1.0 if parts is None else parts[number]
         run = moved(speed, mass, duration, part, json.dumps(blocks))
-        columns = {"t": run.time, "x": noisy(run["x"], 100 * seed + number)}
         table = {"surface_speed": speed, "mass": mass, "hold_out": number in held_out}
-        runs.append(table | {"columns": columns} | ({} if more is None else more[number]))
-    return read_campaign(write_campaign(folder, runs, noise={"x": NOISE}))
+        table |= {} if more is None else more[number]
+        runs.append(seen(run, 100 * seed + number, **table))
+    return campaign_with(folder, runs)
 
 
 @cache
@@ -82,7 +81,7 @@ def system_of(campaign, every=True):
 def rows_alone(folder, columns, speed, noise):
     """Of a campaign of one run."""
     runs = [{"surface_speed": speed, "columns": columns}]
-    campaign = read_campaign(write_campaign(folder, runs, noise={"x": noise}))
+    campaign = campaign_with(folder, runs, noise={"x": noise})
     return rows_of(smooth(campaign.runs[0]), campaign.rig)
 
 
@@ -113,9 +112,8 @@ def test_springs_of_two_makes_harden_in_proportion_to_their_stiffness_or_not(
         stiffness = part * KNOWN["stiffness"]
         hardening = {"cubic": 1e4 * (part if proportional else 1.0)}
         run = motion(speed, stiffness=stiffness, duration=10.0, spring_hardening=hardening)
-        columns = {"t": run.time, "x": noisy(run["x"], number)}
-        runs.append({"surface_speed": speed, "stiffness": stiffness, "columns": columns})
-    campaign = read_campaign(write_campaign(tmp_path, runs, noise={"x": NOISE}))
+        runs.append(seen(run, number, surface_speed=speed, stiffness=stiffness))
+    campaign = campaign_with(tmp_path, runs)
     named = Naming.of(campaign).named()
     part = part_of(campaign, named.system, named.rung, named.findings[0])
     assert [finding.name for finding in named.findings] == ["spring_hardening"]

@@ -4,8 +4,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from gap_campaigns import KNOWN, RIG, noisy, write_campaign
-from stickslip import Parameters, simulate
+from gap_campaigns import campaign_with, motion, noisy
 
 from cosim.gap.data import read_campaign
 from cosim.gap.weak_form import across
@@ -19,7 +18,7 @@ from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth
 from cosim.gap.windows import windows_of_campaign
 
-NOISE, DURATION, INTERVAL = 1e-4, 12.0, 0.01
+NOISE, DURATION = 1e-4, 12.0
 SPEEDS, HELD_OUT = (0.04, 0.09, 0.06), 0.06
 ISOTROPIC = {"lateral_friction": {"ratio": 1.0}}
 #: Effect -> blocks of the simulation, unknown, truth.
@@ -46,14 +45,7 @@ def measured(folder, rotation=(0.0, 0.0, 0.0), creep=0.0, turn_noise=None, **blo
     noise = {"x": NOISE, "y": NOISE} | ({"phi": turn_noise} if turn_noise else {})
     runs = []
     for number, (speed, angle) in enumerate(zip(SPEEDS, rotation, strict=True)):
-        parameters = Parameters(
-            rig={**RIG, "mass": KNOWN["mass"], "degrees_of_freedom": ("x", "y", "phi")},
-            springs={"stiffness": KNOWN["stiffness"]},
-            friction={"mu_s": 0.3, "mu_k": 0.2},
-            surface={"speed": speed},
-            **blocks,
-        )
-        moved = simulate(parameters, DURATION, INTERVAL)
+        moved = motion(speed, duration=DURATION, **blocks)
         x, y = np.asarray(moved["x"]), np.asarray(moved["y"])
         y = y + creep * np.sqrt(moved.time / DURATION)
         columns = {
@@ -64,7 +56,7 @@ def measured(folder, rotation=(0.0, 0.0, 0.0), creep=0.0, turn_noise=None, **blo
         if turn_noise:
             columns["phi"] = noisy(np.asarray(moved["phi"]), number + 90, turn_noise)
         runs.append({"surface_speed": speed, "columns": columns, "hold_out": speed == HELD_OUT})
-    return read_campaign(write_campaign(folder, runs, noise=noise))
+    return campaign_with(folder, runs, noise=noise)
 
 
 def tracks_and_rows(campaign):

@@ -6,11 +6,9 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from gap_campaigns import KNOWN, NOISE, RIG, noisy, write_campaign
+from gap_campaigns import KNOWN, NOISE, campaign_with, motion, noisy, seen
 from scipy.optimize import differential_evolution
-from stickslip import Parameters, simulate
 
-from cosim.gap.data.campaign import read_campaign
 from cosim.gap.windows import (
     Number,
     fit,
@@ -32,31 +30,24 @@ LINEAR = 1.0
 SPEEDS, HELD_OUT = (0.02, 0.06, 0.1, 0.04), (0.04,)
 
 
-def moved(speed, factor=1.0, planar=False, duration=15.0, **blocks):
-    """A motion along x, or planar. factor : by which the springs are stiffer than KNOWN."""
-    axes = ("x", "y", "phi") if planar else ("x",)
-    parameters = Parameters(
-        rig={"mass": KNOWN["mass"], **RIG, "degrees_of_freedom": axes},
-        springs={"stiffness": factor * KNOWN["stiffness"]},
-        friction={"mu_s": MU_S, "mu_k": MU_K},
-        surface={"speed": speed},
-        **blocks,
-    )
-    return simulate(parameters, duration, 0.01)
+def measured(
+    folder, speeds=SPEEDS, seed=0, zeros=(0.0,) * 4, planar=False, tables=None, factor=1.0,
+    duration=15.0, **blocks,
+):  # fmt: skip
+    """A campaign of runs at some speeds, along x or planar.
 
-
-def measured(folder, speeds=SPEEDS, seed=0, zeros=None, planar=False, tables=None, **blocks):
-    """A campaign of runs at some speeds. zeros : of the tracker, m; tables : of campaign.toml."""
-    runs = []
+    zeros : of the tracker, m; tables : of campaign.toml; factor : of springs stiffer than KNOWN
+    """
+    runs, more = [], {"stiffness": factor * KNOWN["stiffness"], "duration": duration, **blocks}
     for number, speed in enumerate(speeds):
-        motion = moved(speed, planar=planar, **blocks)
-        zero = 0.0 if zeros is None else zeros[number]
-        columns = {"t": motion.time, "x": zero + noisy(motion["x"], 100 * seed + number)}
+        moved = motion(speed, free=("x", "y", "phi") if planar else ("x",), **more)
+        runs.append(seen(moved, 100 * seed + number, surface_speed=speed))
+        runs[-1] |= {"hold_out": speed in HELD_OUT}
+        runs[-1]["columns"]["x"] += zeros[number]
         if planar:
-            columns["y"] = noisy(motion["y"], 100 * seed + number + 50)
-        runs.append({"surface_speed": speed, "columns": columns, "hold_out": speed in HELD_OUT})
+            runs[-1]["columns"]["y"] = noisy(moved["y"], 100 * seed + number + 50)
     noise = dict.fromkeys(("x", "y")[: 1 + planar], NOISE)
-    return read_campaign(write_campaign(folder, runs, noise=noise, **(tables or {})))
+    return campaign_with(folder, runs, noise=noise, **(tables or {}))
 
 
 def fitted(campaign):

@@ -7,7 +7,7 @@ the block, grows by e in tau = m v_s / (N (mu_s - mu_k)), and ends where it come
 import numpy as np
 import pytest
 from line_rig import GRAVITY, MASS, MU_K, MU_S, STIFFNESS, line
-from scipy.integrate import solve_ivp
+from one_mass_model import OneMass, X
 from stickslip import Parameters, friction_coefficient, simulate
 
 SPEED, NORMAL = 0.05, MASS * GRAVITY
@@ -18,49 +18,26 @@ def on_a_line(duration, interval=0.01, transition_speed=0.0, **tables):
     return simulate(rig, duration, interval)
 
 
-def by_scipy(times, transition_speed, exponent, creep=0.0):
-    """x of stick and slip, each to its event by DOP853, and the events' times.
+def by_scipy(times, transition_speed, exponent, creep):
+    """x and the events of the tests' own model, by scipy's DOP853 and its events.
 
-    A stick that creeps follows x = x_e (1 - exp(-r t)), r = v_c K / (mu_s N), x_e = V / r.
+    A stick creeps by v_c times the part of mu_s N that its load is.
     """
-    hold = MU_S * NORMAL
-    rate = creep * STIFFNESS / hold
-    x, start, places, events = 0.0, 0.0, np.empty_like(times), []
 
-    def stick(t):
-        if creep == 0.0:
-            return x + SPEED * (t - start)
-        return SPEED / rate + (x - SPEED / rate) * np.exp(-rate * (t - start))
+    def kinetic(sliding, state):
+        fall = np.exp(-((sliding / transition_speed) ** exponent))
+        return NORMAL * (MU_K + (MU_S - MU_K) * fall)
 
-    def slope(t, y):
-        u = max(SPEED - y[1], 0.0)
-        mu = MU_K + (MU_S - MU_K) * np.exp(-((u / transition_speed) ** exponent))
-        return [y[1], (mu * NORMAL - STIFFNESS * y[0]) / MASS]
-
-    def at_rest(t, y):
-        return SPEED - y[1] if t > events[-1] + 2e-2 else 1.0
-
-    at_rest.terminal, at_rest.direction = True, -1
-    while start < times[-1]:
-        if creep == 0.0:
-            away = start + (hold / STIFFNESS - x) / SPEED
-        else:
-            end = SPEED / rate
-            away = start + np.log((end - x) / (end - hold / STIFFNESS)) / rate
-        inside = (times >= start) & (times <= away)
-        places[inside] = stick(times[inside])
-        if away >= times[-1]:
-            break
-        events.append(away)
-        run = solve_ivp(
-            slope, (away, times[-1]), [hold / STIFFNESS, SPEED - creep], "DOP853",
-            events=at_rest, dense_output=True, max_step=0.02, rtol=1e-11, atol=1e-13,
-        )  # fmt: skip
-        start, x = run.t[-1], run.y[0, -1]
-        inside = (times >= away) & (times <= start)
-        places[inside] = run.sol(times[inside])[0]
-        events.append(start)
-    return places, np.array(events)
+    model = OneMass(
+        mass=MASS,
+        pull=lambda x: -STIFFNESS * x,
+        kinetic=kinetic,
+        static=lambda rest, state: MU_S * NORMAL,
+        speed=lambda t: SPEED,
+        lag=lambda state: creep * STIFFNESS * state[X] / (MU_S * NORMAL),
+    )
+    samples, events = model.run(times)
+    return samples[X], events[:, 0]
 
 
 @pytest.mark.parametrize(

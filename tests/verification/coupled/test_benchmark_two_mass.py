@@ -26,11 +26,7 @@ from cosim.coupling import (
 )
 
 ORDER = ("s1", "s2")
-LINKS = [
-    Connection("s1.F", "s2.F"),
-    Connection("s2.x", "s1.x2"),
-    Connection("s2.v", "s1.v2"),
-]
+LINKS = [Connection("s1.F", "s2.F"), Connection("s2.x", "s1.x2"), Connection("s2.v", "s1.v2")]
 GIVES = {"x": "m", "v": "m/s"}
 TIGHT = Tolerance(1e-11)
 

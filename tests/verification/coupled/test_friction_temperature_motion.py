@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from disc_integral import law_over_disc
 from one_mass_model import HEAT, OneMass, X
-from stickslip import Parameters, Rig, Solver, Springs, simulate
+from stickslip import Parameters, simulate
 from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
 
@@ -48,11 +48,11 @@ def test_cycles_of_stick_and_slip(temperature):
     states, events = model.run(TIMES)
     run = simulate(
         Parameters(
-            rig=Rig(
+            rig=dict(
                 mass=MASS, degrees_of_freedom=("x",), spring_length=1.0, spring_natural_length=1.0
             ),
-            springs=Springs(stiffness=20.17),
-            solver=Solver(tolerance=1e-13),
+            springs=dict(stiffness=20.17),
+            solver=dict(tolerance=1e-13),
             initial={"vx": SPEED},
             asperity_melting=ASPERITY,
             melt_film=FILM,

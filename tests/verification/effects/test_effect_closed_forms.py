@@ -54,14 +54,18 @@ def test_leine_cycle(leine):
     np.testing.assert_allclose(ends[:, 2], LEINE["to"], rtol=0, atol=1e-9)
 
 
+def turning_points(time, x, v, a):
+    """Places at which the velocity is 0, by cubics through value and slope between samples."""
+    return CubicHermiteSpline(time, x, v)(CubicHermiteSpline(time, v, a).roots(extrapolate=False))
+
+
 def test_leine_extremes(leine):
-    """Between samples by cubics through value and slope: their error at 1 ms is below 1e-13."""
+    """What the cubics err at 1 ms is below 1e-13."""
     inside = (leine.time > leine.events[0, 0] + 1e-3) & (leine.time < leine.events[1, 0] - 1e-3)
     t, x, v = leine.time[inside], leine["x"][inside], leine["vx"][inside]
     force = leine["friction_force_x"][inside] - x
     way, speed = CubicHermiteSpline(t, x, v), CubicHermiteSpline(t, v, force)
-    turns = way(way.derivative().roots(extrapolate=False))
-    slowest = speed(speed.derivative().roots(extrapolate=False))
+    turns, slowest = (each(each.derivative().roots(extrapolate=False)) for each in (way, speed))
     found = {"x_max": turns.max(), "x_min": turns.min(), "v_min": slowest.min()}
     assert found == pytest.approx(LEINE_EXTREMES, abs=5.1e-9)  # half the last digit known
 
@@ -77,8 +81,7 @@ def test_quadratic_damping_takes_its_part_of_every_swing():
         unit(structural_damping={"quadratic": q}, initial={"x": start}, **FREE), 30.0, 0.01
     )
     x, v = run["x"], run["vx"]
-    speed = CubicHermiteSpline(run.time, v, -x - q * np.abs(v) * v)
-    turns = np.abs(CubicHermiteSpline(run.time, x, v)(speed.roots(extrapolate=False)))
+    turns = np.abs(turning_points(run.time, x, v, -x - q * np.abs(v) * v))
     turns = np.append(start, turns[turns < start - 1e-6])
     assert len(turns) > 8
     begin, end = turns[:-1], turns[1:]
@@ -98,10 +101,7 @@ def test_dry_guides_take_the_same_from_every_swing(within):
     dry = {"dry_force": force, "dry_speed": within}
     run = simulate(unit(structural_damping=dry, initial={"x": start}, **FREE), 30.0, 0.01)
     x, v = run["x"], run["vx"]
-    slowed = -x - force * v / np.hypot(v, within)
-    turns = CubicHermiteSpline(run.time, x, v)(
-        CubicHermiteSpline(run.time, v, slowed).roots(extrapolate=False)
-    )
+    turns = turning_points(run.time, x, v, -x - force * v / np.hypot(v, within))
     turns = np.abs(turns[np.abs(turns) < start - force])
     assert len(turns) > 8
     lost = 2.0 * force * np.arange(1, len(turns) + 1)

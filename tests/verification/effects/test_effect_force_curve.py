@@ -45,11 +45,16 @@ def test_a_linear_table_is_the_linear_spring(count):
 grids = st.lists(st.floats(0.002, 0.05), min_size=1, max_size=15)
 
 
-@given(grids, st.randoms(use_true_random=False))
-def test_energy_is_the_integral_of_the_force(spans, draw):
+def drawn(spans, draw):
+    """A curve that does not fall: extensions, forces, and the kernel's parameters."""
     extension = np.cumsum([-0.1, *spans])
     force = np.cumsum([-1.0, *(draw.choice([0.0, draw.uniform(0.0, 3.0)]) for _ in spans)])
-    p = packed(tuple(extension), tuple(force))
+    return extension, force, packed(tuple(extension), tuple(force))
+
+
+@given(grids, st.randoms(use_true_random=False))
+def test_energy_is_the_integral_of_the_force(spans, draw):
+    extension, _, p = drawn(spans, draw)
     for end in (-0.2, draw.uniform(-0.1, extension[-1]), 0.25):
         between = [value for value in extension if min(end, -0.1) < value < max(end, -0.1)]
         edges = [-0.1, *between, end]
@@ -63,9 +68,7 @@ def test_energy_is_the_integral_of_the_force(spans, draw):
 
 @given(grids, st.randoms(use_true_random=False))
 def test_it_passes_its_points_and_never_falls(spans, draw):
-    extension = np.cumsum([-0.1, *spans])
-    force = np.cumsum([-1.0, *(draw.choice([0.0, draw.uniform(0.0, 3.0)]) for _ in spans)])
-    p = packed(tuple(extension), tuple(force))
+    extension, force, p = drawn(spans, draw)
     at_points = [curve_force(p, e) for e in extension]
     np.testing.assert_allclose(at_points, force, rtol=0, atol=1e-12)
     along = [curve_force(p, e) for e in np.linspace(-0.15, extension[-1] + 0.05, 400)]

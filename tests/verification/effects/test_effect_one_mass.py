@@ -7,11 +7,11 @@ law is written here once more, from the catalogue's sentence.
 import numpy as np
 import pytest
 from one_mass_model import DISTANCE, GRAVITY, RECENT_HEAT, TRAVEL, OneMass, X
-from stickslip import Parameters, Rig, Solver, Springs, simulate
+from stickslip import Parameters, simulate
 
 MASS, STIFFNESS, MU_S, MU_K, SPEED = 0.67, 80.68, 0.2815, 0.2086, 0.15
 NORMAL = MASS * GRAVITY
-RIG = Rig(mass=MASS, degrees_of_freedom=("x",), spring_length=1.0, spring_natural_length=1.0)
+RIG = dict(mass=MASS, degrees_of_freedom=("x",), spring_length=1.0, spring_natural_length=1.0)
 TIMES = np.linspace(0.0, 3.0, 301)
 
 
@@ -182,8 +182,8 @@ def test_cycles(case):
     effect, laws = CASES[case]
     parameters = Parameters(
         rig=RIG,
-        springs=Springs(stiffness=STIFFNESS / 4.0),
-        solver=Solver(tolerance=1e-13),
+        springs=dict(stiffness=STIFFNESS / 4.0),
+        solver=dict(tolerance=1e-13),
         initial={"vx": float(laws["speed"](0.0)) if "speed" in laws else SPEED},
         **({case.partition(",")[0]: effect} if effect else {}),
     )

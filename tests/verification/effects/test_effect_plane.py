@@ -7,7 +7,7 @@ their energy. In all cases the centre of rotation stays off the contact, where i
 import numpy as np
 import pytest
 from planar_model import CORNERS, OUTWARD, STATE, Slider
-from stickslip import Parameters, Solver, simulate
+from stickslip import Parameters, simulate
 
 START = (0.02, 0.005, 0.05, -0.1, 0.01, -0.3)
 MU_K, NORMAL = 0.2086, 0.67 * 9.81
@@ -55,7 +55,7 @@ def test_slip_in_the_plane(case):
         Parameters(
             rig={"spring_natural_length": 0.17},
             initial=dict(zip(STATE[:6], START, strict=True)),
-            solver=Solver(tolerance=1e-13),
+            solver=dict(tolerance=1e-13),
             **({"lateral_friction": {"ratio": 1.0}} | blocks),
         ),
         0.2,

@@ -7,17 +7,17 @@ quasi-static). At rest the age grows and with it what the contact holds, b ln(10
 
 import numpy as np
 import pytest
-from stickslip import Initial, Parameters, RateAndState, Springs, Surface, simulate
+from stickslip import Parameters, simulate
 
 NORMAL, MU_K, DISTANCE = 0.67 * 9.81, 0.2086, 1e-5
 
 
 def slow_belt(speed: float, stiffness: float, a: float, b: float, **law) -> Parameters:
     return Parameters(
-        surface=Surface(speed=speed),
-        springs=Springs(stiffness=stiffness / 4.0),
-        rate_and_state=RateAndState(direct=a, evolution=b, distance=DISTANCE, **law),
-        initial=Initial(vx=speed),
+        surface=dict(speed=speed),
+        springs=dict(stiffness=stiffness / 4.0),
+        rate_and_state=dict(direct=a, evolution=b, distance=DISTANCE, **law),
+        initial=dict(vx=speed),
     )
 
 

@@ -89,9 +89,7 @@ def test_what_froze_on_the_belt_and_was_wiped_off_is_on_the_books():
     """Melted = water anywhere + ice on the belt + ice wiped off."""
     model = BeltIceModel(
         ThermalParameters(
-            ambient=Ambient(temperature_degC=-2.0),
-            contact=Contact(wiper=1.0),
-            ice=COARSE_ICE,
+            ambient=Ambient(temperature_degC=-2.0), contact=Contact(wiper=1.0), ice=COARSE_ICE
         )
     )
     for _ in range(400):
@@ -148,9 +146,7 @@ def drive(model, steps, duration=0.01, power=100.0, speed=0.5):
 
 
 COLD_BELT = ThermalParameters(
-    ambient=Ambient(temperature_degC=-3.0),
-    belt=Belt(cell_length=2e-3, length=2.0),
-    ice=COARSE_ICE,
+    ambient=Ambient(temperature_degC=-3.0), belt=Belt(cell_length=2e-3, length=2.0), ice=COARSE_ICE
 )
 
 

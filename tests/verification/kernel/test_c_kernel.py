@@ -9,14 +9,7 @@ import random
 
 import numpy as np
 import pytest
-from effect_cases import (
-    IDS,
-    any_rig,
-    creeping,
-    draw_parameters,
-    falling,
-    sheared,
-)
+from effect_cases import IDS, any_rig, creeping, draw_parameters, falling, sheared
 from kernel_steps import largest_step_difference, memory_of
 from stickslip.catalogue import CATALOGUE
 from stickslip.compiled import Library

@@ -4,16 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from stickslip import (
-    Friction,
-    Initial,
-    LateralFriction,
-    Parameters,
-    Rig,
-    Springs,
-    Surface,
-    simulate,
-)
+from stickslip import Initial, Parameters, Surface, simulate
 
 
 @pytest.mark.parametrize("free", [("x", "y"), ("x", "phi"), ("x",)])
@@ -22,10 +13,10 @@ def test_guided_on_a_turning_surface(free, ramp):
     """A block that cannot follow the surface's turn slides on it as soon as that turns."""
     run = simulate(
         Parameters(
-            rig=Rig(surface="slab", slab_radius=0.9, degrees_of_freedom=free),
-            lateral_friction=LateralFriction(ratio=1.0),
-            surface=Surface(speed=0.3, run_up_time=ramp),
-            initial=Initial(x=0.005, y=0.008, phi=0.1),
+            rig=dict(surface="slab", slab_radius=0.9, degrees_of_freedom=free),
+            lateral_friction=dict(ratio=1.0),
+            surface=dict(speed=0.3, run_up_time=ramp),
+            initial=dict(x=0.005, y=0.008, phi=0.1),
         ),
         3.0,
     )
@@ -43,12 +34,12 @@ def test_guided_on_a_turning_surface(free, ramp):
 
 parameters = st.builds(
     lambda mass, stiffness, mu_s, ratio_k, ratio, speed, natural, x, y, phi: Parameters(
-        rig=Rig(mass=mass, spring_natural_length=natural),
-        springs=Springs(stiffness=stiffness),
-        friction=Friction(mu_s=mu_s, mu_k=ratio_k * mu_s),
-        lateral_friction=LateralFriction(ratio=ratio),
-        surface=Surface(speed=speed),
-        initial=Initial(x=x, y=y, phi=phi),
+        rig=dict(mass=mass, spring_natural_length=natural),
+        springs=dict(stiffness=stiffness),
+        friction=dict(mu_s=mu_s, mu_k=ratio_k * mu_s),
+        lateral_friction=dict(ratio=ratio),
+        surface=dict(speed=speed),
+        initial=dict(x=x, y=y, phi=phi),
     ),
     st.floats(0.3, 3.0),
     st.floats(5.0, 150.0),

@@ -2,19 +2,10 @@
 
 import numpy as np
 import pytest
-from stickslip import (
-    Friction,
-    Initial,
-    LateralFriction,
-    Parameters,
-    Rig,
-    Springs,
-    Surface,
-    simulate,
-)
+from stickslip import Parameters, simulate
 
 GRAVITY = 9.81
-FRICTIONLESS = Friction(mu_s=0.0, mu_k=0.0)
+FRICTIONLESS = dict(mu_s=0.0, mu_k=0.0)
 
 
 @pytest.mark.parametrize("ratio", [0.0, 1.0])
@@ -24,9 +15,9 @@ def test_free_vibration(ratio, speed):
     run = simulate(
         Parameters(
             friction=FRICTIONLESS,
-            lateral_friction=LateralFriction(ratio=ratio),
-            surface=Surface(speed=speed),
-            initial=Initial(x=0.03),
+            lateral_friction=dict(ratio=ratio),
+            surface=dict(speed=speed),
+            initial=dict(x=0.03),
         ),
         20.0,
     )
@@ -41,9 +32,7 @@ def test_runaway_without_springs(ratio):
     """k = 0: x = F t^2 / (2 m) under the constant friction F, until the surface is caught up."""
     run = simulate(
         Parameters(
-            springs=Springs(stiffness=0.0),
-            surface=Surface(speed=5.0),
-            lateral_friction=LateralFriction(ratio=ratio),
+            springs=dict(stiffness=0.0), surface=dict(speed=5.0), lateral_friction=dict(ratio=ratio)
         ),
         4.0,
     )
@@ -59,7 +48,7 @@ def test_runaway_without_springs(ratio):
 
 
 def test_block_at_rest_on_a_standing_belt_stays():
-    run = simulate(Parameters(surface=Surface(speed=0.0), initial=Initial(x=0.01)), 5.0)
+    run = simulate(Parameters(surface=dict(speed=0.0), initial=dict(x=0.01)), 5.0)
     assert np.all(run["x"] == 0.01)
     assert np.all(run["mode"] == 0)
     assert run["heat"][-1] == 0.0
@@ -68,10 +57,7 @@ def test_block_at_rest_on_a_standing_belt_stays():
 def test_everything_zero():
     """No speed, no springs, no friction: nothing moves and nothing fails."""
     run = simulate(
-        Parameters(
-            surface=Surface(speed=0.0), springs=Springs(stiffness=0.0), friction=FRICTIONLESS
-        ),
-        5.0,
+        Parameters(surface=dict(speed=0.0), springs=dict(stiffness=0.0), friction=FRICTIONLESS), 5.0
     )
     assert run.complete
     assert all(np.all(run[name] == 0.0) for name in ("x", "y", "phi", "heat", "energy_residual"))
@@ -79,7 +65,7 @@ def test_everything_zero():
 
 def test_block_decays_to_rest_in_the_dead_zone():
     """On a standing belt each half swing loses 2 F_k / K; the block stops where F_s holds it."""
-    run = simulate(Parameters(surface=Surface(speed=0.0), initial=Initial(x=0.1)), 10.0)
+    run = simulate(Parameters(surface=dict(speed=0.0), initial=dict(x=0.1)), 10.0)
     normal, stiffness = 0.67 * GRAVITY, 4.0 * 20.17
     x, swings = 0.1, 0
     while abs(x) * stiffness > 0.2815 * normal:
@@ -92,14 +78,14 @@ def test_block_decays_to_rest_in_the_dead_zone():
 
 def test_coulomb_spinning_disc_stops():
     """A disc that only spins slows down at mu N (2/3) a / J and stops after omega0 / that."""
-    rig = Rig(spring_natural_length=0.2)
+    rig = dict(spring_natural_length=0.2)
     run = simulate(
         Parameters(
             rig=rig,
-            springs=Springs(stiffness=0.0),
-            surface=Surface(speed=0.0),
-            lateral_friction=LateralFriction(ratio=1.0),
-            initial=Initial(omega=10.0),
+            springs=dict(stiffness=0.0),
+            surface=dict(speed=0.0),
+            lateral_friction=dict(ratio=1.0),
+            initial=dict(omega=10.0),
         ),
         3.0,
     )
@@ -111,8 +97,6 @@ def test_coulomb_spinning_disc_stops():
 
 def test_a_run_that_cannot_go_on_says_why():
     """Soft springs and much friction: the block is carried into an anchor; what it had is kept."""
-    run = simulate(
-        Parameters(springs=Springs(stiffness=5.0), friction=Friction(mu_s=1.5, mu_k=1.0)), 10.0
-    )
+    run = simulate(Parameters(springs=dict(stiffness=5.0), friction=dict(mu_s=1.5, mu_k=1.0)), 10.0)
     assert "anchor of a spring" in run.reason
     assert 0.0 < run.time[-1] < 10.0 and len(run["x"]) == len(run.time)

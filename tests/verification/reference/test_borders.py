@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 
 import pytest
-from stickslip import Friction, LateralFriction, Parameters, Rig, StructuralDamping, Surface
+from line_rig import published
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
 from stickslip.steady_motion import Interface
@@ -19,17 +19,6 @@ from cosim import read_scenario
 
 REFERENCE = read_scenario("reference").mechanics
 MU_S, MU_K, LOAD, STIFFNESS = 0.2815, 0.2086, 0.67 * 9.81, 4.0 * 20.17
-
-
-def rig(damping=0.0):
-    """The published rig, pretensioned, as drawn."""
-    return Parameters(
-        rig=Rig(spring_natural_length=0.17),
-        lateral_friction=LateralFriction(ratio=1.0),
-        surface=Surface(speed=0.15, run_up_time=10.0),
-        friction=Friction(mu_s=MU_S, mu_k=MU_K),
-        structural_damping=StructuralDamping(coefficient=damping),
-    )
 
 
 def closed_form(damping, sticks):
@@ -56,7 +45,7 @@ def closed_form(damping, sticks):
 )
 def test_the_fastest_stick_slip_is_that_of_the_closed_form(start, damping, sticks):
     """Bisected to 1e-4; a last stick within half the run at constant speed is one."""
-    parameters = other_starts(rig(damping))[start]
+    parameters = other_starts(published(damping=damping))[start]
     found = all_borders(
         parameters, numbers_of(parameters)[0], 20.0 + parameters.surface.run_up_time
     )

@@ -6,17 +6,7 @@ and sticks for 2 a/v; the slip ends at F_k/K - a; the extremes are F_k/K -+ sqrt
 
 import numpy as np
 import pytest
-from stickslip import (
-    Friction,
-    Initial,
-    LateralFriction,
-    Parameters,
-    Rig,
-    Solver,
-    Springs,
-    Surface,
-    simulate,
-)
+from stickslip import Initial, Parameters, simulate
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 
 GRAVITY = 9.81
@@ -27,10 +17,10 @@ SLIP, PERIOD = 3.902605407814523, 8.902605407814523
 def unit_oscillator(**changes) -> Parameters:
     """m = K = 1, F_s = 1 N, F_k = 0.5 N, v = 0.2 m/s; the block starts at rest on the belt."""
     blocks = {
-        "rig": Rig(mass=1.0, spring_length=10.0, spring_natural_length=10.0),
-        "springs": Springs(stiffness=0.25),
-        "friction": Friction(mu_s=F_S / GRAVITY, mu_k=F_K / GRAVITY),
-        "surface": Surface(speed=SPEED),
+        "rig": dict(mass=1.0, spring_length=10.0, spring_natural_length=10.0),
+        "springs": dict(stiffness=0.25),
+        "friction": dict(mu_s=F_S / GRAVITY, mu_k=F_K / GRAVITY),
+        "surface": dict(speed=SPEED),
         "initial": Initial(vx=SPEED),
     }
     return Parameters(**(blocks | changes))
@@ -38,7 +28,7 @@ def unit_oscillator(**changes) -> Parameters:
 
 @pytest.mark.parametrize("ratio", [0.0, 1.0], ids=["along x", "in the plane"])
 def test_limit_cycle(ratio):
-    run = simulate(unit_oscillator(lateral_friction=LateralFriction(ratio=ratio)), 60.0, 1e-3)
+    run = simulate(unit_oscillator(lateral_friction=dict(ratio=ratio)), 60.0, 1e-3)
     a = F_S - F_K
     begins = run.events[run.events[:, 1] == 1]
     ends = run.events[run.events[:, 1] == 0]
@@ -58,7 +48,7 @@ def test_converges_with_the_internal_tolerance():
     """The error against the closed form falls with solver.tolerance, to rounding."""
     errors = []
     for tolerance in (1e-6, 1e-8, 1e-10, 1e-12):
-        run = simulate(unit_oscillator(solver=Solver(tolerance=tolerance)), 90.0)
+        run = simulate(unit_oscillator(solver=dict(tolerance=tolerance)), 90.0)
         last = run.slip_starts[-1]
         exact = run.slip_starts[0] + PERIOD * (len(run.slip_starts) - 1)
         errors.append(abs(last - exact))

@@ -5,9 +5,7 @@ from ctypes import c_double
 import numpy as np
 import pytest
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
-from stickslip.reference.interpreted_scheme import (
-    interpreted_run,
-)
+from stickslip.reference.interpreted_scheme import interpreted_run
 from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme import CUT, functions
 from stickslip.reference.scheme_errors import DESCRIPTIONS, MENDED, PRINTED, Faults

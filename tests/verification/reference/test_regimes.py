@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 from brute_regimes import by_force, drawn_rig, missed, searched
-from stickslip import Friction, LateralFriction, Parameters, Rig, StructuralDamping, Surface
+from line_rig import published
+from stickslip import Parameters
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.coulomb_starts import BeltStart
 from stickslip.steady_motion.regimes import (
@@ -33,17 +34,8 @@ MU_K, LOAD, STIFFNESS = 0.2086, 0.67 * 9.81, 4.0 * 20.17
 
 
 def rig(speed, mu_s=0.2815, damping=0.0, **blocks):
-    """The published rig, pretensioned, so that it keeps to its line."""
-    return Parameters(
-        **{
-            "rig": Rig(spring_natural_length=0.17),
-            "lateral_friction": LateralFriction(ratio=1.0),
-            "friction": Friction(mu_s=mu_s, mu_k=MU_K),
-            "surface": Surface(speed=speed, run_up_time=10.0),
-            "structural_damping": StructuralDamping(coefficient=damping),
-        }
-        | blocks
-    )
+    friction = {"mu_s": mu_s, "mu_k": MU_K} | blocks.pop("friction", {})
+    return published(damping=damping, surface={"speed": speed}, friction=friction, **blocks)
 
 
 def closed_form(speed, mu_s, damping, run_up=10.0):
@@ -124,23 +116,31 @@ def test_a_swing_that_dies_out_is_on_its_way_to_steady_sliding():
 
 def test_a_stick_that_creeps_as_fast_as_the_surface_is_refused_or_said():
     with pytest.raises(ValueError, match=r"friction.stick_creep = 0.2 m/s is not below surface"):
-        Parameters(friction=Friction(stick_creep=0.2), surface=Surface(speed=0.15))
-    Parameters(friction=Friction(stick_creep=0.2), surface=Surface(speed=0.0))
+        Parameters(friction=dict(stick_creep=0.2), surface=dict(speed=0.15))
+    Parameters(friction=dict(stick_creep=0.2), surface=dict(speed=0.0))
     # what grows stronger by its age can creep for ever below the refused speed
     strong = {"static_strengthening": {"saturating": 1.0, "saturation_time": 0.1}}
-    slow = rig(0.02, friction=Friction(mu_s=0.2815, mu_k=MU_K, stick_creep=0.015), **strong)
+    slow = rig(0.02, friction={"stick_creep": 0.015}, **strong)
     assert regimes(slow)[OWN].name == CREEPING
-    assert regimes(rig(0.02, surface=Surface(speed=0.0)))[OWN].name == STICKING
+    assert regimes(published(surface={"speed": 0.0, "run_up_time": 0.0}))[OWN].name == STICKING
 
 
-def test_six_rigs_have_the_regimes_that_a_search_by_force_finds():
-    """12 starts of 200 s each; `regimes_by_force` is the same with 200 rigs, 30 starts, 600 s."""
+@pytest.mark.parametrize(
+    ("rigs", "steady", "starts"),
+    [(6, 200.0, 12), pytest.param(24, 600.0, 30, marks=pytest.mark.slow)],
+)
+def test_rigs_have_the_regimes_that_a_search_by_force_finds(rigs, steady, starts):
+    """On record are 200 rigs with 30 starts of 600 s each: none is missed.
+
+    Long runs from few starts may not come to a regime that few starts lead to.
+    """
     several = 0
-    for i in range(6):
+    for i in range(rigs):
         draw = np.random.default_rng([0, i])
         parameters = drawn_rig(draw)
         ours = searched(regimes(parameters))
-        theirs, runs = by_force(parameters, draw, 200.0, 12)
+        theirs, runs = by_force(parameters, draw, steady, starts)
         several += len(ours) > 1
-        assert not missed(theirs, ours) and not missed(ours, runs)
+        assert not missed(theirs, ours), i
+        assert rigs > 6 or not missed(ours, runs), i
     assert several >= 3

@@ -39,11 +39,7 @@ CASES = {
     ),
     "surface_pattern": (
         {"amplitude": 0.15, "wavelength": 0.2, "phase_deg": 30.0},
-        {
-            "pattern": 0.15,
-            "pattern_wavenumber": 10.0 * np.pi,
-            "pattern_phase": np.radians(30.0),
-        },
+        {"pattern": 0.15, "pattern_wavenumber": 10.0 * np.pi, "pattern_phase": np.radians(30.0)},
     ),
     "stick_stiffness": ({"ratio": 0.6}, {"stick_springs": 2.4}),
 }

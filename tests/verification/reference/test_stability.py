@@ -4,19 +4,7 @@ import falling_friction
 import numpy as np
 import pytest
 from planar_model import Slider
-from stickslip import (
-    Friction,
-    Imperfections,
-    Initial,
-    LateralFriction,
-    Parameters,
-    Rig,
-    SpringMisalignment,
-    Springs,
-    StructuralDamping,
-    Surface,
-    simulate,
-)
+from stickslip import Initial, Parameters, simulate
 from stickslip.steady_motion import stability, with_pretension
 from stickslip.steady_motion.live import live_run
 from stickslip.steady_motion.pretension import pretension_borders
@@ -28,9 +16,9 @@ def rig(pretension=0.0, ratio=1.0, speed=0.15, free=("x", "y", "phi"), **blocks)
     """The published rig on a belt that runs up in 10 s."""
     return Parameters(
         **{
-            "rig": Rig(spring_natural_length=0.2 - pretension, degrees_of_freedom=free),
-            "lateral_friction": LateralFriction(ratio=ratio),
-            "surface": Surface(speed=speed, run_up_time=10.0),
+            "rig": dict(spring_natural_length=0.2 - pretension, degrees_of_freedom=free),
+            "lateral_friction": dict(ratio=ratio),
+            "surface": dict(speed=speed, run_up_time=10.0),
         }
         | blocks
     )
@@ -40,7 +28,7 @@ def standing(ratio, pretension, speed=0.5):
     """Slides evenly from the start, at F_k/K, free to move across only."""
     place = 0.2086 * 0.67 * GRAVITY / (4.0 * 20.17)
     return place, rig(
-        pretension, ratio, speed, ("x", "y"), surface=Surface(speed=speed), initial=Initial(x=place)
+        pretension, ratio, speed, ("x", "y"), surface=dict(speed=speed), initial=dict(x=place)
     )
 
 
@@ -68,7 +56,7 @@ def test_multipliers_of_even_sliding_are_those_of_the_linear_equation(ratio, pre
 
 def test_multipliers_of_a_swing_are_those_of_an_independent_model():
     """Other springs, other friction, other integrator: 8 disturbed runs of one period each."""
-    parameters = rig(0.003, speed=0.4, surface=Surface(speed=0.4))
+    parameters = rig(0.003, speed=0.4, surface=dict(speed=0.4))
     found = stability(parameters, 30.0)
     model = Slider(speed=0.4, natural=0.197)
     begin = simulate(parameters, 25.0, 0.01)
@@ -90,17 +78,17 @@ def drawn_rig(draw, i):
     """A rig at random: three quarters with friction in the plane."""
     mu_k, length = draw.uniform(0.03, 0.3), draw.uniform(0.15, 0.25)
     return Parameters(
-        rig=Rig(
+        rig=dict(
             mass=draw.uniform(0.4, 2.2),
             contact_radius=draw.uniform(0.03, 0.05),
             attachment_radius=draw.uniform(0.04, 0.06),
             spring_length=length,
             spring_natural_length=length - draw.uniform(0.0, 0.012),
         ),
-        springs=Springs(stiffness=draw.uniform(18.0, 75.0)),
-        friction=Friction(mu_s=mu_k * draw.uniform(1.1, 1.6), mu_k=mu_k),
-        lateral_friction=LateralFriction(ratio=(1.0, 1.0, 0.5, 0.0)[i % 4]),
-        surface=Surface(speed=draw.uniform(0.05, 0.4), run_up_time=5.0),
+        springs=dict(stiffness=draw.uniform(18.0, 75.0)),
+        friction=dict(mu_s=mu_k * draw.uniform(1.1, 1.6), mu_k=mu_k),
+        lateral_friction=dict(ratio=(1.0, 1.0, 0.5, 0.0)[i % 4]),
+        surface=dict(speed=draw.uniform(0.05, 0.4), run_up_time=5.0),
     )
 
 
@@ -144,6 +132,17 @@ def test_fifty_rigs_fare_as_their_multipliers_say():
     assert 5 <= unstable <= 45
 
 
+@pytest.mark.slow
+def test_forty_rigs_whose_friction_falls_fare_as_their_multipliers_say():
+    """Disturbed by 1e-6, 1e-5 and 1e-4 rad each; two graze, and are not judged."""
+    draw, found = np.random.default_rng(0), []
+    while len(found) < 40:
+        answer = falling_friction.compared(falling_friction.drawn_rig(draw))
+        found += [answer] if answer else []
+    assert all(falling_friction.agrees(*each) for each in found)
+    assert sum(grown is None for _, grown in found) <= 2
+
+
 def test_multipliers_do_not_depend_on_how_long_the_run_is():
     """Also where friction falls steeply, and a cycle is two sticks, or none twice alike."""
     for seed in (4, 12, 24):
@@ -173,7 +172,7 @@ def test_the_least_pretension_is_the_border_of_the_runs():
 
 def test_damping_and_friction_in_the_plane_hold_the_block_to_its_line():
     assert stability(rig(0.03, 0.0)).verdict == "neutral"
-    damped = rig(0.03, 0.0, structural_damping=StructuralDamping(coefficient=0.07, rotational=1e-4))
+    damped = rig(0.03, 0.0, structural_damping=dict(coefficient=0.07, rotational=1e-4))
     assert stability(damped).verdict == stability(rig(0.03)).verdict == "stable"
 
 
@@ -185,9 +184,13 @@ def test_a_guided_block_has_nothing_to_be_unstable():
 @pytest.mark.parametrize(
     "blocks",
     [
-        {"spring_misalignment": SpringMisalignment(angle_deg=3.0)},
-        {"rig": Rig(surface="slab", spring_natural_length=0.17)},
-        {"rig": Rig(attachment_angles_deg=(150.0, 20.0, 200.0, 340.0), spring_natural_length=0.17)},
+        {"spring_misalignment": dict(angle_deg=3.0)},
+        {"rig": dict(surface="slab", spring_natural_length=0.17)},
+        {
+            "rig": dict(
+                attachment_angles_deg=(150.0, 20.0, 200.0, 340.0), spring_natural_length=0.17
+            )
+        },
     ],
 )
 def test_a_rig_without_a_line_is_asked_about_its_own_motion(blocks):
@@ -210,14 +213,14 @@ def test_imperfections_and_the_start_do_not_change_the_line():
     plain = rig(0.03)
     real = rig(
         0.03,
-        imperfections=Imperfections(spring_stiffness=0.02, anchor_position=1e-3),
-        initial=Initial(y=2e-3, phi=0.02),
+        imperfections=dict(spring_stiffness=0.02, anchor_position=1e-3),
+        initial=dict(y=2e-3, phi=0.02),
     )
     assert stability(real).growth == pytest.approx(stability(plain).growth, rel=1e-6)
 
 
 def test_a_copy_of_a_run_goes_on_bit_for_bit():
-    parameters = rig(0.03, surface=Surface())
+    parameters = rig(0.03, surface=dict())
     live = live_run(parameters).advance(3.0)
     twin = live.copy()
     twin.copy().displace(np.full(6, 1e-3)).advance(4.0)

@@ -1,22 +1,11 @@
-"""What is made at build time, from the code that it describes: parts of pages, and drawings.
+"""What is made at build time, from the code that it describes: parts of pages, and a figure.
 
 Each part is a Markdown file in `made/`, which a page takes in by `{include}`.
 """
 
 from pathlib import Path
 
-from . import (
-    benchmarks,
-    commands,
-    drawings,
-    effects,
-    examples,
-    fmu,
-    keys,
-    python,
-    results,
-    verification,
-)
+from . import benchmarks, commands, effects, examples, fmu, keys, python, results, verification
 
 PARTS = {
     "commands": commands.text,
@@ -41,7 +30,6 @@ def make(app):
     folder.mkdir(exist_ok=True)
     for name, part in PARTS.items():
         (folder / f"{name}.md").write_text(part(), encoding="utf-8")
-    drawings.write(folder)
     benchmarks.draw_cost(folder / "coupling_cost.svg")
 
 

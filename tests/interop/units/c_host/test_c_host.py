@@ -9,7 +9,7 @@ import fmpy
 import numpy as np
 import pytest
 from c_library import SANITIZERS, Host, compiled, compiler, host_in, unpacked
-from native_unit import library_of, references
+from c_unit import library_of, references
 from plain_start import PLAIN
 from stickslip import Parameters, simulate
 

@@ -16,7 +16,7 @@ import fmpy
 import numpy as np
 import pytest
 from c_library import HOST, Host, unpacked
-from native_unit import references
+from c_unit import references
 from plain_start import PLAIN
 from stickslip import Parameters, simulate
 from stickslip.generation.compiler import OPTIONS

@@ -1,23 +1,13 @@
 """What the native unit takes and what it refuses, call by call, as a host in C would make them."""
 
-import math
-from ctypes import (
-    byref,
-    c_char_p,
-    c_double,
-    c_int,
-    c_uint,
-    c_void_p,
-    create_string_buffer,
-)  # fmt: skip
+from ctypes import byref, c_char_p, c_double, c_int, c_void_p
 
 import pytest
-from c_instance import ERROR, functions
+from c_unit import ERROR, functions
 from contradictory import CONTRADICTIONS
 from stickslip import Parameters
 from stickslip.contradictions import contradiction
 
-NAN, INF = math.nan, math.inf
 NO_KIND = 7
 
 
@@ -58,6 +48,12 @@ def test_an_instance_that_cannot_be_is_none(unit, unit3, changed, said):
     assert (status, category) == (ERROR, "logStatusError") and said in text
 
 
+def test_scheduled_execution_is_refused(unit3):
+    make = unit3.library.fmi3InstantiateScheduledExecution
+    make.restype = c_void_p
+    assert make(b"a", unit3.guid, None, False, False, None, None, None, None, None) is None
+
+
 @pytest.mark.parametrize(("version", "count"), [(2, 40), (3, 70)])
 def test_every_function_of_the_standard_is_there_and_wants_an_instance(unit, unit3, version, count):
     found, library = functions(version), (unit if version == 2 else unit3).library
@@ -71,71 +67,6 @@ def test_every_function_of_the_standard_is_there_and_wants_an_instance(unit, uni
     free.argtypes, told.restype = (c_void_p,), c_char_p
     free(None)
     assert told() == f"{version}.0".encode()
-
-
-# --- calls that are refused in the run ---
-
-
-def one(reference):
-    return byref(c_uint(reference))
-
-
-def set_by_name(name, value):
-    return lambda block: block.set_arguments(name, value)
-
-
-def call(*arguments):
-    return lambda block: arguments
-
-
-def too_short(block):
-    return "SerializeFMUstate", block.save(), create_string_buffer(100), 100
-
-
-REFUSED = {
-    "getReal into nothing": (call("GetReal", one(0), 1, None), "fmi2GetReal: no value ref"),
-    "setReal from nothing": (call("SetReal", one(0), 1, None), "fmi2SetReal: no value ref"),
-    "input out of range": (
-        set_by_name("film_thickness", -1.0),
-        "film_thickness = -1: must lie in [0, inf]",
-    ),
-    "cancelStep": (call("CancelStep"), "fmi2CancelStep: no step is under way"),
-    "state into nothing": (call("GetFMUstate", None), "fmi2GetFMUstate: nowhere to put"),
-    "state from nothing": (call("SetFMUstate", None), "fmi2SetFMUstate: there is no state"),
-    "too few bytes": (too_short, "fewer bytes than a saved state takes"),
-    "unknown category": (
-        call("SetDebugLogging", 1, 1, (c_char_p * 1)(b"logMore")),
-        "the categories are logStatusError",
-    ),
-    "no categories": (call("SetDebugLogging", 1, 3, None), "fmi2SetDebugLogging: no categories"),
-}
-
-
-@pytest.mark.parametrize("case", REFUSED)
-def test_a_refused_call_is_an_error_that_names_the_culprit(running, case):
-    """Though logging is off; values stay, and only what makes things good is taken. But to have
-    asked for a value that there is not harms nothing."""
-    make, said = REFUSED[case]
-    state, then = running.save(), running.everything()
-    assert said in running.reason(*make(running))
-    assert running.everything() == then
-    if case.startswith("get"):
-        running.march([50], 0.01)
-        return
-    for arguments in (
-        ("DoStep", 0.5, 0.01, 1),
-        running.set_arguments("surface_speed", 0.2),
-        ("Terminate",),
-        ("EnterInitializationMode",),
-    ):
-        assert "has failed before; reset it or set an earlier state" in running.reason(*arguments)
-    running.restore(state)
-    running.march([50], 0.01)
-    running.forget(state)
-    running.done("Reset")
-    running.begin()
-    running.march(range(50), 0.01)
-    assert running.everything() == then
 
 
 def test_a_warning_is_for_who_wants_to_hear_it(unit):

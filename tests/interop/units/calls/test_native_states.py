@@ -3,7 +3,7 @@
 import random
 from ctypes import byref, c_void_p
 
-from native_unit import Instance
+from c_unit import CInstance
 
 SETS, TIMES, AHEAD = 20, 50, 3  # 1000 states in all
 #: Blocks of which each run has some at random, with the least and the largest of each parameter.
@@ -35,7 +35,7 @@ def drawn(numbers: random.Random) -> dict[str, float]:
     return {"surface_speed": numbers.uniform(0.02, 0.4)} | chosen
 
 
-def run(block: Instance, sizes: list[float]):
+def run(block: CInstance, sizes: list[float]):
     """State, bytes and all variables before each step."""
     time, rows = 0.0, []
     for size in sizes:
@@ -46,7 +46,7 @@ def run(block: Instance, sizes: list[float]):
     return rows
 
 
-def goes_on_alike(block: Instance, sizes: list[float], rows, n: int) -> None:
+def goes_on_alike(block: CInstance, sizes: list[float], rows, n: int) -> None:
     for k in range(n, min(n + AHEAD, len(rows))):
         assert block.everything() == rows[k][3]
         block.done("DoStep", rows[k][0], sizes[k], 1)
@@ -65,7 +65,7 @@ def test_a_run_goes_on_to_the_last_bit_from_any_of_a_thousand_states(unit):
             for n in order:
                 _, state, content, _ = rows[n]
                 block.restore(state)
-                modes += block.get("mode")
+                modes.append(block.get("mode"))
                 goes_on_alike(block, sizes, rows, n)
                 loaded = other.from_bytes(content)  # an instance that never began the run
                 other.restore(loaded)
@@ -123,7 +123,7 @@ def test_any_damage_to_the_bytes_is_found(unit):
         assert block.everything() == then
 
 
-def refusal(block: Instance, content: bytes) -> str:
+def refusal(block: CInstance, content: bytes) -> str:
     state = c_void_p()
     said = block.reason("DeSerializeFMUstate", content, len(content), byref(state))
     assert state.value is None

@@ -11,8 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from c_instance import ERROR, OK
-from native_unit import CO_SIMULATION, MODEL_EXCHANGE, EventInfo
+from c_unit import ERROR, OK, EventInfo
 
 from cosim.fmu.exchange import INDICATORS, states
 
@@ -108,11 +107,8 @@ class Walk:
 
     def __init__(self, units, interface):
         self.interface, self.unit = interface, units[interface.version]
-        if interface.version == 2:
-            kind = MODEL_EXCHANGE if interface.exchanges else CO_SIMULATION
-            self.block = self.unit.instance(kind=kind)
-        else:
-            self.block = self.unit.instance(exchanges=interface.exchanges, events=True, early=True)
+        more = {} if interface.version == 2 else {"events": True, "early": True}
+        self.block = self.unit.instance(exchanges=interface.exchanges, **more)
         self.known = (NEW, 0.0, False)
 
     def call(self, function):

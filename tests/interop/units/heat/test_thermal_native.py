@@ -6,10 +6,9 @@ import urllib.parse
 from ctypes import POINTER, byref, c_double, c_int, c_size_t, c_uint, c_void_p
 
 import pytest
-from c_instance import ERROR
 from c_library import SANITIZERS, Host, compiled, compiler, host_in, unpacked
+from c_unit import ERROR, Unit, references
 from heat_instance import H
-from native_unit import MODEL_EXCHANGE, Unit, references
 
 from cosim.fmu.thermal import native_unit, resources
 from cosim.fmu.thermal.variables import NAME, reduced
@@ -108,7 +107,7 @@ def place(folder):
 
 
 def test_calls_of_what_it_does_not_offer_are_refused(library, place):
-    heat = library.instance(kind=MODEL_EXCHANGE, resources=place)
+    heat = library.instance(exchanges=True, resources=place)
     assert not heat.handle and "for co-simulation" in heat.messages[0][2]
     function = library.library.fmi2SetRealInputDerivatives
     function.argtypes = (c_void_p, POINTER(c_uint), c_size_t, POINTER(c_int), POINTER(c_double))

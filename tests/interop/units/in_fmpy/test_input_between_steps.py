@@ -16,7 +16,7 @@ from functools import cache
 import fmpy
 import numpy as np
 import pytest
-from fmi3_unit import Unit
+from c_unit import Unit
 from fmpy_instance import instance
 
 AMPLITUDE, FREQUENCY, SPEED, STOP, SHOWN = 0.3, 1.0, 0.15, 8.0, 0.04
