@@ -116,7 +116,7 @@ def _members(
     names: Sequence[str], classes: Sequence[tuple[str, ...]], physics: set[str]
 ) -> tuple[str, ...]:
     """All that is found, and what cannot be told from it: of that, effects where two are."""
-    members = []
+    members: list[str] = []
     for name in names:
         group = next((each for each in classes if each[0] == name), (name,))
         known = [each for each in group if each in physics]

@@ -184,7 +184,8 @@ def pieces(track: SmoothTrack) -> list[int]:
     """
     longest = QUINTIC_REACH / track.run.natural_frequency / track.interval
     holes = ((first, last) for first, last in stretches(~track.seen) if last - first > longest)
-    return [0, *(last for first, last in holes if 0 < first and last < track.time.size - 2)]
+    # the first sample after a hole lies behind the last point that is not seen
+    return [0, *(last - 1 for first, last in holes if 0 < first and last < track.time.size - 1)]
 
 
 def course(

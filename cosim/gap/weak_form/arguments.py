@@ -305,8 +305,9 @@ class Arguments:
         )
 
     def _sliding(self, run: RunRows) -> np.ndarray:
-        """(n,) sliding speed, 0 in stick, m/s."""
-        return np.where(run.track.slips_mask, np.abs(run.track.sliding), 0.0)
+        """(n,) sliding speed, 0 in stick, m/s; in a hole of the record what it is in the mean."""
+        sliding = np.where(run.track.slips_mask, np.abs(run.track.sliding), 0.0)
+        return np.where(run.track.seen, sliding, np.abs(run.track.surface_speed))
 
     def _slid(self, run: RunRows) -> np.ndarray:
         """(n,) distance slid since the start, m."""

@@ -219,11 +219,29 @@ def test_a_wave_is_the_same_from_wherever_it_is_looked_for(tmp_path):
     system = system_of(written(tmp_path, more=stated, duration=20.0, surface_pattern=pattern))
     rung, kind = system.rung(), periodic.kinds(system.level.kinetic)[0]
     for near in (0.96, 0.98, 0.99, 1.0, 1.01, 1.02, 1.04):
-        _, added = periodic._as_one_shape(rung, kind, near / 0.15)
-        wave = added[0].unknown.wave
-        assert wave.wavenumber == pytest.approx(1.0 / 0.15, rel=5e-3), near
-        assert max(map(abs, wave.faster.values())) < 0.025
-        assert system.rung(added).gap < 1.05
+        found = periodic._as_one_shape(rung, kind, near / 0.15)
+        assert found.wave.wavenumber == pytest.approx(1.0 / 0.15, rel=5e-3), near
+        assert max(map(abs, found.wave.faster.values())) < 0.025
+        assert system.rung(found.added).gap < 1.05
+
+
+@pytest.mark.parametrize(
+    ("times", "more", "first", "length"),
+    [(2, 0.0, None, 0.15), (3, 0.0, None, 0.15), (2, 50.0, 0.08, 0.15), (2, 50.0, 0.12, 0.3)],
+)
+def test_a_wave_without_its_first_harmonic_is_a_shorter_one(times, more, first, length, tmp_path):
+    """Also where it is less probable by e^50: the model has none of less than a tenth."""
+    pattern = {"amplitude": 0.3, "wavelength": 0.15}
+    system = system_of(written(tmp_path, duration=20.0, surface_pattern=pattern))
+    rung, kind = system.rung(), periodic.kinds(system.level.kinetic)[0]
+    longer = periodic._as_one_shape(rung, kind, 1.0 / (times * 0.15))
+    assert 1.0 / longer.wave.wavenumber == pytest.approx(times * 0.15, rel=0.02)
+    found, sizes = periodic._shortened(rung, longer), longer.sizes
+    if more:
+        sizes = np.array([first, 1.0, *[0.0] * (sizes.size - 2)])
+        better = replace(longer, sizes=sizes, with_moves=found.with_moves + more)
+        found = periodic._shortened(rung, better)
+    assert 1.0 / found.wave.wavenumber == pytest.approx(length, rel=5e-3)
 
 
 def test_evidence_is_the_density_of_the_rows():

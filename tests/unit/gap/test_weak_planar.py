@@ -36,11 +36,14 @@ FOREIGN = {
 }
 
 
-def measured(folder, rotation=(0.0, 0.0, 0.0), creep=0.0, turn_noise=None, **blocks):
+def measured(
+    folder, rotation=(0.0, 0.0, 0.0), creep=0.0, turn_noise=None, lost=(0.0, 0.0), **blocks
+):
     """A campaign of three runs in the plane.
 
     rotation : of the camera in each, rad; creep : of its zero across, as the root of the time, m;
-    turn_noise : of the block's turn, rad, where the tracker has it
+    turn_noise : of the block's turn, rad, where the tracker has it; lost : from when to when it
+    has lost the block, s
     """
     noise = {"x": NOISE, "y": NOISE} | ({"phi": turn_noise} if turn_noise else {})
     runs = []
@@ -55,6 +58,8 @@ def measured(folder, rotation=(0.0, 0.0, 0.0), creep=0.0, turn_noise=None, **blo
         }
         if turn_noise:
             columns["phi"] = noisy(np.asarray(moved["phi"]), number + 90, turn_noise)
+        kept = (moved.time < lost[0]) | (moved.time >= lost[1])
+        columns = {name: values[kept] for name, values in columns.items()}
         runs.append({"surface_speed": speed, "columns": columns, "hold_out": speed == HELD_OUT})
     return campaign_with(folder, runs, noise=noise)
 
@@ -96,6 +101,14 @@ def test_springs_turned_by_far_are_found_where_nothing_holds_the_block(tmp_path)
     planar = planar_of(tmp_path, turn_noise=5e-4, **blocks)
     assert planar.answer == "spring_misalignment" and planar.fits[planar.answer].gap < 1.3
     assert planar.numbers["turn"][0] == pytest.approx(np.deg2rad(-10.0), rel=0.05)
+
+
+def test_what_springs_do_in_a_hole_of_the_record_does_not_swing_on(tmp_path):
+    """Nothing damps the block across, and nobody knows where it was along x meanwhile."""
+    blocks = {"spring_misalignment": {"frame_angle_deg": 9.0}, "initial": {"phi": 0.1}}
+    planar = planar_of(tmp_path, turn_noise=5e-4, lost=(5.0, 5.5), **blocks)
+    assert planar.answer == "spring_misalignment" and planar.fits[planar.answer].gap < 1.3
+    assert planar.numbers["frame"][0] == pytest.approx(np.deg2rad(9.0), rel=0.05)
 
 
 PLACED = {
