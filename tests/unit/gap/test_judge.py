@@ -87,7 +87,7 @@ TWO_NEAR = {"film_drag": -2.9, "other.time": -1.0}
             1.0,
             1.0,
             {"speed_ripple": -1.0},
-            ("named", ("run_in", "film_drag")),
+            ("class", ("run_in", "speed_ripple", "film_drag")),
         ),
         # what has no name
         (["other.time"], 5.0, 1.0, 1.0, {}, ("unknown", ())),
