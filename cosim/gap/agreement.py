@@ -66,8 +66,8 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
             continue
         doubted = fitting.lost(parts, named, faint) or fitting.rejected(parts, named, faint)
         if doubted is None:
-            if not parts:
-                parts, named = fitting.aged(named)
+            if not any(part.finding.added for part in parts):
+                parts, named = fitting.aged(parts, named)
             found, models = fitting.best_of(parts, named)
             if not (judge.explains(models.ladder) and models.is_felt):
                 along = {part.finding.name for part in parts if part.finding.added}
@@ -134,24 +134,26 @@ class Fitting:
         return [Rejected(one.name, one.gain, None)
                 for one in named.findings if one.added and one.gain < judge.SURE]  # fmt: skip
 
-    def aged(self, named: Named) -> tuple[list[Part], Named]:
+    def aged(self, across: list[Part], named: Named) -> tuple[list[Part], Named]:
         """Static friction over the hold time, where a contact would have to let go very soon.
 
-        Rows hardly tell the one from the other.
+        Rows hardly tell the one from the other. across : what moves the block so, the only findings
         """
-        without = self.fitted(named, [])
+        without = self.fitted(named, across)
         offered = named.ladder.first_offers.get(AGEING)
         if offered is None or not judge.is_asked_for_ageing(
             without.fits[-1].values.get(LOADING, 0.0)
         ):
-            return [], named
-        finding = Finding(AGEING, offered[1], 0.0)
-        aged = _with_alone(named, finding)
+            return across, named
+
+        finding, rung = Finding(AGEING, offered[1], 0.0), named.system.rung(offered[1])
+        aged = replace(named, findings=(*named.findings, finding), rung=rung)
         gained = self._gained(self.part(aged, finding), without, aged, judge.MUCH_MORE)
         if not judge.much_more(gained):
-            return [], named
-        aged = _with_alone(named, replace(finding, gain=gained))
-        return [self.part(aged, aged.findings[0])], aged
+            return across, named
+        finding = replace(finding, gain=gained)
+        aged = replace(aged, findings=(*named.findings, finding))
+        return [*across, self.part(aged, finding)], aged
 
     def _gained(
         self, part: Part, without: Models, named: Named, enough: float = LEAST_GAIN

@@ -88,6 +88,15 @@ def agreed(
     return [part.finding.name for part in answer.parts], answer.rejected
 
 
+def test_what_the_model_has_not_is_doubted_before_a_lesser_one(monkeypatch):
+    """Beside it simulated runs tell nothing: they would do without both."""
+    rows = Rows(finding("other.hysteresis", 80.0), finding("load_dependence", 12.0), most=2)
+    monkeypatch.setattr(Part, "in_kernel", property(lambda part: "other" not in part.effect))
+    found, rejected = agreed(monkeypatch, rows, {"load_dependence": 20.0})
+    assert found == ["load_dependence"]
+    assert [one.effect for one in rejected] == ["other.hysteresis"]
+
+
 def test_the_true_one_is_found_behind_a_pretended_one(monkeypatch):
     """What is not confirmed is kept with both gains."""
     rows = Rows(finding("spring_hardening", 205.0), finding("velocity_weakening", 134.0))
@@ -275,6 +284,16 @@ def test_a_contact_that_lets_go_very_soon_has_aged_less(monkeypatch, sooner, gai
     rows = Rows(offers=[finding("static_strengthening", 0.1)])
     found, _ = agreed(monkeypatch, rows, {"static_strengthening": gained}, sooner=sooner)
     assert found == ["static_strengthening"] * named
+
+
+def test_a_contact_that_lets_go_very_soon_has_aged_less_also_where_the_block_moves_across(
+    monkeypatch,
+):
+    across = Finding("turning_surface", (), 2.0 * SURE, numbers={"curvature": (0.1, 0.01)})
+    rows = Rows(across, offers=[finding("static_strengthening", 0.1)])
+    gained = {"turning_surface": 900.0, "static_strengthening": 31.0}
+    found, _ = agreed(monkeypatch, rows, gained, sooner=0.031)
+    assert found == ["turning_surface", "static_strengthening"]
 
 
 def test_what_is_lost_by_itself_goes_before_the_others_are_asked_beside_it(monkeypatch):
