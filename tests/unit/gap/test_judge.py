@@ -202,6 +202,24 @@ def climbed(**unknowns):
 
 
 @pytest.mark.parametrize(
+    ("old", "new", "gained", "better"),
+    [
+        ("run_in", "film_drag", 6.1, True),
+        ("run_in", "film_drag", 5.9, False),
+        # what has no name is less probable beforehand by e^3, and goes for a name as probable
+        ("other.hysteresis", "film_drag", -2.9, True),
+        ("other.hysteresis", "film_drag", -3.1, False),
+        ("other.hysteresis", "other.time", 5.9, False),
+        ("run_in", "other.time", 8.9, False),
+    ],
+)
+def test_what_has_no_name_goes_for_a_name_that_is_as_probable(old, new, gained, better):
+    rows = Rows({old: 50.0, new: 50.0 + gained, "c": 20.0}, {})
+    found, tried = ([(name, (name,)), ("c", ("c",))] for name in (old, new))
+    assert Search(rows, {}, ())._is_better(tried, found, 0) is better
+
+
+@pytest.mark.parametrize(
     ("unknowns", "found"),
     [
         # the first is e^3 times as probable, as simulated runs are asked for it too; others e^6
