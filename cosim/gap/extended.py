@@ -130,18 +130,25 @@ def part_of(
     """
     if finding.numbers:
         return _across(finding)
-    level = system.level
-    scales = scales_of(campaign, system.runs, level.kinetic)
-    unknown = finding.main.unknown
-    if unknown.wave is not None:
+    if finding.main.unknown.wave is not None:
         return _wave(campaign, rung, finding)
     if finding.name.startswith("measurement."):
         return _fault(campaign, rung, finding)
     if finding.name == "load_dependence":
-        return _load(rung, finding, scales.force)
+        weight = scales_of(campaign, system.runs, system.level.kinetic).force
+        return _load(rung, finding, weight)
     if finding.name == "other.springs":
         stiffer = 1.0 + float(rung.posterior[0][rung.part_of(finding.main)][0])
         return Part(finding, numbers=(Number("springs.stiffness", stiffer, None, *STIFFER),))
+    return _of_curve(campaign, system, rung, finding, law)
+
+
+def _of_curve(
+    campaign: Campaign, system: System, rung: Rung, finding: Finding, law: LawFit | None
+) -> Part:
+    """The law that follows a curve; the curve itself where none does and the model has it."""
+    level, unknown = system.level, finding.main.unknown
+    scales = scales_of(campaign, system.runs, level.kinetic)
     units = dict.fromkeys(("film_drag", "structural_damping"), level.kinetic * scales.force)
     units["spring_hardening"] = scales.travel * 4.0 * scales.stiffness
     at_rest = unknown.curve is not None and unknown.curve.per == "mu_k"
@@ -159,28 +166,33 @@ def part_of(
     best = fits[0]
     if not (law or best.follows) and (points := _points(campaign, finding, curve, scales)):
         return Part(finding, curve, tuple(fits), CURVE_NUMBERS, points)
-    settings = dict(best.candidate.settings)
-    numbers = [_number(free, best.values.get(free.key, free.start))
-               for free in best.candidate.free_parameters]  # fmt: skip
-    if finding.name in BY_SPEED:
-        settings |= _of_load(finding, numbers, scales.force)
-    if unknown.settings.get("per_stiffness"):
-        settings |= _scaled(WITH_STIFFNESS, numbers, scales.stiffness)
-    if (share := unknown.settings.get("static")) is not None:
-        kind = "relative" if unknown.settings["in_proportion"] else "absolute"
-        start = 1.0 if kind == "relative" else share
-        numbers.append(Number(f"{best.effect}.static_{kind}", start, None, 0.0, 2.0))
-    if finding.name == "thermal_weakening":
-        memory = unknown.settings["memory"]
-        numbers = [n for n in numbers if not n.key.endswith("relaxation_time")]
-        numbers.append(Number(f"{best.effect}.relaxation_time", memory, None, 0.05, 1e3, log=True))
-        settings[f"{best.effect}.diffusion"] = unknown.settings["diffusion"]
-        if unknown.settings["per_weight"]:
-            settings[f"{PER_WEIGHT}.{best.effect}.per_joule"] = scales.force
+    numbers, settings = _of_law(finding, best, scales)
     shifts = {}
     if finding.name == "static_strengthening":  # the rows' mu_s is that of the shortest hold
         shifts[f"friction.{rig.MU_S}"] = level.static * best.level
     return Part(finding, curve, tuple(fits), tuple(numbers), settings, shifts=shifts)
+
+
+def _of_law(finding: Finding, fit: LawFit, scales: Scales) -> tuple[list[Number], dict[str, float]]:
+    """Numbers of a law, from where the curve puts them, and what else the model then has."""
+    known, settings = finding.main.unknown.settings, dict(fit.candidate.settings)
+    numbers = [_number(free, fit.values.get(free.key, free.start))
+               for free in fit.candidate.free_parameters]  # fmt: skip
+    if finding.name in BY_SPEED:
+        settings |= _of_load(finding, numbers, scales.force)
+    if known.get("per_stiffness"):
+        settings |= _scaled(WITH_STIFFNESS, numbers, scales.stiffness)
+    if (share := known.get("static")) is not None:
+        kind = "relative" if known["in_proportion"] else "absolute"
+        start = 1.0 if kind == "relative" else share
+        numbers.append(Number(f"{fit.effect}.static_{kind}", start, None, 0.0, 2.0))
+    if finding.name == "thermal_weakening":
+        memory = Number(f"{fit.effect}.relaxation_time", known["memory"], None, 0.05, 1e3, log=True)
+        numbers = [*(n for n in numbers if n.key != memory.key), memory]
+        settings[f"{fit.effect}.diffusion"] = known["diffusion"]
+        if known["per_weight"]:
+            settings[f"{PER_WEIGHT}.{fit.effect}.per_joule"] = scales.force
+    return numbers, settings
 
 
 def as_points(campaign: Campaign, system: System, part: Part) -> Part:
