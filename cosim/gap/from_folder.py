@@ -231,9 +231,9 @@ def _found(file: Path, said: Reading) -> Found:
     try:
         track, _, _ = read_track(file, reading)
     except CampaignError as error:
-        if "column" not in str(error):
+        if ": missing" not in str(error):
             raise
-        first = "written first, with nothing but [columns] and [units]"
+        first = "which is then written first, with nothing but [columns] and [units]"
         raise CampaignError(f"{error}, {first}") from None
     stem = file.name.removesuffix(MADE).removesuffix(file.suffix)
     return Found(file.name, settings_of(stem), reading, track.time.size, float(track.time[-1]))

@@ -1,5 +1,6 @@
 """A TOML file as tables, and what is wrong with one that cannot be read, in one line."""
 
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,8 @@ def parsed(text: str, source: str | Path) -> dict[str, Any]:
     try:
         return tables_in(text)
     except tomllib.TOMLDecodeError as error:
-        raise ScenarioError(f"{source}: not TOML: {_with_line(str(error), text)}") from None
+        fault = _with_line(str(error), text) + _comma(str(error), text)
+        raise ScenarioError(f"{source}: not TOML: {fault}") from None
     except ValueError as error:
         # tomllib lets through what Python itself refuses: a number of 5000 digits, a date of
         # month 13
@@ -34,6 +36,14 @@ def text_of(source: str | Path) -> str:
         ) from None
     except OSError as error:
         raise ScenarioError(f"{source}: cannot be read: {error.strerror}") from None
+
+
+def _comma(message: str, text: str) -> str:
+    """A hint where the line has a number with a decimal comma; "" else."""
+    found = re.search(r"at line (\d+)", message)
+    line = text.splitlines()[int(found[1]) - 1] if found else ""
+    number = re.search(r"=\s*([-+]?\d+),(\d+)\s*(#|$)", line)
+    return f"; is {number[1]}.{number[2]} meant?" if number else ""
 
 
 def _with_line(message: str, text: str) -> str:

@@ -75,7 +75,7 @@ def _begun(arguments: Namespace) -> tuple[Scenario, Mapping[str, Any], Job]:
     scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=True)
     # before anything is written: it may lack a compiler
     unit = str(arguments.fmu or own_fmu(scenario.catalogue))
-    results = running.results_folder(arguments.output, scenario, arguments.force)
+    results = running.results_folder(arguments.output, scenario, "run", arguments.force)
     require_own(results, [run_io.COLLECTION], arguments.force)
     wanted = {
         "fmu": None if arguments.fmu is None else str(Path(arguments.fmu).resolve()),

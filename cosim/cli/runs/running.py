@@ -54,11 +54,19 @@ def scenario_to_run(source: str | None, settings: Iterable[str] = (), *, coupled
     return scenario
 
 
-def results_folder(given: str | None, scenario: Scenario, force: bool = False) -> Path:
-    """The folder of the results, made, found writable and without others' files; OutputRefused."""
+def results_folder(
+    given: str | None, scenario: Scenario, command: str, force: bool = False
+) -> Path:
+    """The folder of the results, made, found writable and without others' files; OutputRefused.
+
+    Nobody loses the results of another command, but where a folder is given.
+    """
     folder = Path(given) if given is not None else Path(RESULTS) / scenario.name
     if replaced := other_command(folder):
-        note(f"{folder}: what this writes replaces the results of `{replaced}`")
+        if given is None:
+            folder = folder.with_name(f"{folder.name}-{command}")
+        else:
+            note(f"{folder}: what this writes replaces the results of `{replaced}`")
     return own_folder(folder, RESULT_FILES, force)
 
 

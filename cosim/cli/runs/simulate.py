@@ -22,7 +22,7 @@ def execute(arguments: Namespace) -> int:
     """Simulate, write, report; the exit status."""
     began = time.perf_counter()
     scenario = running.scenario_to_run(arguments.scenario, arguments.changes, coupled=False)
-    folder = running.results_folder(arguments.output, scenario, arguments.force)
+    folder = running.results_folder(arguments.output, scenario, "simulate", arguments.force)
     numbers = numbers_asked(arguments, running.KEYS)
     asked = {"resume": ""}
     # also where a coupled run was cut off: its folder is no place for another run's results

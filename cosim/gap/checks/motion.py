@@ -40,6 +40,8 @@ CREEPS = 0.1
 WRONG_SPEED = 0.15
 #: Sticks of one run that differ by more than this part tell of a surface that is not steady.
 UNEVEN = 2.0 * WRONG_SPEED
+#: Sticks at so many times the speed stated, or less, are of another unit: no crest of a drive is.
+OTHER_UNIT = 3.0
 #: Velocities are counted in so many bins; the median within this part about the fullest is what x
 #: has most often: noise of a velocity is as wide on slow surfaces.
 BINS, PEAK = 40, 0.3
@@ -122,13 +124,18 @@ def doubts_of_speed(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
                 f"{run.name}: surface_speed = {run.surface_speed:g} m/s, but x moves at "
                 f"{speed:.3g} m/s in sticks: wrong set-point?"
             )
+            if abs(log) > math.log(OTHER_UNIT):
+                doubts.append(Doubt("units", f"{text[:-1]}, or another unit?", (run.name,), True))
+                continue
             far_off = abs(speed / abs(run.surface_speed) - 1.0) > WRONG_SPEED
             doubts.append(Doubt("speed", text, (run.name,), far_off and not _is_uneven(run)))
     if common:
         names, times = tuple(run.name for run, *_ in found), f"{math.exp(common):.3g} times"
-        hint = "the camera's scale, its clock, or the drive?"
+        is_unit = abs(common) > math.log(OTHER_UNIT)
+        hint = "another unit?" if is_unit else "the camera's scale, its clock, or the drive?"
         text = f"all runs: in sticks x moves at {times} the surface_speed stated: {hint}"
-        doubts.append(Doubt("speed", text, names, abs(common) > WRONG_SPEED))
+        check = "units" if is_unit else "speed"
+        doubts.append(Doubt(check, text, names, abs(common) > WRONG_SPEED))
     return doubts
 
 

@@ -102,5 +102,6 @@ def closing_lines(plan: Plan) -> list[str]:
         lines.append(f"  {effect:{width}}  {'not tried':>16}  {why}")
     for truth, other, share in plan.pairs[:3]:
         times = f"{100 * share:.0f} times in 100"
-        lines.append(f"  pair  {truth} is named as {other}, or in a class with it, {times}")
+        of_least = f"{truth} of its smallest size"
+        lines.append(f"  pair  {of_least} is named as {other}, or in a class with it, {times}")
     return lines + ([f"  next  {plan.next_run.text}"] if plan.next_run else [])

@@ -128,7 +128,8 @@ class Fitted:
         the noise does not explain count as much noise more; infinite where no motion depends on it
     at_bound : label -> the bound that the value is at
     runs : fitted ones and held-out ones
-    cost : squared residuals of all runs, with those of the numbers from what is known beforehand
+    cost, held_out_cost : squared residuals of all runs, and of those held out, with those of the
+        numbers from what is known beforehand
     leeway : of the numbers that all runs share
     known : of the fitted runs, and of those held out
     """
@@ -138,6 +139,7 @@ class Fitted:
     at_bound: dict[str, float]
     runs: tuple[FittedRun, ...]
     cost: float = float("nan")
+    held_out_cost: float = 0.0
     leeway: Leeway | None = field(default=None, repr=False)
     known: tuple[Information, ...] = field(default=(), repr=False)
 
@@ -183,10 +185,14 @@ class Fitted:
     def gain_over(self, other: Fitted) -> float:
         """ln of how much more probable all runs are than with another model of the same windows.
 
-        What noise does not explain of the better one counts as so much noise more.
+        What noise does not explain of the better one counts as so much noise more. Held-out runs
+        gain no more than the fitted ones: the fit of a run may have been lost with the other.
         """
-        left = min(self.misfit, other.misfit)
-        return 0.5 * (other.cost - self.cost) / max(left, 1.0)
+        left = max(min(self.misfit, other.misfit), 1.0)
+        all_runs = 0.5 * (other.cost - self.cost) / left
+        held_out = 0.5 * (other.held_out_cost - self.held_out_cost) / left
+        fitted = all_runs - held_out
+        return fitted + min(held_out, max(fitted, 0.0))
 
     @property
     def misfit(self) -> float:
@@ -211,6 +217,7 @@ def joined(fitted: Fitted, judged: Fitted, names: Sequence[str]) -> Fitted:
     return replace(
         fitted,
         cost=fitted.cost + judged.cost,
+        held_out_cost=judged.cost,
         known=(*fitted.known, *judged.known),
         values={**judged.values, **fitted.values},
         sd={**judged.sd, **fitted.sd},

@@ -427,16 +427,26 @@ class Campaign:
     runs: tuple = ()
 
 
-def fitted(residual, cost):
+def fitted(residual, cost, held_out=0.0):
     run = FittedRun("a", {}, np.zeros((4, 3)), np.zeros((1, 6)), np.full(4, residual),
                     np.zeros(4, dtype=int), False)  # fmt: skip
-    return Fitted({}, {}, {}, (run,), cost)
+    return Fitted({}, {}, {}, (run,), cost + held_out, held_out)
 
 
 def test_what_noise_does_not_explain_counts_as_noise():
     """A likelihood ratio, priors of the numbers included; in units of what the better one leaves"""
     assert fitted(1.0, 10.0).gain_over(fitted(1.0, 30.0)) == 10.0
     assert fitted(2.0, 10.0).gain_over(fitted(3.0, 30.0)) == 2.5
+
+
+@pytest.mark.parametrize(
+    ("of_fitted", "of_held_out", "gain"),
+    [(20.0, 8.0, 14.0), (20.0, 900.0, 20.0), (-4.0, 900.0, -2.0), (20.0, -60.0, -20.0)],
+)
+def test_runs_held_out_gain_no_more_than_those_fitted(of_fitted, of_held_out, gain):
+    """The fit of one of them may be lost with the other model, which asks for nothing."""
+    other = fitted(1.0, 30.0 + of_fitted, 1000.0 + of_held_out)
+    assert fitted(1.0, 30.0, 1000.0).gain_over(other) == gain
 
 
 def test_two_findings_are_compared_in_units_of_one_noise(monkeypatch):

@@ -19,7 +19,7 @@ def said(**numbers):
 def test_numbers_that_no_rig_has_are_named_with_the_unit_that_they_may_be_in():
     assert said(rig__mass=670.0, rig__spring_length=170.0, surface__speed=-150.0) == (
         "rig.mass = 670, rig.spring_length = 170, surface.speed = -150: no rig has that in SI "
-        "units; are these g, mm, mm/s?"
+        "units; are these g, mm, cm/s or mm/s?"
     )
     assert said(springs__stiffness=0.02017).endswith("are these N/mm?")
 
@@ -31,8 +31,9 @@ def test_a_scenario_that_ships_is_not_doubted(name):
 
 def test_a_small_or_large_rig_is_not_doubted():
     assert said(rig__mass=0.002, surface__speed=0.0) == ""
-    assert said(rig__mass=95.0, rig__spring_length=3.0, surface__speed=-15.0) == ""
+    assert said(rig__mass=95.0, rig__spring_length=3.0, surface__speed=-2.9) == ""
     assert said(surface__speed=5e-7) == ""
+    assert said(surface__speed=8.0).endswith("are these cm/s or mm/s?")
 
 
 def test_it_is_said_in_one_line(tmp_path, capsys):
@@ -40,7 +41,7 @@ def test_it_is_said_in_one_line(tmp_path, capsys):
     settings = [word for change in changes for word in ("--set", change)]
     main(["simulate", "reference", "-q", *settings, "-o", str(tmp_path / "out")])
     (line,) = [line for line in capsys.readouterr().err.splitlines() if "SI units" in line]
-    assert line.startswith("warning: surface.speed = 150: ") and line.endswith("are these mm/s?")
+    assert line.startswith("warning: surface.speed = 150: ") and line.endswith("are these cm/s or mm/s?")
 
 
 @pytest.mark.parametrize(
