@@ -139,9 +139,9 @@ class Fitted:
     at_bound: dict[str, float]
     runs: tuple[FittedRun, ...]
     cost: float = float("nan")
-    held_out_cost: float = 0.0
     leeway: Leeway | None = field(default=None, repr=False)
     known: tuple[Information, ...] = field(default=(), repr=False)
+    held_out_cost: float = 0.0
 
     @classmethod
     def at(

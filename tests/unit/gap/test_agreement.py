@@ -430,7 +430,7 @@ class Campaign:
 def fitted(residual, cost, held_out=0.0):
     run = FittedRun("a", {}, np.zeros((4, 3)), np.zeros((1, 6)), np.full(4, residual),
                     np.zeros(4, dtype=int), False)  # fmt: skip
-    return Fitted({}, {}, {}, (run,), cost + held_out, held_out)
+    return Fitted({}, {}, {}, (run,), cost + held_out, held_out_cost=held_out)
 
 
 def test_what_noise_does_not_explain_counts_as_noise():

@@ -41,7 +41,8 @@ def test_it_is_said_in_one_line(tmp_path, capsys):
     settings = [word for change in changes for word in ("--set", change)]
     main(["simulate", "reference", "-q", *settings, "-o", str(tmp_path / "out")])
     (line,) = [line for line in capsys.readouterr().err.splitlines() if "SI units" in line]
-    assert line.startswith("warning: surface.speed = 150: ") and line.endswith("are these cm/s or mm/s?")
+    assert line.startswith("warning: surface.speed = 150: ")
+    assert line.endswith("are these cm/s or mm/s?")
 
 
 @pytest.mark.parametrize(
