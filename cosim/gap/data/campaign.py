@@ -75,8 +75,22 @@ def read_campaign(path: str | Path) -> Campaign:
         regimes += [f"{name}: summary: ignored beside runs with a file" for name in unused]
     return replace(
         campaign, noise=noise, noise_estimated=estimated, runs=kept,
-        remarks=(*remarks, *copies, *held, *cut, *run_ups, *differs, *regimes),
+        remarks=(*remarks, *copies, *held, *cut, *run_ups, *holes(kept), *differs, *regimes),
     )  # fmt: skip
+
+
+def holes(runs: Sequence[MeasuredRun]) -> list[str]:
+    """A remark on the runs whose block the tracker lost for more than a quarter of a swing."""
+    longest = {}
+    for run in runs:
+        if run.track is not None:
+            lost = float(np.diff(run.track.time[np.isfinite(run.track.x)]).max())
+            if lost > 0.5 * np.pi / run.natural_frequency:
+                longest[run.name] = lost
+    if not longest:
+        return []
+    most = f"lost for up to {max(longest.values()):.2g} s, of which nothing is asked"
+    return [f"{', '.join(longest)}: the block is {most}"]
 
 
 def stated_in(
