@@ -29,8 +29,9 @@
     friction over the hold time, which rows do not tell from a contact that lets go by 30 ms sooner,
     is found where simulated runs are e^30 times as probable with it. `none` is no finding left, and
     every run at 1.1 at most; without any held out nothing tells.
- 9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them; `partial`
-    where they are better but stay above that, and most of the misfit is gone, half by findings.
+ 9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them, and fitted
+    ones, too, or most of their misfit gone; `partial` where held-out runs are better but stay above
+    that, and most of the misfit is gone, half by findings.
 10. Everything else is `unknown`.
 """
 
@@ -69,7 +70,8 @@ SOONER = 0.03
 MUCH_MORE = 30.0
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5
-#: Part of the misfit that a finding must take to be named as a part of what is missing.
+#: Part of the misfit that a finding must take to be named as a part of what is missing, or where
+#: fitted runs are left above noise: one of them may have another fault.
 MOST = 0.8
 
 
@@ -101,13 +103,13 @@ def judge(
     )  # fmt: skip
     if not set(names) <= physics or len(findings) >= MOST_FINDINGS:
         return Verdict("unknown", (), classes)
-    improves = after < before
-    if improves and after <= EXPLAINED:
+    improves, takes_most = after < before, ladder[-1].share >= MOST
+    if improves and after <= EXPLAINED and (ladder[-1].gap.fit <= EXPLAINED or takes_most):
         if classes:  # two names for one thing: what cannot be told apart is one answer
             return Verdict("class", _members(names, classes, physics), classes)
         return Verdict("named", tuple(names), classes)
     own = without is None or halves(ladder[-1].gap, without)
-    if improves and own and ladder[-1].share >= MOST:
+    if improves and own and takes_most:
         return Verdict("partial", tuple(names), classes)
     return Verdict("unknown", (), classes)
 

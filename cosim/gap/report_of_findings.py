@@ -283,7 +283,8 @@ def rig_numbers(campaign: Campaign, fitted: Fitted) -> tuple[RigNumber, ...]:
         else:
             continue
         sd = fitted.sd.get(label, float("inf"))
-        found.append(RigNumber(name, unit, 0.0, error, value, sd))
+        at_bound = label in fitted.at_bound
+        found.append(RigNumber(name, unit, 0.0, error, value, sd, at_bound))
     return tuple(found)
 
 

@@ -167,6 +167,7 @@ class RigNumber:
     """What the runs say of a number that the campaign states.
 
     name : in words ("surface speed of run03"); stated, stated_sd, value, sd : SI; unit
+    at_bound : whether the runs ask for more than what is stated allows
     """
 
     name: str
@@ -175,6 +176,7 @@ class RigNumber:
     stated_sd: float
     value: float
     sd: float
+    at_bound: bool = False
 
 
 @dataclass(frozen=True)

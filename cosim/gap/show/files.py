@@ -111,6 +111,8 @@ def rig_rows(gap: Gap) -> list[dict[str, str]]:
         factor, unit = {"1": (1e2, "%"), "m": (1e3, "mm")}.get(one.unit, (1.0, one.unit))
         stated = plus_minus(factor * one.stated, factor * one.stated_sd)
         found = plus_minus(factor * one.value, factor * one.sd)
+        if one.at_bound:
+            found = f"at its bound, {with_digits(0.0, factor * one.value)[1]}"
         rows.append({"name": one.name, "stated": stated, "found": found, "unit": unit})
     return rows
 

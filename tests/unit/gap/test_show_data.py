@@ -4,6 +4,7 @@ import json
 import re
 import tomllib
 from dataclasses import replace
+from types import SimpleNamespace
 
 import gap_answers as answers
 import numpy as np
@@ -15,7 +16,8 @@ from cosim import read_scenario
 from cosim.gap import read_campaign
 from cosim.gap.data import Track
 from cosim.gap.quantities import digits, fitted_quantities, quantity, with_digits
-from cosim.gap.show.files import write_corrected
+from cosim.gap.result import RigNumber
+from cosim.gap.show.files import rig_rows, write_corrected
 from cosim.gap.show.model_file import model_text, safe_name, scenario_of, shown_run
 from cosim.gap.show.numbers import DIGITS, as_data, as_json
 from cosim.gap.show.tracks import residuals, starts
@@ -190,3 +192,9 @@ def test_numbers_have_the_digits_that_they_deserve():
 def test_names_that_files_may_have():
     names = ("a/b: c", "...", "x" * 200)
     assert list(map(safe_name, names)) == ["a-b-c", "campaign", "x" * 80]
+
+
+def test_a_number_of_the_rig_at_its_bound_is_no_estimate():
+    zero = RigNumber("zero of x, run06", "m", 0.0, 5e-4, -1.5e-3, 1.9e-4, True)
+    (row,) = rig_rows(SimpleNamespace(rig=(zero,)))
+    assert (row["stated"], row["found"]) == ("0.00 ± 0.50", "at its bound, −1.50")
