@@ -130,7 +130,7 @@ def _hints(gap: Gap, parts: Sequence[Part]) -> list[str]:
 def _unanswered(
     doubts: Sequence[Doubt], ladder: Sequence[Rung], names: Sequence[str]
 ) -> tuple[Doubt, ...]:
-    """Doubts, of which what the findings or the simulated runs answer is not severe.
+    """Doubts without those that the findings or the simulated runs answer.
 
     With findings the model has swings that those springs alone have not; without them nothing rests
     on the rows, which need finer samples than simulated runs do. Whatever else is missing, a drive
@@ -139,7 +139,7 @@ def _unanswered(
     answered = {"springs" if names else "sampling"} if explains(ladder) else set()
     if "speed_ripple" in names:
         answered.add("speed")
-    return tuple(replace(one, severe=one.severe and one.check not in answered) for one in doubts)
+    return tuple(one for one in doubts if one.check not in answered)
 
 
 def _physics(campaign: Campaign) -> set[str]:

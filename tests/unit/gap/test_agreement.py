@@ -417,7 +417,7 @@ def test_no_effect_is_searched_for_where_none_would_be_named(check, monkeypatch)
 def test_what_answers_a_severe_doubt(check, gap, names, severe):
     doubts = (Doubt(check, "run01: ...", ("run01",), True),)
     ladder = [SimpleNamespace(gap=Score(1.0, gap))]
-    assert [one.severe for one in find._unanswered(doubts, ladder, names)] == [severe]
+    assert find._unanswered(doubts, ladder, names) == doubts * severe
 
 
 @dataclass(frozen=True)
