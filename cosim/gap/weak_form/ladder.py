@@ -204,18 +204,12 @@ class Search:
             best = max(offers, key=lambda each: offers[each][0])
             if best != found[place][0]:
                 tried = [*found[:place], (best, offers[best][1]), *found[place + 1 :]]
-                if self._is_better(tried, found, place) and self._is_missed(
-                    self._rung(rest), self._rung(tried), best
-                ):
+                better = self._rung(tried)
+                gained = better.evidence - self._rung(found).evidence
+                is_better = _is_better(found[place][0], best, gained)
+                if is_better and self._is_missed(self._rung(rest), better, best):
                     found = tried
         return self._without_idle(found)
-
-    def _is_better(self, tried: _Found, found: _Found, place: int) -> bool:
-        """Whether another is more probable in a place; as probable, if only it has a name."""
-        (new, _), (old, _) = tried[place], found[place]
-        gained = self._rung(tried).evidence - self._rung(found).evidence
-        has_name = old.startswith("other.") and not new.startswith("other.")
-        return gained - price_of(new) + price_of(old) > (0.0 if has_name else LEAST_GAIN)
 
     def _without_idle(self, found: _Found) -> _Found:
         """Without findings that the rows do not miss."""
@@ -247,6 +241,15 @@ class Search:
 def price_of(name: str) -> float:
     """ln of how much less probable beforehand it is than an effect."""
     return PRICE if name.startswith(("measurement.", "other.")) else 0.0
+
+
+def _is_better(old: str, new: str, gained: float) -> bool:
+    """Whether another finding is more probable in a place; as probable, if only it has a name.
+
+    gained : ln of how much more probable the rows are with it
+    """
+    has_name = old.startswith("other.") and not new.startswith("other.")
+    return gained - price_of(new) + price_of(old) > (0.0 if has_name else LEAST_GAIN)
 
 
 def _least(found: Sequence[object]) -> float:

@@ -21,7 +21,7 @@ from cosim.gap.plan.next_run import NextRun
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import VERDICTS, Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.ladder import Finding, Search
+from cosim.gap.weak_form.ladder import Finding, Search, _is_better
 from cosim.gap.weak_form.unknowns import Unknown
 from cosim.gap.windows.numbers import Number
 
@@ -216,9 +216,7 @@ def climbed(**unknowns):
     ],
 )
 def test_what_has_no_name_goes_for_a_name_that_is_as_probable(old, new, gained, better):
-    rows = Rows({old: 50.0, new: 50.0 + gained, "c": 20.0}, {})
-    found, tried = ([(name, (name,)), ("c", ("c",))] for name in (old, new))
-    assert Search(rows, {}, ())._is_better(tried, found, 0) is better
+    assert _is_better(old, new, gained) is better
 
 
 @pytest.mark.parametrize(
