@@ -124,19 +124,23 @@ def doubts_of_speed(campaign: Campaign, runs: Sequence[MeasuredRun]) -> list[Dou
                 f"{run.name}: surface_speed = {run.surface_speed:g} m/s, but x moves at "
                 f"{speed:.3g} m/s in sticks: wrong set-point?"
             )
-            if abs(log) > math.log(OTHER_UNIT):
-                doubts.append(Doubt("units", f"{text[:-1]}, or another unit?", (run.name,), True))
-                continue
+            is_unit = abs(log) > math.log(OTHER_UNIT)
+            text = f"{text[:-1]}, or another unit?" if is_unit else text
             far_off = abs(speed / abs(run.surface_speed) - 1.0) > WRONG_SPEED
-            doubts.append(Doubt("speed", text, (run.name,), far_off and not _is_uneven(run)))
+            is_severe = is_unit or (far_off and not _is_uneven(run))
+            doubts.append(Doubt(_check_of(is_unit), text, (run.name,), is_severe))
     if common:
         names, times = tuple(run.name for run, *_ in found), f"{math.exp(common):.3g} times"
         is_unit = abs(common) > math.log(OTHER_UNIT)
         hint = "another unit?" if is_unit else "the camera's scale, its clock, or the drive?"
         text = f"all runs: in sticks x moves at {times} the surface_speed stated: {hint}"
-        check = "units" if is_unit else "speed"
-        doubts.append(Doubt(check, text, names, abs(common) > WRONG_SPEED))
+        doubts.append(Doubt(_check_of(is_unit), text, names, abs(common) > WRONG_SPEED))
     return doubts
+
+
+def _check_of(is_unit: bool) -> str:
+    """No finding answers another unit (`checks.ANSWERABLE`)."""
+    return "units" if is_unit else "speed"
 
 
 def _is_uneven(run: MeasuredRun) -> bool:

@@ -140,6 +140,19 @@ def test_a_scale_of_all_runs_is_one_doubt():
     assert doubt.text.startswith("all runs") and "1.08 times" in doubt.text and not doubt.severe
 
 
+@pytest.mark.parametrize(("ratio", "check"), [(2.8, "speed"), (3.2, "units"), (0.31, "units")])
+@pytest.mark.parametrize("every", [True, False])
+def test_a_surface_that_is_three_times_as_fast_is_in_another_unit(ratio, check, every):
+    """Of one run, or of all: no crest of a drive is, so no finding can answer it."""
+    runs = [run_of(speed, number) for number, speed in enumerate((0.03, 0.04, 0.06), 1)]
+    for number in range(3) if every else [1]:
+        speed = runs[number].surface_speed / ratio
+        runs[number] = replace(runs[number], surface_speed=speed)
+    (doubt,) = [one for one in in_motion.doubts_of_speed(campaign_of(runs), runs) if one.severe]
+    assert (doubt.check, "another unit?" in doubt.text) == (check, check == "units")
+    assert doubt.text.startswith("all runs" if every else "run02")
+
+
 @pytest.mark.parametrize(("ripple", "severe"), [(0.0, True), (0.4, False)])
 def test_a_surface_that_is_now_slower_and_now_faster_has_no_other_set_point(ripple, severe):
     """A block that sticks at the crests of a ripple is carried faster than stated."""
