@@ -145,7 +145,6 @@ class Fitting:
             without.fits[-1].values.get(LOADING, 0.0)
         ):
             return across, named
-
         finding, rung = Finding(AGEING, offered[1], 0.0), named.system.rung(offered[1])
         aged = replace(named, findings=(*named.findings, finding), rung=rung)
         gained = self._gained(self.part(aged, finding), without, aged, judge.MUCH_MORE)

@@ -12,19 +12,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 from stickslip.effects.candidate import FreeParameter, Scales
+from stickslip.effects.periodic import MOST_HARMONIC
 from stickslip.plugins.load import file_of
 
 from cosim.gap.data import Campaign
 from cosim.gap.laws import Context, FreeCurve, LawFit, free_curve, laws_of, scales_of
 from cosim.gap.weak_form import rig_unknowns as rig
 from cosim.gap.weak_form.camera_faults import SMOOTHING
-from cosim.gap.weak_form.constants import (
-    ALIKE,
-    CONTACT_DELAY,
-    FAULT_SIZES,
-    HARMONICS,
-    MOST_HARMONIC,
-)
+from cosim.gap.weak_form.constants import ALIKE, CONTACT_DELAY, FAULT_SIZES, HARMONICS
 from cosim.gap.weak_form.ladder import BY_SPEED, FALLS, Finding
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.windows.numbers import Number
@@ -352,7 +347,7 @@ def _wave(campaign: Campaign, rung: Rung, finding: Finding) -> Part:
         # b of cos(n a + b), or sin(n a + b), a the angle of the first
         ahead = math.degrees(np.angle(size)) - order * turn
         phase = -ahead if pattern else ahead - 90.0 * (order - 1)
-        settings[f"{name}.{which}_amplitude"] = min(abs(size) / amplitude, MOST_HARMONIC)
+        settings[f"{name}.{which}_amplitude"] = min(abs(size) / amplitude, float(MOST_HARMONIC))
         settings[f"{name}.{which}_phase_deg"] = (phase + 180.0) % 360.0 - 180.0
     return Part(finding, None, (), tuple(numbers), settings, starts)
 

@@ -119,8 +119,6 @@ BENDS_ASKED = (0.03, 0.3, 1.0)
 # Waves.
 #: Harmonics of a wave's shape: bumps of a fifth of the wave length.
 HARMONICS = 4
-#: A harmonic is at most so many times as large as the first: the model has none beyond.
-MOST_HARMONIC = 10.0
 #: Wavenumbers are scanned at so many steps within the resolution 1 / (length of a run).
 SCAN_STEPS = 2
 #: The shortest wave lasts so long for the block, in 1 / omega: test functions see no shorter one,

@@ -14,6 +14,7 @@ from functools import partial
 
 import numpy as np
 from scipy.signal import find_peaks
+from stickslip.effects.periodic import MOST_HARMONIC
 
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import (
@@ -21,7 +22,6 @@ from cosim.gap.weak_form.constants import (
     ALIKE,
     HARMONICS,
     LEAST_STEP,
-    MOST_HARMONIC,
     MOST_WAVES,
     PHASES_TRIED,
     ROUNDS,

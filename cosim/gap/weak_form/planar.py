@@ -323,15 +323,14 @@ def _samples(
         # columns of what the form has, of a run's own, and the course without either
         every = np.vstack([made.columns[:, axis], made.offset[axis]])
         *columns, offset = interp1d(track.time, every)(times) / noise
-        mechanical = sum(name not in (ROTATION, *CREEPS) for name in form)
-        own_ones, moving = columns[mechanical:], iter(columns)
+        moving = iter(columns)  # what the form has first, then what is the run's own
         zeros = np.zeros((ZEROS, times.size))
         zeros[axis] = campaign.zero_sd(track.run, channel) / noise
         camera = (axis == 0) * _of_camera(track, form, is_turned, times) / noise
         shared.append(np.reshape([seen_so if name in (ROTATION, *CREEPS) else next(moving)
                                   for name, seen_so in zip(form, camera, strict=True)],
                                  (len(form), times.size)).T)  # fmt: skip
-        own.append(np.vstack([*own_ones, zeros]).T)
+        own.append(np.vstack([*moving, zeros]).T)
         rows.append(values[seen] / noise - offset)
     return _Samples(np.concatenate(rows), np.concatenate(shared), np.concatenate(own))
 

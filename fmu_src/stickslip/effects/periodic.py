@@ -6,6 +6,9 @@ from typing import Any
 from ..quantity import quantity
 from .candidate import Candidate, FreeParameter
 
+#: A harmonic is at most so many times as large as the first.
+MOST_HARMONIC = 10
+
 
 def harmonic_amplitude(which: str) -> Any:
     """A parameter that a wave which is no sine has besides."""
@@ -14,7 +17,7 @@ def harmonic_amplitude(which: str) -> Any:
         "1",
         f"amplitude of the {which} harmonic as part of the first's",
         ge=0,
-        le=10,
+        le=MOST_HARMONIC,
         typical=(0.1, 0.6),
     )
 
