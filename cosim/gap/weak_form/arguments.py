@@ -7,6 +7,7 @@ afterwards. Where one called `other.` wins, what is missing is not in the catalo
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from functools import lru_cache
 
 import numpy as np
 from scipy.signal import bilinear, lfilter
@@ -328,9 +329,15 @@ def _resonator(acceleration: np.ndarray, interval: float, omega: float) -> np.nd
 
     u'' + 2 zeta omega u' + omega^2 u = -x'' from rest, by the bilinear rule; the force is -u''.
     """
+    return np.asarray(lfilter(*_ringing(interval, omega), acceleration))
+
+
+@lru_cache(maxsize=1024)
+def _ringing(interval: float, omega: float) -> tuple[np.ndarray, np.ndarray]:
+    """Coefficients of its filter: runs of one camera have the same."""
     damping = 2.0 * RESONATOR_DAMPING * omega
     above, below = bilinear([1.0, 0.0, 0.0], [1.0, damping, omega**2], 1.0 / interval)
-    return np.asarray(lfilter(above, below, acceleration))
+    return above, below
 
 
 def _decaying(rate: np.ndarray, interval: float, memory: float) -> np.ndarray:

@@ -49,8 +49,9 @@ def _ripple(campaign: Campaign, rows: list[RunRows]) -> dict[str, Varies]:
     rung = system.rung()
     best: tuple[float, tuple[Added, ...]] = (rung.evidence + LEAST_GAIN - ALIKE, ())
     for kind in periodic.kinds(system.level.kinetic):
-        offer = periodic.offered(rung, kind) if kind.name == "speed_ripple" else None
-        if offer and offer[0] > best[0] + ALIKE:
+        least = best[0] + ALIKE
+        offer = periodic.offered(rung, kind, least) if kind.name == "speed_ripple" else None
+        if offer and offer[0] > least:
             best = offer
     if not best[1]:
         return {}

@@ -8,11 +8,14 @@ import numpy as np
 
 #: A fit ends where a step changes the sum of squares by less than this part of it, and by as many
 #: times more as the mean square exceeds that of the noise, up to the second: there the model is not
-#: yet what it will be.
-SETTLED, COARSER = 1e-5, 10.0
+#: yet what it will be. Or by less than the third: a quarter of the standard deviation of one number.
+SETTLED, COARSER, CLOSE = 1e-5, 10.0, 0.06
 #: Damping at first, least and most, in parts of the normal matrix's diagonal; factors by which it
 #: falls after a step that gains and grows after one that does not.
 DAMPING, LEAST, MOST, EASIER, HARDER = 1e-3, 1e-7, 1e5, 0.2, 6.0
+#: Derivatives are followed by Broyden's update (Math. Comp. 19 (1965)) while a step gains so much of
+#: what they promise, and taken anew where it does not, and before a fit ends.
+FOLLOWED = 0.5
 #: Longest step, in scales of the numbers: beyond it the derivatives say nothing.
 LONGEST = 10.0
 
@@ -31,32 +34,36 @@ def descend(
     rows: Rows, at: np.ndarray, low: np.ndarray, high: np.ndarray, tries: int
 ) -> np.ndarray:
     """The least sum of squares nearby, in at most so many evaluations."""
-    off = rows.residuals(at)
-    cost, damping = float(off @ off), DAMPING
-    normal, slope = _normal(rows.derivatives(at), off)
+    off, damping, is_exact = rows.residuals(at), DAMPING, True
+    cost, columns = float(off @ off), rows.derivatives(at)
     for _ in range(tries):
+        normal, slope = columns.T @ columns, columns.T @ off
         step = _step(normal, slope, at, (low, high), damping)
         gain = -float(2.0 * slope @ step + step @ normal @ step)
-        enough = SETTLED * min(max(cost / off.size, 1.0), COARSER)
-        if gain < enough * cost:
+        enough = max(SETTLED * min(max(cost / off.size, 1.0), COARSER) * cost, CLOSE)
+        moved = rows.residuals(at + step) if gain >= enough else off
+        taken = cost - float(moved @ moved)
+        if not (is_exact or taken >= max(FOLLOWED * gain, enough)):
+            columns, is_exact = rows.derivatives(at), True
+            continue
+        if gain < enough:
             break
-        off = rows.residuals(at + step)
-        found = float(off @ off)
-        if not found < cost:
+        if not taken > 0.0:
             damping *= HARDER
             if damping > MOST:
                 break
             continue
-        at, last, cost = at + step, cost, found
+        change = moved - off
+        at, off, cost = at + step, moved, cost - taken
         damping = max(EASIER * damping, LEAST)
-        if last - cost < enough * last:
+        if taken < enough:
             break
-        normal, slope = _normal(rows.derivatives(at), off)
+        is_exact = taken < FOLLOWED * gain
+        if is_exact:
+            columns = rows.derivatives(at)
+        else:
+            columns = columns + np.outer(change - columns @ step, step / (step @ step))
     return at
-
-
-def _normal(derivatives: np.ndarray, off: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    return derivatives.T @ derivatives, derivatives.T @ off
 
 
 def _step(

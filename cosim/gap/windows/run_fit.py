@@ -15,6 +15,10 @@ from .start_states import Each, Started, StartStates
 #: priors (mu_s, mu_k and all zeros) need derivatives to 1e-3 of themselves; with ten times the step
 #: the curvature of the motion seems to tell them apart, with a tenth the integrator's error does.
 STEP = 1e-3
+#: A change of the parameters lies along others where they leave this part of it: rounding.
+ALONG = 1e-6
+#: What the tracker reads more: no number of the block's.
+ZEROS = ("offset.x", "offset.y")
 #: A window whose misfit grows by this factor, and by this, in a step has lost its course.
 LOST, LOST_SQUARES = 2.0, 10.0
 #: States found elsewhere are better if a run's sum of squares falls by this part.
@@ -94,27 +98,38 @@ class RunFit:
         """By the start states, of these by the numbers, and of the rest by the numbers."""
         values = self.values(scaled)
         columns = self.starts.derivatives(values, at, self.model.packed(values), each)
-        of_numbers = each(lambda i: self._slope(scaled, i, at), self.felt)
-        slopes = np.column_stack([at.residuals[:, None][:, :0], *of_numbers])
+        slopes = self._slopes(scaled, at, each)
         move = self.starts.coordinates(columns, slopes)
         steps = self.starts.steps[self.starts.axes(values)]
         derivatives = np.zeros((at.residuals.size, len(self.unknowns)))
         derivatives[:, self.felt] = self.starts.normal_part(columns, slopes)
         return columns, -move * steps[None, :, None], derivatives
 
-    def _slope(self, scaled: np.ndarray, i: int, at: Started) -> np.ndarray:
-        """(size,) by one number, at fixed start states."""
-        number = self.unknowns[i].number
-        if number.key in ("offset.x", "offset.y"):
-            seen = self.model.axes == ("offset.x", "offset.y").index(number.key)
-            slopes = np.where(seen, number.slope(scaled[i]) / self.model.noise, 0.0)
-            return np.concatenate([slopes, np.zeros(at.residuals.size - slopes.size)])
-        moved = scaled.copy()
-        step = STEP if number.value(scaled[i] + STEP) <= number.high else -STEP
-        moved[i] += step
-        return np.asarray(
-            (self.model.residuals(self.values(moved), at.states) - at.residuals) / step
+    def _slopes(self, scaled: np.ndarray, at: Started, each: Each) -> np.ndarray:
+        """(size, felt) by the numbers, at fixed start states.
+
+        Where numbers move the kernel's parameters in the same directions, as mu_s and mu_k do both
+        coefficients together, so many are simulated as there are directions.
+        """
+        here, moved, steps = self.values(scaled), [], []
+        for i in self.felt:
+            number, there = self.unknowns[i].number, scaled.copy()
+            steps.append(STEP if number.value(scaled[i] + STEP) <= number.high else -STEP)
+            there[i] += steps[-1]
+            moved.append(self.values(there))
+        taken = [self.model.taken_from(values) for values in (here, *moved)]
+        basis, parts = _directions((np.array(taken[1:]) - taken[0]).T / steps)
+        simulated = each(
+            lambda n: (self.model.residuals(moved[n], at.states) - at.residuals) / steps[n], basis
         )
+        slopes = np.column_stack([at.residuals[:, None][:, :0], *simulated]) @ parts
+        for place, i in enumerate(self.felt):
+            number = self.unknowns[i].number
+            if number.key in ZEROS:
+                seen = self.model.axes == ZEROS.index(number.key)
+                of_zero = np.where(seen, number.slope(scaled[i]) / self.model.noise, 0.0)
+                slopes[: seen.size, place] = of_zero
+        return slopes
 
     def retried(self, scaled: np.ndarray) -> bool:
         """Whether windows off course have found better states, which are then kept."""
@@ -133,3 +148,16 @@ class RunFit:
             at.residuals[:size], self.model.owner[:size], self.model.run.hold_out,
             self.model.windows.begin, self.model.rounding,
         )  # fmt: skip
+
+
+def _directions(changes: np.ndarray) -> tuple[list[int], np.ndarray]:
+    """Columns of (n, k) in directions of their own, and (basis, k) what each column has of them."""
+    sizes = np.linalg.norm(changes, axis=0)
+    unit = changes / np.where(sizes > 0.0, sizes, 1.0)
+    basis: list[int] = []
+    for number in np.flatnonzero(sizes):
+        along = np.linalg.lstsq(unit[:, basis], unit[:, number], rcond=None)[0]
+        if np.linalg.norm(unit[:, number] - unit[:, basis] @ along) > ALONG:
+            basis.append(int(number))
+    parts = np.linalg.lstsq(unit[:, basis], unit, rcond=None)[0]
+    return basis, parts * sizes / sizes[basis, None]

@@ -41,6 +41,8 @@ HEIGHT = "curve.height"
 OUTSIDE = ("offset.", "measurement.", "per_weight.", "with_", "scatter.", "curve.")
 #: Standard deviation of the static friction from one stick to the next, relative.
 BREAK_AWAY = "scatter.break_away"
+#: Of what is outside, all that acts on a track beside the tracker's zeros and the parameters.
+NOT_PACKED = ("offset.speed", "measurement.")
 #: Time by which a contact lets go sooner, s: mu_s N falls by this times the rate of the load.
 LOADING = "offset.loading"
 #: ``with_weight.block.parameter``: the weight, N, at which that parameter is what it says; in other
@@ -166,6 +168,11 @@ class RunModel:
         is_uneven = any(flat[key] != 0.0 for key in self.uneven)
         p[layout.P_LONGEST_STICK] *= LONGER if is_uneven else LONGER_STICK
         return p
+
+    def taken_from(self, values: Mapping[str, float]) -> np.ndarray:
+        """All that of a run's values acts on a track, but for the tracker's zeros."""
+        outside = [value for key, value in values.items() if key.startswith(NOT_PACKED)]
+        return np.concatenate([self.packed(values), outside])
 
     def track(
         self, values: Mapping[str, float], states: np.ndarray, p: np.ndarray | None = None
