@@ -8,13 +8,13 @@ import numpy as np
 
 #: A fit ends where a step changes the sum of squares by less than this part of it, and by as many
 #: times more as the mean square exceeds that of the noise, up to the second: there the model is not
-#: yet what it will be. Or by less than the third: a quarter of the standard deviation of one number.
+#: yet what it will be. Or by less than the third, a quarter of one number's standard deviation.
 SETTLED, COARSER, CLOSE = 1e-5, 10.0, 0.06
 #: Damping at first, least and most, in parts of the normal matrix's diagonal; factors by which it
 #: falls after a step that gains and grows after one that does not.
 DAMPING, LEAST, MOST, EASIER, HARDER = 1e-3, 1e-7, 1e5, 0.2, 6.0
-#: Derivatives are followed by Broyden's update (Math. Comp. 19 (1965)) while a step gains so much of
-#: what they promise, and taken anew where it does not, and before a fit ends.
+#: Derivatives are followed by Broyden's update (Math. Comp. 19 (1965)) while a step gains so much
+#: of what they promise, and taken anew where it does not, and before a fit ends.
 FOLLOWED = 0.5
 #: Longest step, in scales of the numbers: beyond it the derivatives say nothing.
 LONGEST = 10.0
