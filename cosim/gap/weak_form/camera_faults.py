@@ -65,6 +65,8 @@ FILTERS = GAUSSIAN, PAST, WINDOW = ("Gaussian", "of the past", "moving average")
 ALL_RUNS = "all runs"
 #: Half the window of a mean, in standard deviations.
 HALF_WINDOW = np.sqrt(3.0)
+#: How far from a corner what a filter leaves is felt, in standard deviations: e^-31 of the last.
+TAIL = 30.0
 #: Every fault that has a name; a turned camera is found in the plane.
 FAULTS = tuple(f"measurement.{name}" for name in (*FAULT_SIZES, "rotation", "quantisation"))
 
@@ -205,10 +207,12 @@ def smoothing(width: float, kind: str) -> Respond:
         own = run.track.run
         rounded = np.zeros(run.track.time.size)
         for corner in run.touched:
-            at = (run.track.time - corner.time) / width
+            reach = corner.time + TAIL * width * np.array([-1.0, 1.0])
+            near = slice(*np.searchsorted(run.track.time, reach))
+            at = (run.track.time[near] - corner.time) / width
             forward = at if corner.breaks or past else -at
             size = corner.acceleration * width**2 * (1.0 if corner.breaks or not past else -1.0)
-            rounded += size * rounding(forward)
+            rounded[near] += size * rounding(forward)
         rounded += width * _at_the_ends(run, width, kind)
         lower = -0.5 * (own.natural_frequency * width) ** 2 * sum(_ahead(run))
         return CornerResponse(
