@@ -10,7 +10,7 @@ from cosim.gap.data import Campaign, MeasuredRun
 
 from .fitted import Fitted, Leeway, joined
 from .numbers import Number
-from .problem import Problem
+from .problem import IN_STEP, Problem
 from .windows import Windows
 
 #: Friction from which held-out runs set out beside none of their own, in standard deviations: more
@@ -95,4 +95,10 @@ def judge(
         own.append(Number("offset.friction", 0.0, scatter, -1.0, 1.0, "run"))
     runs = campaign.held_out_runs if runs is None else runs
     runs = [run for run in runs if run.name in windows]
-    return Problem(campaign, runs, windows, own, values, leeway, near, jobs).solved(starts)
+    found: list[Fitted] = []
+    for start in starts or [{}]:
+        problem = Problem(campaign, runs, windows, own, values, leeway, near, jobs)
+        found.append(problem.solved([start]))
+        if all(run.gap < IN_STEP for run in found[-1].runs):
+            break
+    return min(found, key=lambda fitted: fitted.cost)

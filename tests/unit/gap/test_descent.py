@@ -1,0 +1,48 @@
+"""Least squares of a few numbers: the minimum of another solver, with fewer derivatives."""
+
+import numpy as np
+import pytest
+from scipy.optimize import least_squares
+
+from cosim.gap.windows.descent import CLOSE, descend
+
+TIMES = np.linspace(0.0, 4.0, 400)
+TRUTH = np.array([2.0, 0.7, 3.0, 0.4])
+
+
+class Decay:
+    """A decaying swing of four numbers beside its measurement; counts what it is asked."""
+
+    def __init__(self):
+        self.measured = self.model(TRUTH) + 0.05 * np.random.default_rng(1).normal(size=TIMES.size)
+        self.evaluations = self.jacobians = 0
+
+    def model(self, at):
+        return at[0] * np.exp(-at[1] * TIMES) * np.cos(at[2] * TIMES + at[3])
+
+    def residuals(self, at):
+        self.evaluations += 1
+        return (self.model(at) - self.measured) / 0.05
+
+    def derivatives(self, at):
+        self.jacobians += 1
+        step = 1e-6 * np.eye(at.size)
+        return np.array([self.model(at + each) - self.model(at - each) for each in step]).T / 1e-7
+
+
+@pytest.mark.parametrize("high", [np.inf, 1.8], ids=["free", "at a bound"])
+@pytest.mark.parametrize("start", [(1.5, 0.5, 2.9, 0.3), (1.0, 1.5, 3.3, 0.0)], ids=["near", "far"])
+def test_it_ends_where_another_solver_does(start, high):
+    swing, low = Decay(), np.full(4, -np.inf)
+    highest = np.array([high, np.inf, np.inf, np.inf])
+    at = descend(swing, np.array(start), low, highest, 50)
+    best = least_squares(swing.residuals, start, bounds=(low, highest))
+    left = float(np.sum(swing.residuals(at) ** 2))
+    assert left < 2.0 * best.cost + 2.0 * CLOSE
+    assert at[0] <= high
+
+
+def test_derivatives_are_followed_and_not_taken_at_every_step():
+    swing, wide = Decay(), np.full(4, np.inf)
+    descend(swing, np.array([1.5, 0.5, 2.9, 0.3]), -wide, wide, 50)
+    assert swing.jacobians <= swing.evaluations / 2
