@@ -212,11 +212,11 @@ class Models:
         """With one more finding, from where the ladder ended; and ln of how much less probable
         every run is beforehand, where a number of it is less known with the finding."""
         (numbers, settings, scatter), near = self.free[-1], self.fits[-1]
-        # from next to nothing of it, where no run is lost; else as the rows have it all
+        # as the rows have it all, which may lose a run, and from next to nothing of it
         rows = self.system.rung([*self._added, *part.finding.added])
         starts = [
-            {**near.values, **part.starts, **_next_to_nothing(part.numbers)},
             {**near.values, **part.starts, **self._by_rows(rows, part)},
+            {**near.values, **part.starts, **_next_to_nothing(part.numbers)},
         ]
         free = [*part.numbers, *numbers], {**settings, **part.settings}
         known = {number.key: number.prior for number in numbers}
@@ -224,7 +224,7 @@ class Models:
             math.log(number.prior / before) for number in part.numbers
             if number.prior and (before := known.get(number.key))
         )  # fmt: skip
-        return self._fitted_once(free, scatter, starts, near), wider
+        return self._fitted_once(free, scatter, starts, near, each=True), wider
 
     def _fit(self, free: _Free, scatter: float, rows: Rows) -> Fitted:
         near = self.fits[-1] if self.fits else None
@@ -249,13 +249,14 @@ class Models:
         return starts
 
     def _fitted_once(
-        self, free: _Free, scatter: float, starts: Sequence[dict[str, float]], near: Fitted | None
-    ) -> Fitted:
+        self, free: _Free, scatter: float, starts: Sequence[dict[str, float]],
+        near: Fitted | None, each: bool = False,
+    ) -> Fitted:  # fmt: skip
         """The same numbers are fitted once, wherever the rows would have them set out from."""
         same = _same(*free, scatter)
         if same not in self.known:
             self.known[same] = fit(
-                self.campaign, self.windows, *free, scatter, starts, near, self.jobs
+                self.campaign, self.windows, *free, scatter, starts, near, self.jobs, each
             )
         return self.known[same]
 

@@ -19,8 +19,9 @@ from .run_model import RunModel
 from .start_states import Started
 from .windows import Windows
 
-#: Most evaluations of a fit, and of one that only shows which start leads on.
-MOST_TRIES, FIRST_TRIES = 15, 6
+#: Most evaluations of a fit, and of one that only shows which starts lead on: those whose sum of
+#: squares is then at most so many times that of the best.
+MOST_TRIES, FIRST_TRIES, LEADS = 20, 8, 1.25
 #: Gap up to which nothing is missing, and there is no other minimum to look for.
 IN_STEP = 1.05
 #: Fits in a row, each from better states of windows that were off course.
@@ -92,9 +93,16 @@ class Problem:
         off = self.leeway.rows @ (scaled[there] - self.leeway.centre)
         return np.concatenate([rows, off]), np.vstack([np.diag(slopes), more])
 
-    def solved(self, starts: Sequence[Mapping[str, float]] = ()) -> Fitted:
-        """The best numbers, from the best of several starts: labels -> values, the rest as given"""
-        best = self._settled(self._first(starts or [{}]))
+    def solved(self, starts: Sequence[Mapping[str, float]] = (), each: bool = False) -> Fitted:
+        """The best numbers, from the best of several starts: labels -> values, the rest as given.
+
+        each : no start is left out because an earlier one leads to where only noise is left
+        """
+        leading = self._first(starts or [{}], each)
+        points = [self._settled(point) for point in leading]
+        best = min(points, key=lambda point: point.cost)
+        if best is not points[-1]:
+            self._go_on_from(best)
         while self.leeway is not None:
             excess = self.leeway.excess(best.scaled, self.labels)
             if excess <= 1.0:
@@ -115,6 +123,7 @@ class Problem:
 
     def _settled(self, at: Point) -> Point:
         """The best nearby; again from where windows off course find better states."""
+        self._go_on_from(at)
         for _ in range(REPEATS):
             at = self._descended(at.scaled, MOST_TRIES)
             if not self._retried(at.scaled):
@@ -133,20 +142,19 @@ class Problem:
         for part, started in zip(self.parts, point.started, strict=True):
             part.forget(point.scaled, started)
 
-    def _first(self, starts: Sequence[Mapping[str, float]]) -> Point:
-        """The best after a few steps from each start."""
-        if len(starts) == 1:
-            return self._descended(self._started_at(starts[0]), MOST_TRIES)
-        points = []
+    def _first(self, starts: Sequence[Mapping[str, float]], each: bool) -> list[Point]:
+        """Where starts lead in a few steps: those near to the best."""
+        points: list[Point] = []
         for start in starts:
             for part in self.parts:
                 part.forget()
-            points.append(self._descended(self._started_at(start), FIRST_TRIES))
-            if points[-1].cost < IN_STEP**2 * sum(part.model.size for part in self.parts):
-                break
-        best = min(points, key=lambda point: point.cost)
-        self._go_on_from(best)
-        return best
+            tries = FIRST_TRIES if len(starts) > 1 else MOST_TRIES
+            points.append(self._descended(self._started_at(start), tries))
+            in_step = IN_STEP**2 * sum(part.model.size for part in self.parts)
+            if points[-1].cost < in_step and not each:
+                return points[-1:]
+        best = min(point.cost for point in points)
+        return [point for point in points if point.cost <= LEADS * best]
 
     def _started_at(self, values: Mapping[str, float]) -> np.ndarray:
         start = self._start
