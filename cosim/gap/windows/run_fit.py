@@ -122,7 +122,7 @@ class RunFit:
         simulated = each(
             lambda n: (self.model.residuals(moved[n], at.states) - at.residuals) / steps[n], basis
         )
-        slopes = np.column_stack([at.residuals[:, None][:, :0], *simulated]) @ parts
+        slopes = np.asarray(np.column_stack([at.residuals[:, None][:, :0], *simulated]) @ parts)
         for place, i in enumerate(self.felt):
             number = self.unknowns[i].number
             if number.key in ZEROS:
