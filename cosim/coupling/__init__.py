@@ -40,13 +40,13 @@ from cosim.coupling.schemes.scheme import GaussSeidel as GaussSeidel
 from cosim.coupling.schemes.scheme import Jacobi as Jacobi
 from cosim.coupling.schemes.scheme import Scheme as Scheme
 from cosim.coupling.step_control.adaptive import AdaptiveStep as AdaptiveStep
+from cosim.coupling.step_control.adaptive import Defect as Defect
+from cosim.coupling.step_control.adaptive import Doubling as Doubling
+from cosim.coupling.step_control.adaptive import EnergyResidual as EnergyResidual
+from cosim.coupling.step_control.adaptive import PowerBond as PowerBond
 from cosim.coupling.step_control.control import ConvergenceError as ConvergenceError
 from cosim.coupling.step_control.control import FixedStep as FixedStep
 from cosim.coupling.step_control.control import StepControl as StepControl
-from cosim.coupling.step_control.estimates import Defect as Defect
-from cosim.coupling.step_control.estimates import Doubling as Doubling
-from cosim.coupling.step_control.estimates import EnergyResidual as EnergyResidual
-from cosim.coupling.step_control.power_bond import PowerBond as PowerBond
 from cosim.coupling.step_control.precheck import restores_exactly as restores_exactly
 from cosim.coupling.system import Connection as Connection
 from cosim.coupling.system import CoupledSystem as CoupledSystem

@@ -33,8 +33,15 @@ from cosim.coupling.system import ENERGY_UNIT, Address, find_port
 from cosim.coupling.tolerance import Tolerance
 from cosim.names import unknown_name
 from cosim.scenario.validation import not_in
-from cosim.systems.settings import NOT_GIVEN, unused
-from cosim.systems.specification import Link, Start, SystemSpecification, UnitEntry, Value
+from cosim.systems.specification import (
+    NOT_GIVEN,
+    Link,
+    Start,
+    SystemSpecification,
+    UnitEntry,
+    Value,
+    unused,
+)
 from cosim.systems.system_errors import SystemFault, naming
 
 #: Types of variables whose number may be given as a text with its unit.

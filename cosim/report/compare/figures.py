@@ -19,8 +19,7 @@ from cosim.report.palette import BLUE, ORANGE, readable
 from cosim.report.quantities import ROUNDING, TABLES
 from cosim.report.style import panels, picture, picture_over_time
 
-from .compare import Comparison
-from .series import Series
+from .compare import Comparison, Series
 
 Array = NDArray[np.float64]
 

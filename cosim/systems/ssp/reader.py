@@ -8,8 +8,7 @@ from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import tostring
 
-from cosim.systems.settings import Coupling, Run
-from cosim.systems.specification import SystemSpecification
+from cosim.systems.specification import Coupling, Run, SystemSpecification
 from cosim.systems.ssp.flat import Flat
 from cosim.systems.ssp.package import Package
 from cosim.systems.ssp.structure import tables_of, top_of, units_of
