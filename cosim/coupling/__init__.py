@@ -10,6 +10,7 @@ from cosim.coupling.around import Subcycled as Subcycled
 from cosim.coupling.conversion import Affine as Affine
 from cosim.coupling.fmu.errors import FmuError as FmuError
 from cosim.coupling.fmu.participant import FmuParticipant as FmuParticipant
+from cosim.coupling.initial import restores_exactly as restores_exactly
 from cosim.coupling.isolated import IsolatedError as IsolatedError
 from cosim.coupling.isolated import IsolatedParticipant as IsolatedParticipant
 from cosim.coupling.messages import Message as Message
@@ -32,10 +33,10 @@ from cosim.coupling.result import CoupledResult as CoupledResult
 from cosim.coupling.result import EnergyFlow as EnergyFlow
 from cosim.coupling.result import Ledger as Ledger
 from cosim.coupling.run import run as run
-from cosim.coupling.schemes.acceleration import Aitken as Aitken
-from cosim.coupling.schemes.acceleration import QuasiNewton as QuasiNewton
-from cosim.coupling.schemes.acceleration import Relaxation as Relaxation
+from cosim.coupling.schemes.iterated import Aitken as Aitken
 from cosim.coupling.schemes.iterated import Iterated as Iterated
+from cosim.coupling.schemes.iterated import QuasiNewton as QuasiNewton
+from cosim.coupling.schemes.iterated import Relaxation as Relaxation
 from cosim.coupling.schemes.scheme import GaussSeidel as GaussSeidel
 from cosim.coupling.schemes.scheme import Jacobi as Jacobi
 from cosim.coupling.schemes.scheme import Scheme as Scheme
@@ -47,7 +48,6 @@ from cosim.coupling.step_control.adaptive import PowerBond as PowerBond
 from cosim.coupling.step_control.control import ConvergenceError as ConvergenceError
 from cosim.coupling.step_control.control import FixedStep as FixedStep
 from cosim.coupling.step_control.control import StepControl as StepControl
-from cosim.coupling.step_control.precheck import restores_exactly as restores_exactly
 from cosim.coupling.system import Connection as Connection
 from cosim.coupling.system import CoupledSystem as CoupledSystem
 from cosim.coupling.tolerance import Tolerance as Tolerance

@@ -3,8 +3,7 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton, Relaxation
-from cosim.coupling.schemes.iterated import Iterated
+from cosim.coupling.schemes.iterated import Aitken, Iterated, QuasiNewton, Relaxation
 from cosim.coupling.schemes.scheme import GaussSeidel, Jacobi, Scheme
 from cosim.coupling.step_control.adaptive import (
     AdaptiveStep,

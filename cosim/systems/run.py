@@ -112,7 +112,7 @@ class SystemRun(RunResult):
 
     @cached_property
     def _columns(self) -> Any:
-        return import_module(f"{SHOW}.dataset").system_columns(self)
+        return import_module(f"{SHOW}.summary").system_columns(self)
 
     def summary(self) -> dict[str, Any]:
         """The numbers of ``summary.json``: status, ledger, outputs, how it was coupled."""

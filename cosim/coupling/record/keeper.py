@@ -16,14 +16,14 @@ import numpy as np
 
 from cosim.coupling.exchange import Effort, Exchange, Stand, Statistics
 from cosim.coupling.participant import Causality, Saved, capabilities
-from cosim.coupling.record.checkpoint import (
+from cosim.coupling.record.folder import (
     Checkpoint,
     CheckpointError,
+    RunFolder,
     load_checkpoint,
     require_same_setup,
     save_checkpoint,
 )
-from cosim.coupling.record.folder import RunFolder
 from cosim.coupling.record.table import GrowingTable
 from cosim.coupling.schemes.scheme import Scheme
 from cosim.coupling.step_control.control import StepControl

@@ -24,9 +24,8 @@ from .case import Case
 from .drift import CAMERA, endless_belt, interface_drift, run_drift
 from .lengths import LONGEST, Length, Levels, between, rounded_up, shortest_belts
 from .rigs import MOST_MELTING, Rigs
-from .scenario_priors import scenario_case
 from .uncertainty import INTERVAL, quantiles
-from .unknowns import ENTRY, INTERFACE, Melts
+from .unknowns import ENTRY, INTERFACE, Melts, scenario_case
 
 Array = NDArray[np.float64]
 

@@ -13,8 +13,7 @@ from cosim.report.files import without_nan
 from cosim.report.page import PageResult
 
 from .case import Case
-from .changes import Change, FrictionEffect
-from .drift import CAMERA, Drift, Wait
+from .drift import CAMERA, Change, Drift, FrictionEffect, Wait
 from .lengths import DriftMap, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty

@@ -18,8 +18,7 @@ from cosim.processes import processes
 from thermal import Belt, NoSteadyState, ParameterError
 
 from .case import AIR, OWN_KEYS, Case, StudyError
-from .changes import changes, friction_effect
-from .drift import drift, wait
+from .drift import changes, drift, friction_effect, wait
 from .lengths import shortest_belts
 from .required_length import Answer, how_long
 from .result import Options, Row, Study

@@ -24,7 +24,7 @@ from cosim.coupling.case import run_scenario
 from cosim.report.page import PageResult
 from cosim.scenario import Scenario
 
-MEASURED = "cosim.studies.friction_map.measured"
+MEASURED = "cosim.studies.friction_map.laws"
 #: Damping over what the fall of friction with the speed drives.
 DAMPING = 3.0
 #: Steady is friction that changes by less than this part in the last tenth of a run: the interface

@@ -11,9 +11,8 @@ from cosim.files import write_bytes, write_text
 from cosim.report.columns import write_columns, write_columns_as_csv
 from cosim.report.files import PAGE_ALONE, Shown, write_json
 from cosim.systems.run import SystemRun
-from cosim.systems.show.dataset import system_columns
 from cosim.systems.show.page import OWN_FILES, page
-from cosim.systems.show.summary import summary
+from cosim.systems.show.summary import summary, system_columns
 
 __all__ = ["FILES", "write_system"]
 

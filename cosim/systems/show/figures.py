@@ -18,8 +18,8 @@ from cosim.report.page import Picture, number, unit_text
 from cosim.report.palette import BLUE, FAINT_BLUE, INK, SERIES, Scaled, readable
 from cosim.report.style import displayed, draw_over_time, picture_over_time, shown
 from cosim.systems.run import SystemRun
-from cosim.systems.show.dataset import is_rounding
 from cosim.systems.show.diagram import colour_key, diagram, is_legible, matrix
+from cosim.systems.show.summary import is_rounding
 
 #: Panels of the first figure, and of the one below with the others, of which the first are drawn.
 FIRST_PANELS, MOST_PANELS = 4, 24

@@ -12,8 +12,8 @@ from cosim.report.material import of_material
 from cosim.report.page import sentences, texts, tiles_of
 from thermal import Belt
 
-from ..changes import NO_HELP
 from ..drift import CAMERA as CAMERA
+from ..drift import NO_HELP
 from ..lengths import LONGEST, length_text, metres, rounded_up
 from ..required_length import NOT_ASKED as NOT_ASKED
 from ..required_length import Answer, Question

@@ -26,8 +26,8 @@ from cosim.studies import FIGURES
 
 from ..cases import SETTLING
 from ..motion import WINDOW
+from .find import SummaryGap
 from .models import SAID
-from .result import SummaryGap
 
 #: What is written as it stands in an answer.
 AS_IT_IS = (
