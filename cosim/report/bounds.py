@@ -6,8 +6,6 @@ block that has left the belt is told of, and from when on its heat is that of a 
 middle.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 

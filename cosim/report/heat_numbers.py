@@ -9,8 +9,6 @@ with w^2 eta v / h in all, so that of the contact at most
 can be flooded, tau the stress of friction.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -4,8 +4,6 @@ A picture's ``live`` is a mapping of plain JSON with the name of its script as `
 (`templates/KIND.js`). Numbers travel as base64 of little-endian arrays, see `packed`.
 """
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace

@@ -1,7 +1,5 @@
 """Colours of figures, and the units in which their numbers are read."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

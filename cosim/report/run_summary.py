@@ -1,7 +1,5 @@
 """The numbers of a run: what `summary.json` and the page show."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 

@@ -1,7 +1,5 @@
 """What all drawings share: type, panels, units on axes, PNG."""
 
-from __future__ import annotations
-
 import io
 import textwrap
 from collections.abc import Callable, Sequence

@@ -1,7 +1,5 @@
 """A system as its file has it, put together: participants, connections, scheme, steps."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass

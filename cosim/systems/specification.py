@@ -1,7 +1,5 @@
 """A system of units as its file has it: what SSP and TOML have in common."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager

@@ -1,7 +1,5 @@
 """What is wrong with a system's file, in one line."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any, TypeVar

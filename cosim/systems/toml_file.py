@@ -3,8 +3,6 @@
 Inputs of a unit over time come from a CSV file: a column `time` (s) and one for each input.
 """
 
-from __future__ import annotations
-
 import csv
 import math
 import re

@@ -1,7 +1,5 @@
 """`stickslip belt-length`: its arguments, what it runs, what it leaves behind."""
 
-from __future__ import annotations
-
 import json
 import sys
 import time

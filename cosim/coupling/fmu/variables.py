@@ -4,8 +4,6 @@ Values of many variables go in and out by name, by one call of the unit for each
 and 3.0 have in common; fmpy has a function for each type.
 """
 
-from __future__ import annotations
-
 import itertools
 import math
 import re

@@ -4,8 +4,6 @@ A run names its series by the port (`x`), a system by unit and port (`mechanics.
 is the same quantity, and so is the same port where either has but one of it.
 """
 
-from __future__ import annotations
-
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence

@@ -1,7 +1,5 @@
 """Curves of two runs, one over the other: the wider, paler one is A, the thinner, darker one B."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import NamedTuple
 

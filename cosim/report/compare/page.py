@@ -1,7 +1,5 @@
 """The page of a comparison: what differs in what made them, then numbers, then curves."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any

@@ -4,8 +4,6 @@ Seen from the rig: the block goes to and fro over the fixed springs' middle, and
 belt, which an arrow says the direction of.
 """
 
-from __future__ import annotations
-
 import io
 from typing import Any, NamedTuple
 

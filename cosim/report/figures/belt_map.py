@@ -8,8 +8,6 @@ edges, where single cells of the mesh are half in contact, pictures have spikes 
 What the block left just before a picture is hot in it, and has cooled by the next: it takes that.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np

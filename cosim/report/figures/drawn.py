@@ -1,7 +1,5 @@
 """A run's figures as drawings: a page's scripts draw most of them by themselves."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, cast
 

@@ -13,8 +13,6 @@ recorded row to the re-stick once more, and says what lies between; where it doe
 on its way, as it cannot know what the run remembered, nothing is added.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 from weakref import WeakKeyDictionary
 

@@ -1,7 +1,5 @@
 """The block's motion: position and rotation over time, friction."""
 
-from __future__ import annotations
-
 import numpy as np
 from numpy.typing import NDArray
 from stickslip.kernel.layout import P_MU_K, P_MU_S, P_NORMAL_FORCE

@@ -1,7 +1,5 @@
 """Velocity over position: the block's way in its phase plane, and the surface's speed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """The rig from above, to scale: springs and block, at rest and at its extreme positions."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np

@@ -4,8 +4,6 @@ How long to wait between two runs: the least pause after which the next one is a
 would help: each change of a case alone. And what the drift does, by friction that warms.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace

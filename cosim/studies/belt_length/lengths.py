@@ -3,8 +3,6 @@
 The shortest of a rig as it is, and in doubt: between the lengths for which the doubt is known.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace

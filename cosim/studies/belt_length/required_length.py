@@ -5,8 +5,6 @@ belt of the nominal rig, the shortest in 5, 50 and 95 % of the rigs that may be 
 many of them the belt that is there is long enough.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property

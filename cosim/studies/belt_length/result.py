@@ -1,7 +1,5 @@
 """What the study found: rows so far, as tables and as JSON."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, field
 from importlib import import_module
 from typing import Any

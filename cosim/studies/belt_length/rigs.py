@@ -11,8 +11,6 @@ of their logarithms; degree, norm and logarithm are those with the least error w
 left out.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

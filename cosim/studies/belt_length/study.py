@@ -3,8 +3,6 @@
 Bad input is named by the option of `stickslip belt-length`, or by file and key.
 """
 
-from __future__ import annotations
-
 import math
 from argparse import Namespace
 from collections.abc import Callable, Iterable

@@ -5,8 +5,6 @@ Variance-based sensitivity after Saltelli 2010: Sobol's sequence, first-order an
 each of the answers that a rise is made of (`rigs`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 

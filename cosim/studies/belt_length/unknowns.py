@@ -18,8 +18,6 @@ rollers does: a file that spells out every key knows no more than one that leave
 tolerances are assumed. A range of one's own takes the place of either.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress

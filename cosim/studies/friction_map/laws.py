@@ -4,8 +4,6 @@ assumed; and measured friction of ice, the rig's own point and published values.
 Laws stand in `laws.toml`, published values in `measured.toml`.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass

@@ -7,8 +7,6 @@ friction of one speed. A block at rest takes nothing from the
 damper: neither friction nor its heat is another for it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from importlib import import_module

@@ -1,7 +1,5 @@
 """A friction map drawn, on logarithmic axes, one curve a temperature; and its page."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any

@@ -5,8 +5,6 @@ computed. A check compares a number of each model with its limit. Changes that a
 with other numbers stand there with these.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from itertools import combinations

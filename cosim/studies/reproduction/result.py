@@ -1,7 +1,5 @@
 """Judged claims as a result, which can become what `stickslip reproduce` leaves."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Sequence

@@ -4,8 +4,6 @@ Growth over pretension and speed. Regimes over speed and mu_s/mu_k, from three s
 is known in closed form.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -3,8 +3,6 @@
 And in which range of one number it sticks and slips: from rest, riding, and from a speed ramp.
 """
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Callable, Iterable

@@ -1,7 +1,5 @@
 """Features against the varied keys."""
 
-from __future__ import annotations
-
 import math
 import textwrap
 from collections.abc import Sequence

@@ -7,8 +7,6 @@ combination for its statistics: over a surface whose friction scatters, each wit
 through the friction coefficients.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """A system's run to the files of its output folder: data, summary, figures and one page."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any

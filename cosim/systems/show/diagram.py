@@ -1,7 +1,5 @@
 """A figure of a system: units as boxes with their ports; of many, who feeds whom as a matrix."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """Figures of a system's run over time: what went across, energy, and the steps taken."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np

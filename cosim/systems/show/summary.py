@@ -2,8 +2,6 @@
 `summary.json` and the page show.
 """
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Callable, Mapping, Sequence

@@ -1,7 +1,5 @@
 """An SSP, or a folder of the same contents, opened with care: what is in it comes from others."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from pathlib import Path, PurePosixPath

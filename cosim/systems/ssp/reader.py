@@ -5,8 +5,6 @@ passes on: a value on its way through it is followed to where it comes from, and
 set gives to it goes to what it feeds.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Parameter bindings: sets of values (ssv), and how their names are mapped (ssm)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import suppress

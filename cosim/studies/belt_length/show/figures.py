@@ -1,7 +1,5 @@
 """Figures of the study: drift over length, what the doubt is made of, map."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

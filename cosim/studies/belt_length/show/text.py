@@ -1,7 +1,5 @@
 """What is said of a study: `sentences.txt.j2` with the figures in words that it asks for."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from functools import cache

@@ -1,7 +1,5 @@
 """C11 and C16 to C18: mu_k/mu_s; dry or lubricated; falling with the speed; strengthening."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache

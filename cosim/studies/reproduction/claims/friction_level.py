@@ -5,8 +5,6 @@ spread that its wording leaves. A model's misfit is the root mean square of its 
 them, in those spreads.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from typing import Any

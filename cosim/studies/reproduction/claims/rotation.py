@@ -1,7 +1,5 @@
 """C5 and C7: what turns the block; the four treatments of the spring angles, the two datasets."""
 
-from __future__ import annotations
-
 from functools import cache
 from typing import Any
 

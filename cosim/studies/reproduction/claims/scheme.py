@@ -1,7 +1,5 @@
 """C1 to C4, C12 and C14: the scheme itself, its matrices and verification runs, costs, jumps."""
 
-from __future__ import annotations
-
 import math
 import timeit
 from collections.abc import Callable

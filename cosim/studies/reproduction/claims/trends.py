@@ -1,7 +1,5 @@
 """C8 to C10: mean x, slip time and mean friction over mass, stiffness and speed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any

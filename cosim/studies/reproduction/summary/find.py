@@ -3,8 +3,6 @@
 The answer, as plain data, says where the misfit lives, and what stays open.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """What the answer for runs of which only figures are known leaves behind: as `cosim.gap.show`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
