@@ -14,11 +14,10 @@ from numpy.typing import NDArray
 from stickslip import Parameters
 from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
 
-from cosim.report.columns import Data
+from cosim.report.columns import Array, Data
 
 from .contents import mechanics_of
 
-Array = NDArray[np.float64]
 Numbers = dict[str, float | None]
 
 #: Attribute of a dataset: width of the belt (of a slab: of the track that is heated), m.

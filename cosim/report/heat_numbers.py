@@ -12,7 +12,6 @@ can be flooded, tau the stress of friction.
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from stickslip.kernel.layout import (
     P_MIXED_LUBRICATION_COUETTE,
     P_MIXED_LUBRICATION_ROUGHNESS,
@@ -21,7 +20,7 @@ from stickslip.kernel.layout import (
     P_RADIUS,
 )
 
-from cosim.report.columns import Data
+from cosim.report.columns import Array, Data
 
 from .contents import SLIP, mechanics_of, ramp_end, still_air_film, thermal_of, value_of
 from .quantities import ratio
@@ -167,8 +166,6 @@ def largest_of(dataset: Data, name: str) -> float:
     """The largest size that is known; 0 where none is."""
     return float(np.nanmax(np.abs(dataset[name].values), initial=0.0))
 
-
-Array = NDArray[np.float64]
 
 #: What a run is like before melting and at its end: means over so long, s.
 WINDOW = 1.0

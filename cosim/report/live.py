@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from cosim.report.columns import Array
+
 Live = Mapping[str, Any]
 
 #: Rows of a figure on a page: about three a pixel of a wide screen. Of more, each of so many

@@ -14,8 +14,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 from stickslip.units import UNITS
+
+from cosim.report.columns import Array
 
 from ...coupling.conversion import BASE_UNITS, between, told_dimension
 from ...coupling.participant import UnitDefinition
@@ -23,7 +24,6 @@ from ..page import PageResult
 from ..quantities import ROUNDING, TABLES
 from .one_result import OneResult
 
-Array = NDArray[np.float64]
 #: What is no quantity of its own: a system's inputs repeat outputs.
 INPUT = "input"
 #: Attributes of a variable: its unit by base units, value in them = factor * value + offset.

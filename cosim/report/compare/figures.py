@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from cosim.report.columns import Array
 from cosim.report.contents import break_aways
 from cosim.report.figures.events import through_events
 from cosim.report.live import Curve, Panel, TimeFigure, panels_on_one_axis
@@ -18,8 +18,6 @@ from cosim.report.quantities import ROUNDING, TABLES
 from cosim.report.style import panels, picture, picture_over_time
 
 from .compare import Comparison, Series
-
-Array = NDArray[np.float64]
 
 
 class Channel(NamedTuple):

@@ -8,8 +8,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.patches import Arc, Circle, Rectangle
-from numpy.typing import NDArray
 from stickslip import Parameters, friction_coefficient
+
+from cosim.report.columns import Array
 
 from ..columns import Data
 from ..contents import mechanics_of
@@ -63,8 +64,6 @@ def draw_friction_table(dataset: Data) -> Figure:
     figure.legend(loc="outside right upper")
     return figure
 
-
-Array = NDArray[np.float64]
 
 #: Of a spring that is drawn: turns, and its width, m.
 TURNS, COIL = 9, 0.006

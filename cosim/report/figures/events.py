@@ -21,10 +21,10 @@ from numpy.typing import NDArray
 from stickslip.kernel import layout
 from stickslip.restarted import Restarts, simulate_restarted
 
+from cosim.report.columns import Array
+
 from ..columns import Column, Columns, Data
 from ..contents import SLIP, has_events, mechanics_of, mode_changes
-
-Array = NDArray[np.float64]
 
 #: Outputs of the model that are put between the rows, and where they stand in its own.
 COLUMNS = {

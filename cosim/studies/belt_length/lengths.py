@@ -9,15 +9,13 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cosim.processes import processes
+from thermal.arrays import Array
 
 from .case import Case, StudyError
 from .drift import endless_belt, interface_drift, least_below, run_drift, steady_drift
 from .uncertainty import INTERVAL, Uncertainty
-
-Array = NDArray[np.float64]
 
 #: Longest belt that is tried, m.
 LONGEST = 50.0

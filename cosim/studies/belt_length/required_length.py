@@ -13,10 +13,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cosim.result import Result
 from cosim.scenario import Scenario
+from thermal.arrays import Array
 
 from .case import Case
 from .drift import CAMERA, endless_belt, interface_drift, run_drift
@@ -24,8 +24,6 @@ from .lengths import LONGEST, Length, Levels, between, rounded_up, shortest_belt
 from .rigs import MOST_MELTING, Rigs
 from .uncertainty import INTERVAL, quantiles
 from .unknowns import ENTRY, INTERFACE, Melts, scenario_case
-
-Array = NDArray[np.float64]
 
 #: Lengths at which the rigs are looked at.
 POINTS = 40

@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from cosim.processes import processes
+from thermal.arrays import Array
 
 from .case import Case
 from .unknowns import (
@@ -35,7 +36,6 @@ from .unknowns import (
     unknowns_of,
 )
 
-Array = NDArray[np.float64]
 #: A rig: its case, and the values of what is not known of it.
 Meant = tuple[Case, dict[str, float]]
 

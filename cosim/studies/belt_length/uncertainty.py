@@ -9,15 +9,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import sobol_indices, uniform
 from scipy.stats import t as student
+
+from thermal.arrays import Array
 
 from .case import Case
 from .rigs import MOST_MELTING, Rigs
 from .unknowns import ENTRY, INTERFACE, Melts, Unknown, answers, combined, needs, weights, with_one
-
-Array = NDArray[np.float64]
 
 #: Interval that is told, quantiles.
 INTERVAL = (0.05, 0.95)

@@ -25,18 +25,16 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from stickslip.packaged import packaged_tables
 
 from thermal import Belt, Layer
+from thermal.arrays import Array
 from thermal.contact.footprint import Footprint
 from thermal.materials import GRAVITY
 
 from ...names import unknown_name
 from ...scenario import Scenario
 from .case import Case, Protocol, Range, StudyError
-
-Array = NDArray[np.float64]
 
 #: Rollers and railing where the rig names none: two with 0.1 m of belt each, and as long as the
 #: sample; on a short belt not more than these parts of it.

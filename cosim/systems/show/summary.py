@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cosim.coupling import Causality, Connection, CoupledSystem
 from cosim.coupling.conversion import NO_UNIT, told_dimension, watts
@@ -23,7 +22,6 @@ from cosim.report.files import provenance, results_line
 from cosim.report.page import number
 from cosim.systems.run import SystemRun
 
-Array = NDArray[np.float64]
 RESIDUAL = "coupling_residual"
 #: Size of a signal that is none: of what its participant has in the same unit, and of its nominal.
 OF_ALIKE, OF_NOMINAL = 1e-11, 1e-13
