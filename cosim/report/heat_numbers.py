@@ -123,7 +123,7 @@ def end_of_sliding(dataset: Data) -> dict[str, float | str | None]:
     air as in this run. Nothing for a run without such a time, nor for a mesh, which takes long.
     """
     from thermal import NoSteadyState
-    from thermal.in_the_end import in_the_end
+    from thermal.steady_sliding import in_the_end
 
     speed, ramp = abs(value_of(dataset, "surface", "speed") or 0.0), ramp_end(dataset)
     late = dataset.sel(time=slice(ramp, None))

@@ -35,12 +35,13 @@ from cosim.systems.specification import (
     NOT_GIVEN,
     Link,
     Start,
+    SystemFault,
     SystemSpecification,
     UnitEntry,
     Value,
+    naming,
     unused,
 )
-from cosim.systems.system_errors import SystemFault, naming
 
 #: Types of variables whose number may be given as a text with its unit.
 WITH_UNIT = (*REALS, *INTEGERS)

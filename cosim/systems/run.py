@@ -20,9 +20,8 @@ from cosim.coupling.record import Keep, RunFolder
 from cosim.names import unknown_name
 from cosim.result import RunResult
 from cosim.systems.assembly import Assembly, assemble, record_every
-from cosim.systems.specification import Start, SystemSpecification
+from cosim.systems.specification import TABLES, Start, SystemFault, SystemSpecification, naming
 from cosim.systems.ssp.reader import read_ssp
-from cosim.systems.system_errors import TABLES, SystemFault, naming
 from cosim.systems.toml_file import read_toml
 
 if TYPE_CHECKING:

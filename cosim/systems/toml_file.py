@@ -25,10 +25,12 @@ from cosim.systems.specification import (
     Link,
     Run,
     Start,
+    SystemFault,
     SystemSpecification,
     UnitEntry,
+    changed,
+    naming,
 )
-from cosim.systems.system_errors import SystemFault, changed, naming
 
 #: Bytes; more is no table that somebody has made for a drive.
 MOST_BYTES = 64 << 20

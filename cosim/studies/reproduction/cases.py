@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from stickslip import Parameters, simulate
 from stickslip.reference.linearised import GRAVITY, Scheme, SchemeRun
-from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
+from stickslip.reference.scheme_options import MENDED, PRINTED, Faults
 
 from .motion import WINDOW, Motion, figures
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from stickslip.packaged import packaged_tables
-from stickslip.reference.scheme_errors import DESCRIPTIONS, PRINTED, Faults
+from stickslip.reference.scheme_options import DESCRIPTIONS, PRINTED, Faults
 
 from cosim.report.page import Picture
 

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 from stickslip.packaged import packaged_tables
-from stickslip.reference.scheme_errors import PRINTED, Faults
+from stickslip.reference.scheme_options import PRINTED, Faults
 
 from .cases import DATASETS, SEEDS, scheme
 from .claim import FAR, OPEN, STUDY

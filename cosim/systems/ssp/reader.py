@@ -21,13 +21,16 @@ from cosim.systems.specification import (
     Link,
     Run,
     Start,
+    SystemFault,
     SystemSpecification,
     UnitEntry,
+    changed,
+    naming,
+    table_of,
 )
 from cosim.systems.ssp.package import Package
 from cosim.systems.ssp.structure import Connector, Element, Ends, tables_of, top_of, units_of
 from cosim.systems.ssp.values import bound_values
-from cosim.systems.system_errors import SystemFault, changed, naming, table_of
 
 #: Names of the elements from the outermost system's to this one, without the outermost's.
 Way = tuple[str, ...]

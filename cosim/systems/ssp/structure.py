@@ -16,7 +16,7 @@ from xml.etree.ElementTree import register_namespace
 from cosim.coupling import Affine, UnitDefinition
 from cosim.coupling.conversion import BASE_UNITS
 from cosim.coupling.fmu.variables import NUMERIC
-from cosim.systems.system_errors import SystemFault
+from cosim.systems.specification import SystemFault
 
 _NAMES = {
     **{"ssc": "Common", "ssd": "Description"},

@@ -24,8 +24,7 @@ from dataclasses import dataclass, field, fields
 import numpy as np
 
 from .scheme import CUT, SLIP, STUCK_AGAIN, Motion, SchemeFaults, SchemeRig
-from .scheme_effects import NO_EFFECTS, SchemeEffects
-from .scheme_errors import PRINTED, Faults
+from .scheme_options import NO_EFFECTS, PRINTED, Faults, SchemeEffects
 from .spring_angles import (
     ATTACHMENT_ANGLES,
     ATTACHMENT_RADIUS,

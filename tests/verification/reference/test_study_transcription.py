@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from stickslip.reference.linearised import Scheme
-from stickslip.reference.scheme_errors import PRINTED
+from stickslip.reference.scheme_options import PRINTED
 from stickslip.reference.spring_angles import stiffness_matrix
 from stickslip.reference.strip_friction import strips as reference_strips
 from study_transcription import R, stiffness, strips, transcribed

@@ -7,7 +7,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from stickslip.reference.scheme_errors import PRINTED
+from stickslip.reference.scheme_options import PRINTED
 
 from cosim.studies.belt_length import Protocol
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
+from stickslip.reference.scheme_options import MENDED, PRINTED, Faults
 
 from cosim.report.palette import LIGHT_GREY
 from cosim.report.style import panels

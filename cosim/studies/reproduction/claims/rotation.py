@@ -4,7 +4,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
+from stickslip.reference.scheme_options import MENDED, PRINTED, Faults
 from stickslip.reference.spring_angles import TREATMENTS
 
 from cosim.report.palette import SERIES

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import linregress, spearmanr
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
-from stickslip.reference.scheme_errors import PRINTED
+from stickslip.reference.scheme_options import PRINTED
 
 from cosim.report.palette import INK
 

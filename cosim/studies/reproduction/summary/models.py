@@ -22,8 +22,7 @@ from stickslip.packaged import packaged_tables
 from stickslip.packing import GRAVITY
 from stickslip.quantity import details
 from stickslip.reference.linearised import Scheme
-from stickslip.reference.scheme_effects import SchemeEffects
-from stickslip.reference.scheme_errors import PRINTED
+from stickslip.reference.scheme_options import PRINTED, SchemeEffects
 
 from ....gap.data import Campaign, MeasuredRun
 from ..cases import CYCLES, SAMPLE, SCATTER, SETTLING, STEADY, Case, longest
