@@ -9,10 +9,8 @@ strips along y, stick judged along x. With all faults mended and the block guide
 kernel's (the tests hold it to that).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields, replace
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 DESCRIPTIONS = {
     "F1": "stick ends where k x, not 4 k x, reaches mu_s N",
@@ -40,17 +38,17 @@ class Faults:
     F15: bool = True
 
     @classmethod
-    def mended(cls) -> Faults:
+    def mended(cls) -> Self:
         """None of them."""
         return cls(**{field.name: False for field in fields(cls)})
 
-    def without(self, *ids: str) -> Faults:
+    def without(self, *ids: str) -> Self:
         """These faults mended; ValueError for an unknown one."""
         return replace(self, **{known(one): False for one in ids})
 
-    def only(self, *ids: str) -> Faults:
+    def only(self, *ids: str) -> Self:
         """These faults and no other; ValueError for an unknown one."""
-        return replace(Faults.mended(), **{known(one): True for one in ids})
+        return replace(self.mended(), **{known(one): True for one in ids})
 
 
 def known(fault: str) -> str:

@@ -6,13 +6,11 @@ under their usual names. The figures: what a report gives where the record is no
 What may be added to a model: every effect of the catalogue, with the ranges of its numbers.
 """
 
-from __future__ import annotations
-
 import math
 import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from scipy.stats import norm
@@ -204,7 +202,7 @@ class Candidate:
         return sum(not span.of_friction for span in self.spans)
 
     @property
-    def free(self) -> Candidate:
+    def free(self) -> Self:
         """The same model, with friction that nothing is known of."""
         spans = [_coefficient(span.key) if span.of_friction else span for span in self.spans]
         return replace(self, spans=tuple(spans))
