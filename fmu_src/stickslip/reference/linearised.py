@@ -25,14 +25,14 @@ import numpy as np
 
 from .scheme import CUT, SLIP, STUCK_AGAIN, Motion, SchemeFaults, SchemeRig
 from .scheme_options import NO_EFFECTS, PRINTED, Faults, SchemeEffects
-from .spring_angles import (
+from .study_rig import (
     ATTACHMENT_ANGLES,
     ATTACHMENT_RADIUS,
     attachments,
     fixed_angles,
+    strips,
     treatment_number,
 )
-from .strip_friction import strips
 
 GRAVITY = 9.81
 

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 from line_rig import published
-from stickslip.reference.coulomb_oscillator import CoulombOscillator
-from stickslip.reference.coulomb_starts import BeltStart
+from stickslip.reference.coulomb_oscillator import BeltStart, CoulombOscillator
 from stickslip.steady_motion import Interface
 from stickslip.steady_motion.borders import all_borders, nearest_borders
 from stickslip.steady_motion.live import OutOfWork, Work

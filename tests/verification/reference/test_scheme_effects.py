@@ -11,7 +11,7 @@ import pytest
 from stickslip import Parameters, simulate
 from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme_options import MENDED, PRINTED, SchemeEffects
-from stickslip.reference.strip_friction import strips
+from stickslip.reference.study_rig import strips
 
 MU_S, MU_K, SPEED = 0.2815, 0.2086, 0.15
 COVERED = strips(0.05)[0].sum()

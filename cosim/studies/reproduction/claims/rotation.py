@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 from stickslip.reference.scheme_options import MENDED, PRINTED, Faults
-from stickslip.reference.spring_angles import TREATMENTS
+from stickslip.reference.study_rig import TREATMENTS
 
 from cosim.report.palette import SERIES
 

@@ -12,7 +12,7 @@ from stickslip import simulate
 from stickslip.reference.interpreted_scheme import interpreted_run
 from stickslip.reference.linearised import GRAVITY, Scheme, SchemeRun
 from stickslip.reference.scheme_options import MENDED, PRINTED, Faults
-from stickslip.reference.spring_angles import ATTACHMENT_RADIUS, fixed_angles, stiffness_matrix
+from stickslip.reference.study_rig import ATTACHMENT_RADIUS, fixed_angles, stiffness_matrix
 
 from cosim.report.palette import INK
 
