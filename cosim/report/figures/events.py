@@ -209,7 +209,7 @@ def _rows_through_events(dataset: Columns) -> tuple[Columns, NDArray[np.bool_]]:
             return values[last], values[following]
         left = _drawn_out(time, values, times, edges - 1, -1, edges - begins)
         right = _drawn_out(time, values, times, edges, 1, ends - edges)
-        if name in FORCES:  # see `end_of_slip`: what no row knows is not made up
+        if name in FORCES:  # see `moments`: what no row knows is not made up
             return np.where(slips, left, values[last]), right
         both = np.where(from_left, left, right)
         return both, both

@@ -1,6 +1,6 @@
 """SystemStructure.ssd as nested systems: elements, connectors, connections, bindings.
 
-What is here is read as it stands; what it comes to, with all borders gone, is in `flat`.
+What is here is read as it stands; what it comes to, with all borders gone, is in `reader`.
 """
 
 from __future__ import annotations

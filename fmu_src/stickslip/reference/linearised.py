@@ -2,9 +2,8 @@
 
 Stick: x' = v, y' = phi' = 0 until the springs reach mu_s N. Slip: M q'' + K q = (F, 0, M_F) with
 q = (x, y, phi), solved exactly in blocks of 10 ms with the friction sampled a hundred times a
-block (`scheme.c`), the spring angles alpha by one of four treatments (`spring_angles`) and
-friction summed over a hundred strips (`strip_friction`). Each known fault can be mended
-(`faults`).
+block (`scheme.c`), the spring angles alpha by one of four treatments and friction summed over a
+hundred strips (`study_rig`). Each known fault can be mended (`scheme_options`).
 
 What the study does not print is a parameter here: the scatter of mu (its standard deviation, per
 strip), the slope of mu_k over the sliding speed (its four data points are only drawn) and, for
