@@ -1,7 +1,7 @@
 from typing import Any
 
 from .effects import EFFECTS as EFFECTS
-from .friction.law_curves import friction_coefficient as friction_coefficient
+from .friction.law import friction_coefficient as friction_coefficient
 from .friction.parameters import Friction as Friction
 from .parameters import Imperfections as Imperfections
 from .parameters import Initial as Initial

@@ -4,7 +4,7 @@ import json
 from argparse import Namespace
 
 from cosim.cli import DONE, BadInput
-from cosim.cli.given import numbers_asked
+from cosim.cli.numbers import numbers_asked
 from cosim.names import unknown_name
 from cosim.scenario.keys import Key, all_keys, found, shown
 

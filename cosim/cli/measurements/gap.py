@@ -18,7 +18,7 @@ from cosim.cli.argument_types import CAMPAIGNS, PACKAGED, STDOUT
 from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
-from cosim.cli.given import numbers_asked
+from cosim.cli.numbers import numbers_asked
 from cosim.gap import Campaign, CampaignError, read_campaign
 from cosim.gap.data.campaign_file import FILE_NAME
 from cosim.gap.example import write_example

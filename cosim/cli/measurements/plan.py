@@ -10,7 +10,7 @@ from cosim.cli.argument_types import STDOUT
 from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
-from cosim.cli.given import numbers_asked
+from cosim.cli.numbers import numbers_asked
 from cosim.files import write_text
 from cosim.gap import CampaignError
 from cosim.gap.example import write_planned_example

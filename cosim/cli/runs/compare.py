@@ -7,7 +7,7 @@ from pathlib import Path
 
 from cosim.cli import DONE
 from cosim.cli.arguments import RESULTS
-from cosim.cli.given import numbers_asked
+from cosim.cli.numbers import numbers_asked
 from cosim.cli.runs.run_io import progress_over
 from cosim.cli.runs.running import scenario_to_run
 from cosim.manifest import made_by, own_folder, results_in

@@ -12,7 +12,7 @@ from typing import Any
 
 from cosim.cli import DONE, BadInput
 from cosim.cli.arguments import RESULTS
-from cosim.cli.given import numbers_asked
+from cosim.cli.numbers import numbers_asked
 from cosim.cli.runs import run_io
 from cosim.cli.runs.run_io import Ending, Job
 from cosim.coupling.record import RunFolder

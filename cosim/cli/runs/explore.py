@@ -5,7 +5,7 @@ from argparse import Namespace
 from pathlib import Path
 
 from cosim.cli import DONE
-from cosim.cli.given import given_scenario, note_taken
+from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.explore.explorer import explorer_page, made_here
 from cosim.files import OutputRefused, writable, write_text
 

@@ -18,9 +18,10 @@ from stickslip.effects import PluginError
 from stickslip.text_file import MOST_TOML, read_text, tables_in
 
 from cosim.cli import BadInput
-from cosim.cli.given import note_taken, numbers_asked
+from cosim.cli.numbers import numbers_asked
 from cosim.cli.runs import run_io, running
 from cosim.cli.runs.run_io import Ending, Job
+from cosim.cli.scenarios import note_taken
 from cosim.coupling.case import CoupledRun, run_scenario
 from cosim.coupling.record import RunFolder
 from cosim.files import writable

@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 from cosim.cli import DONE, FAILED, BadInput, Failed, is_bad_input
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
-from cosim.cli.given import Numbers
+from cosim.cli.numbers import Numbers
 from cosim.coupling import ParticipantError
 from cosim.coupling.messages import SMALLEST, UNCONVERGED, Message
 from cosim.coupling.record import LOG, MessageLog, RunFolder

@@ -13,8 +13,8 @@ from cosim.cli import FAILED
 from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
-from cosim.cli.given import given_scenario
 from cosim.cli.runs.run_io import LAST_OF_DATA, Ending, log_files, own_folder
+from cosim.cli.scenarios import given_scenario
 from cosim.coupling.record import LOG
 from cosim.interrupts import Patience
 from cosim.manifest import other_command

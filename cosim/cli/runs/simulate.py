@@ -6,9 +6,10 @@ from argparse import Namespace
 from stickslip import Trajectory
 
 from cosim.cli import DONE
-from cosim.cli.given import note_taken, numbers_asked
+from cosim.cli.numbers import numbers_asked
 from cosim.cli.runs import running
 from cosim.cli.runs.run_io import Ending, progress_over, shown
+from cosim.cli.scenarios import note_taken
 from cosim.coupling.record import RunFolder
 from cosim.interrupts import Patience, patient_interrupts
 from cosim.manifest import made_by, results_in

@@ -12,7 +12,8 @@ from pathlib import Path
 from cosim.cli import DONE, FAILED, BadInput
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
-from cosim.cli.given import Numbers, given_scenario, note_taken, numbers_asked
+from cosim.cli.numbers import Numbers, numbers_asked
+from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.report.page import write_page
 from cosim.scenario import Scenario

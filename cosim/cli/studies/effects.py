@@ -7,7 +7,7 @@ from typing import Any
 
 from cosim.cli import DONE, Failed
 from cosim.cli.bar import Bar
-from cosim.cli.given import numbers_asked
+from cosim.cli.numbers import numbers_asked
 from cosim.files import writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, results_in

@@ -6,7 +6,7 @@ from argparse import Namespace
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.bar import Bar
-from cosim.cli.given import numbers_asked
+from cosim.cli.numbers import numbers_asked
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.report.files import json_text

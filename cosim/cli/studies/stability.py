@@ -7,7 +7,8 @@ from argparse import Namespace
 
 from cosim.cli import DONE, FAILED
 from cosim.cli.bar import Bar
-from cosim.cli.given import given_scenario, note_taken, numbers_asked
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.studies.stability import NotAMotion, Stability, case_of, stick_slip_range
 from cosim.studies.stability.study import PAGE, RESULT, printed

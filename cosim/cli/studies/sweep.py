@@ -9,7 +9,8 @@ from pathlib import Path
 from cosim.cli import DONE, FAILED
 from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
-from cosim.cli.given import given_scenario, note_taken, numbers_asked
+from cosim.cli.numbers import numbers_asked
+from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import OutputError, not_taken
 from cosim.fmu.build import own_fmu
 from cosim.manifest import made_by, require_own, results_in

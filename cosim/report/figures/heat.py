@@ -3,7 +3,7 @@
 from typing import Any
 
 import numpy as np
-from stickslip.friction.law_curves import feels_water
+from stickslip.friction.law import feels_water
 
 from cosim.report import palette as ink
 from cosim.report.columns import Data

@@ -1,7 +1,6 @@
-"""The friction law by itself: what a contact that slides steadily is braked by, and as curves.
+"""What an effect's law is as a curve: friction over a speed, a hold, a way, a load; a force.
 
-Friction over a speed, a hold, a way, a load; a force. Each is asked of the kernel, interpreted, as
-the motion asks it, with every effect that is on.
+Each is asked of the kernel, interpreted, as the motion asks it, with every effect that is on.
 """
 
 from collections.abc import Callable
@@ -9,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from ..arrays import inputs
@@ -20,42 +19,7 @@ from ..generation.slots import state_slot
 from ..kernel.layout import DISTANCE, P_NORMAL_FORCE, TIME, U_TEMPERATURE, W_STATE, X
 from ..packing import GRAVITY
 from ..parameters import Parameters
-
-
-def friction_coefficient(
-    parameters: Parameters,
-    speed: ArrayLike,
-    interface_temperature: float | None = None,
-    film_thickness: float = 0.0,
-) -> NDArray[np.float64]:
-    """Friction over normal force of a contact that slides along x without turning, speeds (n,) m/s.
-
-    Every effect of friction that is on has its say, with its memory as at the start of a run: no
-    recent heat, no distance slid. interface_temperature: degC; left out, the reference temperature
-    of ``temperature_dependence``. film_thickness: water in the contact, mean over it, m. Raises
-    ValueError for a speed that is not positive.
-
-    >>> friction_coefficient(Parameters(), [0.1])
-    array([0.2086])
-    """
-    speeds = np.atleast_1d(np.asarray(speed, dtype=float))
-    if not np.all(speeds > 0.0):
-        raise ValueError(f"speed = {speeds.min():g} m/s: must be above 0")
-    temperature = temperature_of(parameters, interface_temperature)
-    kernel, layout = parameters.catalogue.compiled, parameters.catalogue.kernel
-    u = inputs(0.0, temperature, film_thickness)
-    p, w = np.array(parameters.pack()), np.zeros(layout.W_SIZE)
-    coefficients = np.empty(speeds.size)
-    for i, value in enumerate(speeds):
-        kernel.friction_in_slip(p, u, w, value, 0.0, 0.0)
-        coefficients[i] = -w[layout.W_FRICTION] / p[P_NORMAL_FORCE]
-    return coefficients
-
-
-def feels_water(parameters: Parameters) -> bool:
-    """Whether water in the contact matters to its friction, by any of the effects that are on."""
-    return bool(parameters.catalogue.kernel.feels_film(parameters.pack()))
-
+from .law import friction_coefficient
 
 Array = NDArray[np.float64]
 POINTS = 300

@@ -12,7 +12,7 @@ import pytest
 from browser import PHONE, Browser
 from explorer_page import address_of
 from stickslip import EFFECTS, Parameters, simulate
-from stickslip.friction.law_curves import friction_coefficient
+from stickslip.friction.law import friction_coefficient
 from stickslip.packing import in_order
 from stickslip.steady_motion import Interface
 from stickslip.steady_motion.regimes import (
