@@ -1,8 +1,13 @@
-"""Belt and ice, joined by the contact: the thermal model that a coupled run advances."""
+"""Belt and ice, joined by the contact: the thermal model that a coupled run advances.
+
+Its heat ledger says what friction produced, and where it went.
+"""
 
 import math
+from dataclasses import astuple, dataclass, fields
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .arrays import Array
 from .belt.material_frame import BeltField
@@ -14,8 +19,58 @@ from .ice.block import StandingBlock, standing_block
 from .ice.cylinder import Cylinder
 from .ice.meltwater import Meltwater
 from .ice.sample import Sample
-from .ledger import HeatLedger
 from .parameters import ThermalParameters
+
+
+@dataclass
+class HeatLedger:
+    """Totals since the start, J.
+
+    `received`: friction heat of the contact; `from_railing`: what entered the belt of the heat that
+    its rubbing on the railing makes.
+    `to_air` and `to_supports` are integrated along with the temperatures, `belt` and `ice` are
+    read off the temperature fields, `meltwater` off the water that there is: none of them is
+    inferred from the others, so `residual` can fail.
+    """
+
+    received: float = 0.0
+    from_railing: float = 0.0
+    from_contact_to_belt: float = 0.0
+    to_air: float = 0.0
+    to_supports: float = 0.0
+    meltwater: float = 0.0
+    belt: float = 0.0
+    ice: float = 0.0
+
+    @property
+    def stored(self) -> float:
+        """In belt, ice and melt water."""
+        return self.belt + self.ice + self.meltwater
+
+    @property
+    def lost(self) -> float:
+        """To air and supports, less what rubbing on the railing brings."""
+        return self.to_air + self.to_supports - self.from_railing
+
+    @property
+    def residual(self) -> float:
+        """Received less everything found: 0 up to rounding."""
+        return self.received - (self.stored + self.lost)
+
+    @property
+    def belt_share(self) -> float:
+        """Share of the friction heat that went into the belt so far; 0 before any."""
+        return self.from_contact_to_belt / self.received if self.received > 0.0 else 0.0
+
+    def array(self) -> NDArray[np.float64]:
+        """The totals as numbers, for saving."""
+        return np.array(astuple(self))
+
+    def restore(self, numbers: NDArray[np.float64]) -> None:
+        """Take totals that `array` returned."""
+        for field, number in zip(fields(self), numbers, strict=True):
+            setattr(self, field.name, float(number))
+
 
 #: Longest movement of the patch in one internal step, as a share of the contact's length; longer
 #: macro steps are cut. At 1/16 the temperatures err by 0.1 % of their rise, at 1/8 by 0.3 %.

@@ -3,13 +3,17 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton, Relaxation
-from cosim.coupling.schemes.iterated import Iterated
+from cosim.coupling.schemes.iterated import Aitken, Iterated, QuasiNewton, Relaxation
 from cosim.coupling.schemes.scheme import GaussSeidel, Jacobi, Scheme
-from cosim.coupling.step_control.adaptive import AdaptiveStep
+from cosim.coupling.step_control.adaptive import (
+    AdaptiveStep,
+    Defect,
+    Doubling,
+    EnergyResidual,
+    Estimate,
+    PowerBond,
+)
 from cosim.coupling.step_control.control import FixedStep, StepControl
-from cosim.coupling.step_control.estimates import Defect, Doubling, EnergyResidual, Estimate
-from cosim.coupling.step_control.power_bond import PowerBond
 from cosim.coupling.tolerance import Tolerance
 
 if TYPE_CHECKING:

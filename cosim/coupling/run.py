@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable
 
 from cosim.coupling.exchange import Exchange
-from cosim.coupling.initial import initialise
+from cosim.coupling.initial import check_restore, initialise, remarks_of, try_restore
 from cosim.coupling.participant import CouplingError, ParticipantError
 from cosim.coupling.record.keeper import Keep, Keeper
 from cosim.coupling.result import CoupledResult, Status, ledger_of
@@ -15,7 +15,6 @@ from cosim.coupling.step_control.control import (
     StepControl,
     Stepper,
 )
-from cosim.coupling.step_control.precheck import check_restore, remarks_of, try_restore
 from cosim.coupling.system import CoupledSystem
 from cosim.files import OutputError
 from cosim.interrupts import deferred_interrupt

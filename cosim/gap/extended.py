@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from stickslip.effects.candidate import FreeParameter, Scales
+from stickslip.effects.effect import FreeParameter, Scales
 from stickslip.effects.periodic import MOST_HARMONIC
 from stickslip.plugins.load import file_of
 

@@ -12,8 +12,7 @@ from functools import partial
 
 import numpy as np
 from scipy.optimize import least_squares
-from stickslip.effects.candidate import Candidate, Scales
-from stickslip.effects.effect import Effect
+from stickslip.effects.effect import Candidate, Effect, Scales
 
 from cosim.gap.data import Campaign
 from cosim.gap.weak_form.ladder import Finding

@@ -6,8 +6,6 @@ block that has left the belt is told of, and from when on its heat is that of a 
 middle.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
@@ -16,11 +14,10 @@ from numpy.typing import NDArray
 from stickslip import Parameters
 from stickslip.kernel.layout import P_ANCHOR, P_ATTACH, P_CURVATURE
 
-from cosim.report.columns import Data
+from cosim.report.columns import Array, Data
 
 from .contents import mechanics_of
 
-Array = NDArray[np.float64]
 Numbers = dict[str, float | None]
 
 #: Attribute of a dataset: width of the belt (of a slab: of the track that is heated), m.

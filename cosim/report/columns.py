@@ -22,6 +22,7 @@ from .files import no_formula, require_room
 if TYPE_CHECKING:
     import xarray as xr
 
+Array = NDArray[np.float64]
 #: What a run is read from.
 Data: TypeAlias = "xr.Dataset | Columns"
 

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel
 from stickslip import Parameters
 from stickslip.packing import GRAVITY
@@ -16,7 +15,7 @@ from stickslip.quantity import details
 from stickslip.steady_motion import Assessment
 from stickslip.trajectory import counted_break_aways
 
-from cosim.report.columns import Data
+from cosim.report.columns import Array, Data
 
 if TYPE_CHECKING:
     from thermal import RigView, ThermalParameters
@@ -25,7 +24,6 @@ if TYPE_CHECKING:
 Views = Sequence[tuple[float, "RigView"]]
 #: Table -> key -> value, unit and description.
 Tables = dict[str, dict[str, dict[str, Any]]]
-Array = NDArray[np.float64]
 
 SLIP = 1.0
 ATTRIBUTE = "assessment"

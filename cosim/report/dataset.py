@@ -12,6 +12,8 @@ from pydantic import BaseModel
 from stickslip import Trajectory
 from stickslip.ports import OUTPUTS
 
+from cosim.report.columns import Array
+
 from .bounds import WIDTH
 from .columns import Column, Columns
 from .contents import tables_of
@@ -41,7 +43,6 @@ if TYPE_CHECKING:
 
     from cosim.coupling import CoupledResult
 
-Array = NDArray[np.float64]
 
 # whole numbers that models and masters carry as floats
 _COUNTS = {"mode": np.int8, "event_mode": np.int8, "slip_count": np.int64}

@@ -9,12 +9,9 @@ with w^2 eta v / h in all, so that of the contact at most
 can be flooded, tau the stress of friction.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from stickslip.kernel.layout import (
     P_MIXED_LUBRICATION_COUETTE,
     P_MIXED_LUBRICATION_ROUGHNESS,
@@ -23,7 +20,7 @@ from stickslip.kernel.layout import (
     P_RADIUS,
 )
 
-from cosim.report.columns import Data
+from cosim.report.columns import Array, Data
 
 from .contents import SLIP, mechanics_of, ramp_end, still_air_film, thermal_of, value_of
 from .quantities import ratio
@@ -126,7 +123,7 @@ def end_of_sliding(dataset: Data) -> dict[str, float | str | None]:
     air as in this run. Nothing for a run without such a time, nor for a mesh, which takes long.
     """
     from thermal import NoSteadyState
-    from thermal.in_the_end import in_the_end
+    from thermal.steady_sliding import in_the_end
 
     speed, ramp = abs(value_of(dataset, "surface", "speed") or 0.0), ramp_end(dataset)
     late = dataset.sel(time=slice(ramp, None))
@@ -169,8 +166,6 @@ def largest_of(dataset: Data, name: str) -> float:
     """The largest size that is known; 0 where none is."""
     return float(np.nanmax(np.abs(dataset[name].values), initial=0.0))
 
-
-Array = NDArray[np.float64]
 
 #: What a run is like before melting and at its end: means over so long, s.
 WINDOW = 1.0

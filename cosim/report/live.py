@@ -4,8 +4,6 @@ A picture's ``live`` is a mapping of plain JSON with the name of its script as `
 (`templates/KIND.js`). Numbers travel as base64 of little-endian arrays, see `packed`.
 """
 
-from __future__ import annotations
-
 import base64
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -14,7 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from cosim.report.columns import Array
+
 Live = Mapping[str, Any]
 
 #: Rows of a figure on a page: about three a pixel of a wide screen. Of more, each of so many

@@ -3,8 +3,6 @@
 Curves with times of their own, as of several models, then share an axis.
 """
 
-from __future__ import annotations
-
 import re
 from collections.abc import Sequence
 

@@ -11,8 +11,6 @@ scrolls by itself, so that a page never does sideways; one of more than two colu
 the window is narrow, its words behind their heads.
 """
 
-from __future__ import annotations
-
 import base64
 import math
 import re

@@ -1,15 +1,12 @@
 """Colours of figures, and the units in which their numbers are read."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from cosim.report.columns import Array
 
 from .page import unit_text
-
-Array = NDArray[np.float64]
 
 # Okabe and Ito's palette: told apart with any kind of colour vision, and unequal in grey
 SERIES = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")

@@ -1,7 +1,5 @@
 """Numbers with their units: as trees of values, and as they are read on a page."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import Any

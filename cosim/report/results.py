@@ -1,7 +1,5 @@
 """A run's dataset to the files of its output folder: data, summary, page, figures on request."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from datetime import datetime
 from pathlib import Path

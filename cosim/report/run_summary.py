@@ -1,15 +1,12 @@
 """The numbers of a run: what `summary.json` and the page show."""
 
-from __future__ import annotations
-
 import json
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from stickslip.trajectory import break_away_frequency
 
-from cosim.report.columns import Data
+from cosim.report.columns import Array, Data
 from cosim.report.contents import assessment_numbers
 
 from . import heat_numbers as heat
@@ -17,8 +14,6 @@ from .bounds import bounds_numbers
 from .contents import break_aways, parameter_values, ramp_end, slip_share
 from .coupling import coupling_numbers
 from .quantities import ratio, with_units
-
-Array = NDArray[np.float64]
 
 
 def after_ramp(dataset: Data) -> dict[str, float | None]:

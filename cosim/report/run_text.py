@@ -3,8 +3,6 @@
 At the top of its page, on stability and regimes, beyond its bounds, and on the terminal at its end.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from functools import cache, partial

@@ -1,7 +1,5 @@
 """What all drawings share: type, panels, units on axes, PNG."""
 
-from __future__ import annotations
-
 import io
 import textwrap
 from collections.abc import Callable, Sequence
@@ -23,11 +21,11 @@ from matplotlib.ticker import LogLocator, NullFormatter, ScalarFormatter, StrMet
 from numpy.typing import NDArray
 from PIL import Image
 
+from cosim.report.columns import Array
+
 from .live import Curve, Live, Map, Panel, TimeFigure
 from .page import DPI, Picture
 from .palette import GREY, INK, SLIP
-
-Array = NDArray[np.float64]
 
 #: The house style, whatever a user's own is.
 RC: Any = matplotlib.rc_params_from_file(

@@ -4,6 +4,6 @@
 """
 
 from cosim.systems.run import SystemRun, read_system, run_system
-from cosim.systems.system_errors import SystemFault
+from cosim.systems.specification import SystemFault
 
 __all__ = ["SystemFault", "SystemRun", "read_system", "run_system"]

@@ -1,7 +1,5 @@
 """A system as its file has it, put together: participants, connections, scheme, steps."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -33,9 +31,17 @@ from cosim.coupling.system import ENERGY_UNIT, Address, find_port
 from cosim.coupling.tolerance import Tolerance
 from cosim.names import unknown_name
 from cosim.scenario.validation import not_in
-from cosim.systems.settings import NOT_GIVEN, unused
-from cosim.systems.specification import Link, Start, SystemSpecification, UnitEntry, Value
-from cosim.systems.system_errors import SystemFault, naming
+from cosim.systems.specification import (
+    NOT_GIVEN,
+    Link,
+    Start,
+    SystemFault,
+    SystemSpecification,
+    UnitEntry,
+    Value,
+    naming,
+    unused,
+)
 
 #: Types of variables whose number may be given as a text with its unit.
 WITH_UNIT = (*REALS, *INTEGERS)

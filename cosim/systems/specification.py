@@ -1,15 +1,136 @@
-"""A system of units as its file has it: what SSP and TOML have in common."""
+"""A system of units as its file has it: what SSP and TOML have in common, and what is wrong."""
 
-from __future__ import annotations
-
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, Self, TypeVar
 
-from cosim.coupling import Affine, Curve, UnitDefinition
+from pydantic import BaseModel, Field, model_validator
+from stickslip.quantity import Table, quantity
+
+from cosim.coupling import Affine, CouplingError, Curve, FmuError, UnitDefinition
 from cosim.coupling.participant import Closing
-from cosim.systems.settings import NOT_GIVEN, Coupling, Run
+from cosim.scenario.method import Method
+from cosim.scenario.validation import ScenarioError, checked
+
+Model = TypeVar("Model", bound=BaseModel)
+#: Tables of a system's file of which keys can be set from outside.
+TABLES = ("coupling", "run")
+
+
+class SystemFault(ValueError):
+    """A system cannot be read or makes no sense; one line: file, key, what, what is allowed."""
+
+
+def table_of(model: type[Model], entries: Any, place: str) -> Model:
+    """A table of a file, checked; SystemFault names its keys with their place."""
+    if not isinstance(entries, Mapping):
+        raise SystemFault(f"{place}: not a table, allowed is a table [{place}]")
+    try:
+        return checked(model, entries)
+    except ScenarioError as fault:
+        line = str(fault)
+        raise SystemFault(line if line.startswith(place) else f"{place}.{line}") from None
+
+
+def changed(tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """The tables of a file with other values; changes: `table.key` -> value."""
+    for key, value in changes.items():
+        table, _, entry = key.partition(".")
+        place = tables.setdefault(table, {})
+        if table not in TABLES or not isinstance(place, dict):
+            raise SystemFault(f"{key}: cannot be set here, allowed are keys of coupling and run")
+        place[entry] = value
+    return tables
+
+
+@contextmanager
+def naming(source: str, key: str = "") -> Iterator[None]:
+    """Let a fault of a system say file and key, where it does not yet."""
+    try:
+        yield
+    except (SystemFault, ScenarioError, CouplingError, FmuError) as fault:
+        said = str(fault)
+        kind = SystemFault if isinstance(fault, ScenarioError) else type(fault)
+        if said.startswith(source):
+            raise kind(said) from None
+        raise kind(f"{source}: {key}: {said}" if key else f"{source}: {said}") from None
+
+
+#: What a number stands at that a file leaves out.
+NOT_GIVEN = math.inf
+
+
+class Coupling(Method):
+    """How the units talk to each other."""
+
+    power_bonds: tuple[tuple[str, str], ...] = Field(
+        (), description="for energy: outputs that feed each other and whose product is a power"
+    )
+    order: tuple[str, ...] = Field(
+        (), description="units, in the order in which they step; left out, as the file has them"
+    )
+    macro_step: float = quantity(
+        NOT_GIVEN, "s", "time between two exchanges; of a step control, the first step", gt=0
+    )
+
+
+#: Keys of [coupling] that mean something to the iterated scheme alone, and to a step control alone.
+_OF_ITERATION = (
+    *("waveform", "sweep", "acceleration", "relaxation"),
+    *("relative_tolerance", "max_iterations", "on_divergence"),
+)
+_OF_CONTROL = ("largest_step", "step_tolerance", "safety")
+
+
+class Run(Table):
+    """From when to when, and how often there is a row of results.
+
+    start : time at which the units start
+    stop : time at which the run ends
+    output_interval : time between two rows of the results; left out, a row a macro step
+    checkpoint_seconds : wall time between two checkpoints, from which --resume goes on, the first
+        after a second; 0: none
+    checkpoint_steps : the same in macro steps, whichever is first; 0: by wall time alone
+    """
+
+    start: float = quantity(0.0, "s")
+    stop: float = quantity(NOT_GIVEN, "s")
+    output_interval: float = quantity(NOT_GIVEN, "s", gt=0)
+    checkpoint_seconds: float = quantity(30.0, "s", ge=0)
+    checkpoint_steps: int = quantity(0, "1", ge=0)
+
+    @model_validator(mode="after")
+    def _has_a_length(self) -> Self:
+        if self.stop <= self.start:
+            raise ValueError(
+                f"stop = {self.stop:g} s, allowed is a time after run.start = {self.start:g} s"
+            )
+        return self
+
+
+def unused(coupling: Coupling, run: Run) -> list[str]:
+    """What was said and has no meaning beside the rest, a line each."""
+    iterated, control = coupling.scheme == "iterated", coupling.step_control
+    without: dict[str, str] = {}
+    if iterated:
+        without["extrapolation"] = 'scheme = "iterated"'
+    else:
+        without |= dict.fromkeys(_OF_ITERATION, f'scheme = "{coupling.scheme}"')
+    if control == "fixed":
+        without |= dict.fromkeys(_OF_CONTROL, 'step_control = "fixed"')
+    if control != "energy":
+        without["power_bonds"] = f'step_control = "{control}"'
+    said = [key for key in Coupling.model_fields if key in coupling.model_fields_set]
+    lines = [f"coupling.{key} is not used with {without[key]}" for key in said if key in without]
+    if control != "fixed" and "output_interval" in run.model_fields_set:
+        lines.append(
+            f'run.output_interval is not used with step_control = "{control}": a row a step'
+        )
+    return lines
+
 
 #: What a variable of a unit can be set to.
 Value = float | int | bool | str

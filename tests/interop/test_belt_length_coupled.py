@@ -9,8 +9,7 @@ from command_line import stickslip_here
 
 from cosim import Scenario, run_scenario
 from cosim.studies.belt_length import Case, Protocol, scenario_case
-from cosim.studies.belt_length.changes import friction_effect, linear_sensitivity
-from cosim.studies.belt_length.drift import drift, run_drift
+from cosim.studies.belt_length.drift import drift, friction_effect, linear_sensitivity, run_drift
 
 #: A run begins with a stick that makes no heat: 1 % of the heat; the estimate spreads it evenly.
 AS_CLOSE_AS_A_CYCLE = 0.03

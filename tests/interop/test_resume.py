@@ -14,7 +14,7 @@ import pytest
 import xarray as xr
 from command_line import stickslip_here
 
-from cosim.coupling.record.checkpoint import load_checkpoint, save_checkpoint
+from cosim.coupling.record.folder import load_checkpoint, save_checkpoint
 
 #: Coarse, so that a run takes seconds; friction feels the temperature, so both sides matter.
 SCENARIO = """

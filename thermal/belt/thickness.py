@@ -19,9 +19,9 @@ from skfem import CellBasis, ElementLineP2, FacetBasis, MeshLine
 
 from thermal.arrays import Array
 from thermal.assembly import Body
-from thermal.eigenmodes import eigenmodes
 from thermal.grids import graded
 from thermal.materials import Medium
+from thermal.relaxation import eigenmodes
 
 from .parameters import Belt, Layer
 

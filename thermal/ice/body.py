@@ -14,8 +14,7 @@ import numpy as np
 
 from thermal.arrays import Array
 from thermal.assembly import HeatSpace
-from thermal.eigenmodes import eigenmodes
-from thermal.relaxation import STEP_SIZES, Step, step
+from thermal.relaxation import STEP_SIZES, Step, eigenmodes, step
 
 #: Change of the height, relative, that the modes bear; the conductance upwards then errs by twice
 #: that, to one side and the other in turn.

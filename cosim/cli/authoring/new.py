@@ -5,8 +5,7 @@ from argparse import Namespace
 
 from cosim.cli import DONE
 from cosim.cli.console import note
-from cosim.scenario.json_schema import SCENARIO_FILE
-from cosim.scenario.written import write_new
+from cosim.scenario.json_schema import SCENARIO_FILE, write_new
 
 
 def execute(arguments: Namespace) -> int:

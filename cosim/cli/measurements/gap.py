@@ -1,24 +1,59 @@
-"""`stickslip gap`: its arguments, what it asks, what it leaves behind."""
+"""`stickslip gap`: its arguments, what it asks, what it leaves behind.
+
+Of the CSV files that a campaign names it is asked first what kind they are and how large.
+"""
 
 import sys
 from argparse import Namespace
+from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
+
+from stickslip.text_file import MOST_TOML, read_text, tables_in
 
 from cosim.cli import DONE, Failed
 from cosim.cli.argument_types import CAMPAIGNS, PACKAGED, STDOUT
 from cosim.cli.arguments import RESULTS
 from cosim.cli.bar import Bar
 from cosim.cli.console import note
-from cosim.cli.measurements.run_files import check_files
 from cosim.cli.numbers import numbers_asked
 from cosim.gap import Campaign, CampaignError, read_campaign
 from cosim.gap.data.campaign_file import FILE_NAME
 from cosim.gap.example import write_example
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, own_folder, results_in
+
+#: Bytes of a run's file: a million rows and more, which take some twenty seconds and 0.7 GB.
+MOST_BYTES = 64 * 2**20
+
+
+def check_files(campaign: Path) -> None:
+    """CampaignError in one line for a run's file that is too large, or may never end."""
+    for number, name in _named(campaign):
+        file = campaign.parent / name
+        said = f"{campaign}: run {number}: file = {name!r}:"
+        if file.exists() and not file.is_file():
+            raise CampaignError(f"{said} is no regular file, allowed is a CSV file")
+        if file.is_file() and (size := file.stat().st_size) > MOST_BYTES:
+            raise CampaignError(
+                f"{said} {size / 2**20:.3g} MiB, allowed are {MOST_BYTES >> 20} MiB: take fewer "
+                "rows a second, or a part of the record"
+            )
+
+
+def _named(campaign: Path) -> Iterator[tuple[int, str]]:
+    """Number of the run and name of its file; none of what whoever reads it will refuse."""
+    try:
+        runs = tables_in(read_text(campaign, MOST_TOML)).get("run")
+    except (OSError, ValueError):
+        return
+    for number, run in enumerate(runs if isinstance(runs, list) else [], 1):
+        name = run.get("file") if isinstance(run, dict) else None
+        if isinstance(name, str) and name:
+            yield number, name
+
 
 RESULT, MODEL, PAGE = "gap.json", "model.toml", "report.html"
 #: By which keys RESULT is known.

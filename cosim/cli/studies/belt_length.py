@@ -1,7 +1,5 @@
 """`stickslip belt-length`: its arguments, what it runs, what it leaves behind."""
 
-from __future__ import annotations
-
 import json
 import sys
 import time
@@ -19,7 +17,7 @@ from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.report.page import write_page
 from cosim.scenario import Scenario
-from cosim.studies.belt_length import scenario_priors
+from cosim.studies.belt_length import unknowns
 from cosim.studies.belt_length.case import Case, Protocol, StudyError
 from cosim.studies.belt_length.lengths import empty_map, fill_map
 from cosim.studies.belt_length.result import Options, Study
@@ -84,12 +82,10 @@ def _asked(arguments: Namespace) -> tuple[Scenario | None, list[Case], Options]:
     if source is not None:
         scenario = given_scenario(source, arguments.changes)
         with _of_file(source):
-            base = scenario_priors.scenario_case(scenario)
+            base = unknowns.scenario_case(scenario)
     elif arguments.changes:
         raise BadInput("--set: changes keys of a scenario, so a SCENARIO is needed with it")
-    base = scenario_priors.with_ranges(
-        replace(base, protocol=_protocol(base, arguments)), arguments.doubt
-    )
+    base = unknowns.with_ranges(replace(base, protocol=_protocol(base, arguments)), arguments.doubt)
     given = scenario is not None
     if arguments.map is None:
         arguments.map = 12 if given else 30
@@ -104,7 +100,7 @@ def _asked(arguments: Namespace) -> tuple[Scenario | None, list[Case], Options]:
         check_case(case, arguments)
         with _of_file(source):
             if scenario is not None:
-                scenario_priors.check_slides(scenario, case)
+                unknowns.check_slides(scenario, case)
     options = Options(arguments.limit, arguments.sensitivity, arguments.samples)
     return scenario, wanted, options
 
@@ -121,9 +117,9 @@ def _of_file(source: str) -> Iterator[None]:
 def _note(scenario: Scenario) -> None:
     """What was taken, and what is computed otherwise."""
     note_taken(scenario)
-    for remark in scenario_priors.remarks(scenario):
+    for remark in unknowns.remarks(scenario):
         note(remark)
-    if keys := scenario_priors.ignored_keys(scenario):
+    if keys := unknowns.ignored_keys(scenario):
         note(
             f"{', '.join(keys)}: ignored, belt-length has a resolution of its own;"
             " `stickslip run` heeds them"

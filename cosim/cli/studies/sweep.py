@@ -18,7 +18,7 @@ from cosim.scenario import Scenario
 from cosim.studies.sweep import Grid, SweepError, SweepStopped, product_grid, run_grid
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import COMPLETE
-from cosim.studies.sweep.plan import plan_grid, repeats_grid
+from cosim.studies.sweep.grid import plan_grid, repeats_grid
 from cosim.studies.sweep.result import FIGURE, PAGE, RESULT, TABLE, Sweep, summary, write
 from cosim.studies.sweep.words import check_shown
 

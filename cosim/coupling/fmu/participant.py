@@ -22,11 +22,18 @@ from cosim.coupling.fmu.description import (
     unloadable,
 )
 from cosim.coupling.fmu.errors import FmuCallError, FmuError, one_line
-from cosim.coupling.fmu.instance import Fmi2, Fmi3
-from cosim.coupling.fmu.log import STATUSES, FmuLog
+from cosim.coupling.fmu.instance import STATUSES, Fmi2, Fmi3, FmuLog
 from cosim.coupling.fmu.module_conflicts import claim_modules, claim_place, leave_place
-from cosim.coupling.fmu.values import Group, Values
-from cosim.coupling.fmu.variables import REALS, START, Setting, check_settings, ports_of, scalars
+from cosim.coupling.fmu.variables import (
+    REALS,
+    START,
+    Group,
+    Setting,
+    Values,
+    check_settings,
+    ports_of,
+    scalars,
+)
 from cosim.coupling.messages import Messages
 from cosim.coupling.participant import Capabilities, Causality, Closing, port_table
 from cosim.coupling.waveform import Waveform

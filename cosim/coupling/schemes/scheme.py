@@ -3,11 +3,10 @@
 from abc import ABC, abstractmethod
 from collections.abc import Sequence, Set
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from cosim.coupling.exchange import Course, Exchange
 from cosim.coupling.participant import CouplingError, capabilities
-from cosim.coupling.schemes.acceleration import Forgetful
 from cosim.coupling.system import Address, CoupledSystem
 from cosim.coupling.waveform import Waveform
 
@@ -40,6 +39,17 @@ class EndedEarly(Exception):
     def __init__(self, name: str, size: float):
         super().__init__(f"{name} ended its step early, after {size:.9g} s")
         self.name, self.size = name, size
+
+
+class Forgetful:
+    """Remembers nothing from step to step."""
+
+    def state(self) -> list[Any]:
+        """Nothing."""
+        return []
+
+    def restore(self, state: list[Any]) -> None:
+        """Nothing to go on from."""
 
 
 class Scheme(Forgetful, ABC):

@@ -1,16 +1,261 @@
-"""Steps as long as their error allows; those with a larger one are taken back."""
+"""Steps as long as their error allows; those with a larger one are taken back.
+
+The error of a step is estimated, as a part of what is allowed: from outputs, or from the energy
+that goes over pairs of connections.
+"""
 
 import math
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
 
+import numpy as np
+
+from cosim.coupling.conversion import POWER, told_dimension
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.messages import SMALLEST
 from cosim.coupling.participant import CouplingError
-from cosim.coupling.schemes.scheme import Scheme
+from cosim.coupling.schemes.iterated import Iterated, Vector
+from cosim.coupling.schemes.scheme import Forgetful, Scheme
 from cosim.coupling.step_control.control import OFTEN, StepControl, Stepper
-from cosim.coupling.step_control.estimates import Estimate
-from cosim.coupling.system import CoupledSystem
+from cosim.coupling.system import Address, Connection, CoupledSystem, find_port
+from cosim.coupling.tolerance import Tolerance
+
+#: Exponents of a unit that count: the radian, the last of them, is a number.
+COUNTED = 7
+
+
+@dataclass(frozen=True)
+class PowerBond:
+    """A pair of connections whose product is a power.
+
+    effort, flow : outputs (`participant.port`) that feed each other's participants: force and
+    velocity, moment and rate of turn. What one side gives in a step the other has to take: with
+    inputs that are extrapolated, their difference is energy that comes from nowhere.
+    """
+
+    effort: Address
+    flow: Address
+
+    def __init__(self, effort: str, flow: str):
+        vars(self).update(effort=Address.parse(effort), flow=Address.parse(flow))
+
+    def __str__(self) -> str:
+        return f"{self.effort} with {self.flow}"
+
+    def check(self, system: CoupledSystem) -> str:
+        """A remark where nobody says what a unit means, else ""; CouplingError for no power bond.
+
+        Both are connected, to each other's participants, and their product is a power, by what
+        their units are made of.
+        """
+        for source, sink in ((self.effort, self.flow), (self.flow, self.effort)):
+            find_port(system.participants, source)
+            feed = _feed(system, source, sink.participant)
+            if system.conversions[feed].factor == 0.0:
+                raise CouplingError(
+                    f"power bond {self}: {feed} has the factor 0, allowed is another"
+                )
+        ports = [find_port(system.participants, each) for each in (self.effort, self.flow)]
+        units = " times ".join("no unit" if port.unit == "1" else port.unit for port in ports)
+        first, second = (port.definition for port in ports)
+        if first is None or second is None:
+            return f"power bond {self}: whether {units} is a power is not checked: not defined"
+        exponents = [a + b for a, b in zip(first.exponents, second.exponents, strict=True)]
+        if tuple(exponents[:COUNTED]) != POWER[:COUNTED] or first.offset or second.offset:
+            raise CouplingError(
+                f"power bond {self}: {units} ({told_dimension(exponents)}) is no power, allowed "
+                "are two outputs whose product is one, as force and velocity, in W or multiples"
+            )
+        return ""
+
+    def watts(self, system: CoupledSystem) -> float:
+        """W that the product of the two is in: 1000 of kN and m/s; 1 where nobody says."""
+        ports = [find_port(system.participants, each) for each in (self.effort, self.flow)]
+        first, second = (port.definition for port in ports)
+        return 1.0 if first is None or second is None else first.factor * second.factor
+
+    def values(self, exchange: Exchange) -> tuple[float, float, float, float]:
+        """Effort given, effort got, flow given, flow got in the step that has just been made."""
+        return (
+            *_both_ends(exchange, self.effort, self.flow.participant),
+            *_both_ends(exchange, self.flow, self.effort.participant),
+        )
+
+
+def _feed(system: CoupledSystem, source: Address, sink: str) -> Connection:
+    for each in system.connections:
+        if each.source == source and each.sink.participant == sink:
+            return each
+    raise CouplingError(f"power bond: {source} does not feed {sink}, allowed are outputs that do")
+
+
+def _both_ends(exchange: Exchange, source: Address, sink: str) -> tuple[float, float]:
+    """Value that a source gives, and what the participant at the other end stepped with.
+
+    Both as the source counts: a force that is turned round on its way is the same force.
+    """
+    feed = _feed(exchange.system, source, sink)
+    got = exchange.inputs[sink][feed.sink.port]
+    way = exchange.system.conversions[feed]
+    given = exchange.outputs[source.participant][source.port]
+    return given, (got - way.offset) / way.factor
+
+
+class Estimate(Forgetful):
+    """Makes a step and says how large its error is.
+
+    more: powers of the step's size by which the error of a step is smaller than what the scheme is
+    off by over a run.
+    """
+
+    more: ClassVar[int] = 0
+
+    def check(self, system: CoupledSystem) -> list[str]:
+        """What could not be checked, a line each; CouplingError for a system that does not fit."""
+        return []
+
+    def begin(self, scheme: Scheme) -> None:
+        """A run with a scheme begins."""
+        self._accuracy = scheme.accuracy
+
+    @property
+    def exponent(self) -> float:
+        """Power of the step's size that the error goes with."""
+        return float(self._accuracy + self.more)
+
+    def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
+        """Step to an end (s) or less far: the time reached, s, and error / allowed."""
+        raise NotImplementedError
+
+
+@dataclass
+class OfOutputs(Estimate):
+    """Compares values of outputs, of which any will do."""
+
+    tolerance: Tolerance = field(default_factory=Tolerance)
+
+    def check(self, system: CoupledSystem) -> list[str]:
+        """The tolerances are those of its ports."""
+        self.tolerance.check(system)
+        return []
+
+    def largest(
+        self, exchange: Exchange, which: tuple[Address, ...], expected: Vector, times: float = 1.0
+    ) -> float:
+        """Error of some outputs as a part of what is allowed, the largest.
+
+        times: how often it is in the difference from what was expected, (n,).
+        """
+        if not which:
+            return 0.0
+        found = exchange.values(which)
+        allowed = self.tolerance.allowed(self.tolerance.least(exchange.system, which), found)
+        return float((np.abs(found - expected) / times / allowed).max())
+
+
+class Doubling(OfOutputs):
+    """The step is made once whole and once in two halves, which stand.
+
+    Their difference over 2^p - 1, p the scheme's order, is the error of the halves (Richardson).
+    Three steps for two; of all connected outputs.
+    """
+
+    more = 1
+
+    def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
+        """Whole, back, and in halves."""
+        exchange = stepper.exchange
+        began, which = exchange.now, exchange.system.sources
+        with exchange.marked() as mark:
+            end = stepper.make(end)
+            whole = exchange.values(which)
+            exchange.back(mark)
+        for goal in (began + (end - began) / 2.0, end):
+            reached = stepper.make(goal)
+            if reached < goal:
+                return reached, 0.0  # an event came first: a step of less than the size
+        return reached, self.largest(exchange, which, whole, 2.0**self._accuracy - 1.0)
+
+
+class Defect(OfOutputs):
+    """What inputs were extrapolated to at the step's end, against what has come of them.
+
+    Costs no further step. Of the outputs that the scheme needs before they are there. Joules handed
+    over since the start are held by every scheme, so theirs is what the step has handed over.
+    """
+
+    def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
+        """One step."""
+        exchange, degree = stepper.exchange, self._accuracy - 1
+        began, which = exchange.now, stepper.scheme.unknown(exchange.system)
+        courses = [exchange.extrapolated(source, degree, end - began) for source in which]
+        reached = stepper.make(end)
+        expected = np.array([course.at(reached - began) for course in courses])
+        return reached, self.largest(exchange, which, expected)
+
+
+@dataclass
+class EnergyResidual(Estimate):
+    """Energy that a step makes or loses on power bonds, against what has crossed them.
+
+    dE = h (effort given x flow got - effort got x flow given) at the step's end: Sadjina and
+    others, "Energy conservation and power bonds in co-simulations", Engineering with Computers 33
+    (2017). Allowed is `absolute` (J) + `relative` of the largest energy that had crossed a bond,
+    summed over the steps as a magnitude.
+    """
+
+    bonds: Sequence[PowerBond]
+    relative: float = 1e-3
+    absolute: float = 1e-9
+    _crossed: float = 0.0
+    _watts: tuple[float, ...] = ()
+
+    more = 1  # a step's length times the first power that the polynomial lacks
+
+    def check(self, system: CoupledSystem) -> list[str]:
+        """Every bond is one, and its product a power."""
+        remarks = [bond.check(system) for bond in self.bonds]
+        self._watts = tuple(bond.watts(system) for bond in self.bonds)
+        return [remark for remark in remarks if remark]
+
+    def begin(self, scheme: Scheme) -> None:
+        """Nothing has crossed yet."""
+        if not self.bonds:
+            raise CouplingError("step_control = 'energy': needs at least one power bond")
+        if isinstance(scheme, Iterated):
+            # both ends agree there, however long the step: nothing would hold it back
+            raise CouplingError(
+                "step_control = 'energy': measures what extrapolated inputs are off by, and "
+                "scheme = 'iterated' has none; allowed are gauss_seidel and jacobi"
+            )
+        super().begin(scheme)
+        self._crossed = 0.0
+
+    def make(self, stepper: Stepper, end: float) -> tuple[float, float]:
+        """One step."""
+        exchange = stepper.exchange
+        began = exchange.now
+        reached = stepper.make(end)
+        lost, crossed = 0.0, 0.0
+        for bond, watts in zip(self.bonds, self._watts, strict=True):
+            effort, effort_got, flow, flow_got = bond.values(exchange)
+            joules = watts * (reached - began)
+            lost += joules * abs(effort * flow_got - effort_got * flow)
+            crossed += joules * abs(effort * flow)
+        error = lost / (self.absolute + self.relative * max(self._crossed, crossed))
+        if error <= 1.0:
+            self._crossed = max(self._crossed, crossed)
+        return reached, error
+
+    def state(self) -> Any:
+        """Energy that has crossed, J."""
+        return self._crossed
+
+    def restore(self, state: Any) -> None:
+        """Go on with it."""
+        self._crossed = float(state)
+
 
 #: Bounds of the factor from one step to the next.
 SHRINK, GROW = 0.2, 5.0

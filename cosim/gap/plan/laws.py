@@ -12,8 +12,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from stickslip.effects.candidate import Candidate
-from stickslip.effects.effect import Effect, no_candidates
+from stickslip.effects.effect import Candidate, Effect, no_candidates
 from stickslip.quantity import details
 
 from cosim.gap.laws import SHAPES, Context, scales_of

@@ -1,15 +1,13 @@
 """Curves of two runs, one over the other: the wider, paler one is A, the thinner, darker one B."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from cosim.report.columns import Array
 from cosim.report.contents import break_aways
 from cosim.report.figures.events import through_events
 from cosim.report.live import Curve, Panel, TimeFigure, panels_on_one_axis
@@ -19,10 +17,7 @@ from cosim.report.palette import BLUE, ORANGE, readable
 from cosim.report.quantities import ROUNDING, TABLES
 from cosim.report.style import panels, picture, picture_over_time
 
-from .compare import Comparison
-from .series import Series
-
-Array = NDArray[np.float64]
+from .compare import Comparison, Series
 
 
 class Channel(NamedTuple):

@@ -1,7 +1,5 @@
 """One result as a folder of `run`, `simulate` or `couple` holds it."""
 
-from __future__ import annotations
-
 import json
 import tomllib
 from collections.abc import Mapping

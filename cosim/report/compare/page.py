@@ -1,7 +1,5 @@
 """The page of a comparison: what differs in what made them, then numbers, then curves."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -11,8 +9,7 @@ from cosim.report.files import write_json
 from cosim.report.page import Picture, render, sentences, texts, tiles_of
 from cosim.report.quantities import DIGITS, FOUND, NONE, digits, is_share, told, worded
 
-from .compare import SAME, Comparison, Difference
-from .series import Apart
+from .compare import SAME, Apart, Comparison, Difference
 
 RESULT, PAGE = "compare.json", "report.html"
 #: What a difference of two values in such a unit is in.

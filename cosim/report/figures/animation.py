@@ -4,8 +4,6 @@ Seen from the rig: the block goes to and fro over the fixed springs' middle, and
 belt, which an arrow says the direction of.
 """
 
-from __future__ import annotations
-
 import io
 from typing import Any, NamedTuple
 
@@ -18,15 +16,13 @@ from matplotlib.collections import QuadMesh
 from matplotlib.colors import Normalize, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.transforms import Affine2D
-from numpy.typing import NDArray
 from PIL import Image
 
+from cosim.report.columns import Array
 from cosim.report.contents import Views
 from cosim.report.palette import GREY, HEAT_MAP, INK, SKY, readable
 from cosim.report.style import RC, plain_ticks
 from thermal import RigView
-
-Array = NDArray[np.float64]
 
 #: s: how long an animation lasts, within what the eye follows (frames per second).
 LASTS = 12.0

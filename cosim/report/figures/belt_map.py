@@ -8,22 +8,18 @@ edges, where single cells of the mesh are half in contact, pictures have spikes 
 What the block left just before a picture is hot in it, and has cooled by the next: it takes that.
 """
 
-from __future__ import annotations
-
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cosim.report.columns import Data
+from cosim.report.columns import Array, Data
 from cosim.report.contents import thermal_of, value_of
 from cosim.report.heat_numbers import ambient_degC
 from cosim.report.live import Curve, Map, Panel, TimeFigure
 from cosim.report.palette import HEAT_MAP, SKY, readable
 
 from .over_time import titled
-
-Array = NDArray[np.float64]
 
 #: Of the map: times and places.
 MOST_TIMES, MOST_PLACES = 500, 400

@@ -1,7 +1,5 @@
 """Friction heat, temperatures of contact and belt, and melting over time."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import numpy as np

@@ -1,17 +1,12 @@
 """The block's motion: position and rotation over time, friction."""
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 from stickslip.kernel.layout import P_MU_K, P_MU_S, P_NORMAL_FORCE
 
-from cosim.report.columns import Data
+from cosim.report.columns import Array, Data
 from cosim.report.contents import mechanics_of
 from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.palette import BLUE, GREEN, RED, Scaled, readable
-
-Array = NDArray[np.float64]
 
 # what a camera over the rig would just see; smaller motions are not blown up to fill the axis
 SMALLEST_LENGTH = 1e-4

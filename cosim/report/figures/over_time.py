@@ -1,7 +1,5 @@
 """Figures over the time of a run: slip shaded, a part of a long run enlarged."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple

@@ -1,15 +1,12 @@
 """Velocity over position: the block's way in its phase plane, and the surface's speed."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from stickslip.kernel.layout import P_CURVATURE
 
-from cosim.report.columns import Data
+from cosim.report.columns import Array, Data
 from cosim.report.contents import break_aways, mechanics_of, ramp_end
 from cosim.report.live import Live, packed
 from cosim.report.palette import BLUE, GREY, INK, RED, Scaled, readable
@@ -18,7 +15,6 @@ from .events import through_events
 from .motion import DEGREES, SMALLEST_ANGLE_DEG
 from .over_time import zoom_of
 
-Array = NDArray[np.float64]
 DEGREES_PER_SECOND = Scaled(180.0 / np.pi, "°/s")
 RAMP = "speed ramp"
 #: Points of a way on a page: more than a wide screen tells apart.

@@ -1,23 +1,18 @@
 """The rig from above, to scale: springs and block, at rest and at its extreme positions."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from stickslip import Parameters
 from stickslip.kernel.layout import P_CURVATURE
 
 from cosim.report.bounds import WIDTH, known_rows, spring_ends
-from cosim.report.columns import Data
+from cosim.report.columns import Array, Data
 from cosim.report.contents import mechanics_of, value_of
 from cosim.report.live import Live, packed
 
 from .motion import SMALLEST_ANGLE_DEG
 from .over_time import zoom_of
-
-Array = NDArray[np.float64]
 
 
 class Pose(NamedTuple):

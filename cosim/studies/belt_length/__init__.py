@@ -11,12 +11,12 @@ from .lengths import shortest_belt as shortest_belt
 from .required_length import how_long as how_long
 from .result import Options as Options
 from .result import Study as Study
-from .scenario_priors import check_slides as check_slides
-from .scenario_priors import ignored_keys as ignored_keys
-from .scenario_priors import remarks as remarks
-from .scenario_priors import scenario_case as scenario_case
-from .scenario_priors import with_ranges as with_ranges
 from .show.text import verdict as verdict
 from .study import answer_all as answer_all
 from .study import cases as cases
 from .study import work_off as work_off
+from .unknowns import check_slides as check_slides
+from .unknowns import ignored_keys as ignored_keys
+from .unknowns import remarks as remarks
+from .unknowns import scenario_case as scenario_case
+from .unknowns import with_ranges as with_ranges

@@ -1,12 +1,10 @@
 """One case: what is chosen, how it is run, and the thermal models that follow from it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Self
 
 from cosim.coupling.case.thermal_participant import prepared_block
 from cosim.processes import stop_if_told
@@ -167,7 +165,7 @@ class Case:
         return self._film(0.0, self.protocol.moving)
 
     @property
-    def lasting(self) -> Case:
+    def lasting(self) -> Self:
         """The same for ever, when the belt is warmer and still air takes more."""
         return replace(self, h=self._film(self.speed, math.inf))
 
@@ -216,11 +214,11 @@ class Case:
         carried = convection(self.speed, self._span, self.ambient_degC, self.rig.belt.width)
         return frost(carried, radiation(self.ambient_degC), self.ambient_degC)
 
-    def with_length(self, length: float) -> Case:
+    def with_length(self, length: float) -> Self:
         """The same on another belt."""
         return replace(self, length=length)
 
-    def changed(self, keys: Mapping[str, float]) -> Case:
+    def changed(self, keys: Mapping[str, float]) -> Self:
         """The same with other numbers of the thermal model, `block.key` -> value."""
         own: Any = {OWN_KEYS[key]: value for key, value in keys.items() if key in OWN_KEYS}
         others = {key: value for key, value in keys.items() if key not in OWN_KEYS}

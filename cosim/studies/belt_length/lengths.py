@@ -3,23 +3,19 @@
 The shortest of a rig as it is, and in doubt: between the lengths for which the doubt is known.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cosim.processes import processes
+from thermal.arrays import Array
 
 from .case import Case, StudyError
 from .drift import endless_belt, interface_drift, least_below, run_drift, steady_drift
 from .uncertainty import INTERVAL, Uncertainty
-
-Array = NDArray[np.float64]
 
 #: Longest belt that is tried, m.
 LONGEST = 50.0

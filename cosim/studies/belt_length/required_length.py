@@ -5,8 +5,6 @@ belt of the nominal rig, the shortest in 5, 50 and 95 % of the rigs that may be 
 many of them the belt that is there is long enough.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from functools import cached_property
@@ -15,20 +13,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cosim.result import Result
 from cosim.scenario import Scenario
+from thermal.arrays import Array
 
 from .case import Case
 from .drift import CAMERA, endless_belt, interface_drift, run_drift
 from .lengths import LONGEST, Length, Levels, between, rounded_up, shortest_belts
 from .rigs import MOST_MELTING, Rigs
-from .scenario_priors import scenario_case
 from .uncertainty import INTERVAL, quantiles
-from .unknowns import ENTRY, INTERFACE, Melts
-
-Array = NDArray[np.float64]
+from .unknowns import ENTRY, INTERFACE, Melts, scenario_case
 
 #: Lengths at which the rigs are looked at.
 POINTS = 40

@@ -1,7 +1,5 @@
 """What the study found: rows so far, as tables and as JSON."""
 
-from __future__ import annotations
-
 from dataclasses import asdict, dataclass, field
 from importlib import import_module
 from typing import Any
@@ -13,8 +11,7 @@ from cosim.report.files import without_nan
 from cosim.report.page import PageResult
 
 from .case import Case
-from .changes import Change, FrictionEffect
-from .drift import CAMERA, Drift, Wait
+from .drift import CAMERA, Change, Drift, FrictionEffect, Wait
 from .lengths import DriftMap, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty

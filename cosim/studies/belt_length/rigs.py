@@ -11,8 +11,6 @@ of their logarithms; degree, norm and logarithm are those with the least error w
 left out.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -23,6 +21,7 @@ from numpy.typing import NDArray
 from scipy.stats import qmc
 
 from cosim.processes import processes
+from thermal.arrays import Array
 
 from .case import Case
 from .unknowns import (
@@ -37,7 +36,6 @@ from .unknowns import (
     unknowns_of,
 )
 
-Array = NDArray[np.float64]
 #: A rig: its case, and the values of what is not known of it.
 Meant = tuple[Case, dict[str, float]]
 

@@ -3,8 +3,6 @@
 Bad input is named by the option of `stickslip belt-length`, or by file and key.
 """
 
-from __future__ import annotations
-
 import math
 from argparse import Namespace
 from collections.abc import Callable, Iterable
@@ -18,8 +16,7 @@ from cosim.processes import processes
 from thermal import Belt, NoSteadyState, ParameterError
 
 from .case import AIR, OWN_KEYS, Case, StudyError
-from .changes import changes, friction_effect
-from .drift import drift, wait
+from .drift import changes, drift, friction_effect, wait
 from .lengths import shortest_belts
 from .required_length import Answer, how_long
 from .result import Options, Row, Study

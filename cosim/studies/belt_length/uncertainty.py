@@ -5,21 +5,18 @@ Variance-based sensitivity after Saltelli 2010: Sobol's sequence, first-order an
 each of the answers that a rise is made of (`rigs`).
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import sobol_indices, uniform
 from scipy.stats import t as student
+
+from thermal.arrays import Array
 
 from .case import Case
 from .rigs import MOST_MELTING, Rigs
 from .unknowns import ENTRY, INTERFACE, Melts, Unknown, answers, combined, needs, weights, with_one
-
-Array = NDArray[np.float64]
 
 #: Interval that is told, quantiles.
 INTERVAL = (0.05, 0.95)

@@ -1,7 +1,5 @@
 """The catalogue of effects: what it says of each, as plain data for table, JSON and page."""
 
-from __future__ import annotations
-
 import math
 from pathlib import Path
 from typing import Any, NamedTuple

@@ -1,7 +1,5 @@
 """The catalogue as a page: all laws at a glance, then each, with the motion with and without it."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

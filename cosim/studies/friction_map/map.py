@@ -7,8 +7,6 @@ friction of one speed. A block at rest takes nothing from the
 damper: neither friction nor its heat is another for it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from importlib import import_module
@@ -24,7 +22,7 @@ from cosim.coupling.case import run_scenario
 from cosim.report.page import PageResult
 from cosim.scenario import Scenario
 
-MEASURED = "cosim.studies.friction_map.measured"
+MEASURED = "cosim.studies.friction_map.laws"
 #: Damping over what the fall of friction with the speed drives.
 DAMPING = 3.0
 #: Steady is friction that changes by less than this part in the last tenth of a run: the interface

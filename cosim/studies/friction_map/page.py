@@ -1,7 +1,5 @@
 """A friction map drawn, on logarithmic axes, one curve a temperature; and its page."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 from typing import Any
@@ -21,9 +19,9 @@ from cosim.report.palette import GREY, INK, PALE_GREY, SERIES
 from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
 from cosim.studies import FIGURES
 
+from .laws import Measured, differences, measured_beside, own_point
 from .laws import laws_of as laws_of
 from .map import SAME, FrictionMap, steady_scenario
-from .measured import Measured, differences, measured_beside, own_point
 
 #: The law is drawn this far beyond the slowest and the fastest run.
 BELOW, ABOVE = 300.0, 5.0

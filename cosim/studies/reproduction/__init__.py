@@ -5,8 +5,6 @@
 'holds'
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from .claim import Check, Claim, Row, UnknownClaim, claim_ids, judged

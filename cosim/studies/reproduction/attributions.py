@@ -1,7 +1,5 @@
 """C5 to C7 under every reading of the scheme that the study's two datasets leave standing."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 

@@ -1,18 +1,16 @@
 """The study's cases, and the three models that they are run with: as printed, mended, exact."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache
 from itertools import product
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from stickslip import Parameters, simulate
 from stickslip.reference.linearised import GRAVITY, Scheme, SchemeRun
-from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
+from stickslip.reference.scheme_options import MENDED, PRINTED, Faults
 
 from .motion import WINDOW, Motion, figures
 
@@ -60,11 +58,11 @@ class Case:
         """N"""
         return self.mass * GRAVITY
 
-    def changed(self, **changes: float) -> Case:
+    def changed(self, **changes: float) -> Self:
         """This case with other numbers."""
         return replace(self, **changes)
 
-    def over(self, number: str, values: Iterable[float]) -> list[Case]:
+    def over(self, number: str, values: Iterable[float]) -> list[Self]:
         """This case with each value of one of its numbers."""
         return [self.changed(**{number: value}) for value in values]
 

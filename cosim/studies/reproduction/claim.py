@@ -5,8 +5,6 @@ computed. A check compares a number of each model with its limit. Changes that a
 with other numbers stand there with these.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
 from itertools import combinations
@@ -15,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from stickslip.packaged import packaged_tables
-from stickslip.reference.scheme_errors import DESCRIPTIONS, PRINTED, Faults
+from stickslip.reference.scheme_options import DESCRIPTIONS, PRINTED, Faults
 
 from cosim.report.page import Picture
 

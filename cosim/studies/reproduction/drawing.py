@@ -1,7 +1,5 @@
 """Figures of the reproduction: curves in panels, in the colours and lines of the models."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 

@@ -5,15 +5,13 @@ reading (`readings.toml`) takes something otherwise, as another passage of the s
 the print leaves it open, and is laid beside all five.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 from stickslip.packaged import packaged_tables
-from stickslip.reference.scheme_errors import PRINTED, Faults
+from stickslip.reference.scheme_options import PRINTED, Faults
 
 from .cases import DATASETS, SEEDS, scheme
 from .claim import FAR, OPEN, STUDY
@@ -67,7 +65,7 @@ class Reading:
         chance = self.changes.get("scatter") != 0.0 and "weakening" not in self.both
         return SEEDS if chance else SEEDS[:1]
 
-    def mended(self, *faults: str) -> Reading:
+    def mended(self, *faults: str) -> Self:
         """This reading with some faults mended."""
         return replace(self, faults=self.faults.without(*faults))
 

@@ -1,7 +1,5 @@
 """Judged claims as a result, which can become what `stickslip reproduce` leaves."""
 
-from __future__ import annotations
-
 import re
 from collections import Counter
 from collections.abc import Sequence
@@ -10,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from stickslip.reference.scheme_errors import DESCRIPTIONS
+from stickslip.reference.scheme_options import DESCRIPTIONS
 
 from cosim.files import write_text
 from cosim.report.files import json_text, without_nan

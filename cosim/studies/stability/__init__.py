@@ -5,7 +5,7 @@ from .maps import NotAMotion as NotAMotion
 from .maps import case_of as case_of
 from .maps import pretension_map as pretension_map
 from .maps import regime_map as regime_map
-from .stick_slip_range import range_sentence as range_sentence
-from .stick_slip_range import stick_slip_range as stick_slip_range
 from .study import Stability as Stability
+from .study import range_sentence as range_sentence
 from .study import stability as stability
+from .study import stick_slip_range as stick_slip_range

@@ -4,8 +4,6 @@ Growth over pretension and speed. Regimes over speed and mu_s/mu_k, from three s
 is known in closed form.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,8 +12,7 @@ import numpy as np
 from stickslip import Parameters
 from stickslip.packing import GRAVITY
 from stickslip.parameters import EffectTables
-from stickslip.reference.coulomb_oscillator import CoulombOscillator
-from stickslip.reference.coulomb_starts import BeltStart
+from stickslip.reference.coulomb_oscillator import BeltStart, CoulombOscillator
 from stickslip.steady_motion import Assessment, Interface, RunEnded, assess, with_pretension
 from stickslip.steady_motion.numbers import at_speed, with_ratio
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP, regime_of

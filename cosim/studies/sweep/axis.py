@@ -1,7 +1,5 @@
 """What is varied: values of one key, or of several that go together; also as text, of `--vary`."""
 
-from __future__ import annotations
-
 import math
 import re
 import tomllib

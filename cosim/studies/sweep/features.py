@@ -6,8 +6,6 @@ the cubic through positions and velocities of two neighbouring rows (fourth orde
 distance); slip times, shares and the frequency come from the located events.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """Features against the varied keys."""
 
-from __future__ import annotations
-
 import math
 import textwrap
 from collections.abc import Sequence
@@ -15,14 +13,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from cosim.report.columns import Array
 from cosim.report.palette import BLUE, FAINT_BLUE, INK, LIGHT_BLUE
 from cosim.report.style import at_least, picture
 from cosim.studies import FIGURES
 
 from .features import ALL
 from .words import shown_features, titled
-
-Array = NDArray[np.float64]
 
 # more lines than this in a panel are a tangle: their median and their range instead
 MOST_LINES = 7

@@ -5,8 +5,6 @@ found by their content key, so it does not matter which sweep they were computed
 another version of the model lie in another folder.
 """
 
-from __future__ import annotations
-
 import hashlib
 import json
 import math

@@ -1,7 +1,5 @@
 """What is said of a sweep: which features tell something, what the block does where."""
 
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
 from itertools import groupby

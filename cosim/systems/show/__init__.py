@@ -1,7 +1,5 @@
 """A system's run to the files of its output folder: data, summary, figures and one page."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
@@ -11,9 +9,8 @@ from cosim.files import write_bytes, write_text
 from cosim.report.columns import write_columns, write_columns_as_csv
 from cosim.report.files import PAGE_ALONE, Shown, write_json
 from cosim.systems.run import SystemRun
-from cosim.systems.show.dataset import system_columns
 from cosim.systems.show.page import OWN_FILES, page
-from cosim.systems.show.summary import summary
+from cosim.systems.show.summary import summary, system_columns
 
 __all__ = ["FILES", "write_system"]
 

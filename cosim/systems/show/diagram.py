@@ -1,13 +1,13 @@
-"""A figure of a system: units as boxes with their ports, and what connects them."""
+"""A figure of a system: units as boxes with their ports; of many, who feeds whom as a matrix."""
 
-from __future__ import annotations
-
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import FancyBboxPatch, PathPatch
 from matplotlib.path import Path
 
@@ -15,7 +15,7 @@ from cosim.coupling import Causality, Connection, CoupledSystem
 from cosim.coupling.conversion import NO_UNIT, watts
 from cosim.coupling.system import ENERGY_UNIT, find_port
 from cosim.report.page import unit_text
-from cosim.report.palette import GREY, INK, ORANGE, PALE_GREY, RED, SERIES
+from cosim.report.palette import BLUE, GREY, INK, ORANGE, PALE_GREY, RED, SERIES, SOFT_GREY
 from cosim.report.style import clipped, picture
 
 #: Inches: of a line of ports, of a box's head, between boxes, between columns, around all.
@@ -251,3 +251,77 @@ def colour_of(system: CoupledSystem, connection: Connection) -> str:
     others = [each for each in SERIES if each not in (RED, ORANGE)]
     names = list(system.participants)
     return others[names.index(connection.source.participant) % len(others)]
+
+
+#: Inches for a unit, and of the smallest and the largest sheet without its names.
+EACH, SMALLEST, LARGEST = 0.13, 4.0, 16.0
+#: Inches of a letter of a name, and around all.
+NAME_LETTER, EDGE, TITLE = 0.062, 0.35, 0.75
+LONGEST_LABEL = 24
+#: Units of which every one has its name: of more, every second, third, ...
+MOST_NAMES = int(LARGEST / EACH)
+
+
+@picture(
+    "system",
+    "Who feeds whom: from the unit of a line to that of a column, both in the order in which they"
+    " step. On white what a step hands on, on grey what it feeds back; where there are several"
+    " connections, how many. The table below has each.",
+)
+def matrix(system: CoupledSystem, order: Sequence[str]) -> Figure:
+    """A square for every pair of units that is connected."""
+    count = len(order)
+    side = min(max(EACH * count, SMALLEST), LARGEST)
+    names = EDGE + NAME_LETTER * min(max(map(len, order)), LONGEST_LABEL)
+    width, height = side + names + EDGE, side + names + TITLE
+    figure = Figure(figsize=(width, height))
+    axes = figure.add_axes((names / width, EDGE / height, side / width, side / height))
+    axes.set(xlim=(-0.5, count - 0.5), ylim=(count - 0.5, -0.5))
+    axes.grid(color=SOFT_GREY, linewidth=0.3)
+    corners = [(-0.5, -0.5), (count - 0.5, count - 0.5), (-0.5, count - 0.5)]
+    axes.fill(*zip(*corners, strict=True), color=PALE_GREY, zorder=0)
+    _pairs(axes, system, order, 72.0 * side / count)
+    _labels(axes, order)
+    fed_back = sum(
+        order.index(each.sink.participant) <= order.index(each.source.participant)
+        for each in system.connections
+    )
+    said = f"{count} units, {len(system.connections)} connections, {fed_back} of them fed back"
+    figure.text(EDGE / width, 1.0 - 0.2 / height, said, va="top", color=INK, weight="bold")
+    marks = [
+        Line2D([], [], marker="s", linestyle="", color=colour, label=label)
+        for colour, label in ((RED, "energy"), (ORANGE, "power"), (BLUE, "all else"))
+    ]
+    place = (EDGE / width - 0.01, 1.0 - 0.36 / height)
+    figure.legend(handles=marks, loc="upper left", ncols=3, fontsize=8, bbox_to_anchor=place)
+    return figure
+
+
+def _pairs(axes: Axes, system: CoupledSystem, order: Sequence[str], points: float) -> None:
+    """A square of a size (points) for each pair, in the colour of what weighs most in it."""
+    place = {name: number for number, name in enumerate(order)}
+    counts: Counter[tuple[int, int]] = Counter()
+    colours: dict[tuple[int, int], str] = {}
+    for each in system.connections:
+        pair = place[each.sink.participant], place[each.source.participant]
+        counts[pair] += 1
+        colour = colour_of(system, each)
+        colours[pair] = colour if colour in (RED, ORANGE) else colours.get(pair, BLUE)
+    square: dict[str, Any] = {"ms": 0.85 * points, "ls": "", "mew": 0.0}
+    several: dict[str, Any] = {"ha": "center", "va": "center_baseline", "color": "white"}
+    for (x, y), number in counts.items():
+        axes.plot([x], [y], "s", color=colours[x, y], **square)
+        if number > 1:
+            axes.text(x, y, str(number), fontsize=min(0.7 * points, 8.0), **several)
+
+
+def _labels(axes: Axes, order: Sequence[str]) -> None:
+    every = -(-len(order) // MOST_NAMES)
+    ticks = range(0, len(order), every)
+    labels = [clipped(order[number], LONGEST_LABEL) for number in ticks]
+    axes.xaxis.tick_top()
+    axes.set_xticks(ticks, labels, rotation=90, fontsize=7)
+    axes.set_yticks(ticks, labels, fontsize=7)
+    axes.tick_params(length=2.0, color=GREY)
+    for spine in axes.spines.values():
+        spine.set_visible(False)

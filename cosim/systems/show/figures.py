@@ -1,7 +1,5 @@
 """Figures of a system's run over time: what went across, energy, and the steps taken."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 
 import numpy as np
@@ -18,9 +16,8 @@ from cosim.report.page import Picture, number, unit_text
 from cosim.report.palette import BLUE, FAINT_BLUE, INK, SERIES, Scaled, readable
 from cosim.report.style import displayed, draw_over_time, picture_over_time, shown
 from cosim.systems.run import SystemRun
-from cosim.systems.show.dataset import is_rounding
-from cosim.systems.show.diagram import colour_key, diagram, is_legible
-from cosim.systems.show.matrix import matrix
+from cosim.systems.show.diagram import colour_key, diagram, is_legible, matrix
+from cosim.systems.show.summary import is_rounding
 
 #: Panels of the first figure, and of the one below with the others, of which the first are drawn.
 FIRST_PANELS, MOST_PANELS = 4, 24

@@ -1,7 +1,5 @@
 """The page of a system's run."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from datetime import datetime
 from typing import Any

@@ -1,7 +1,5 @@
 """An SSP, or a folder of the same contents, opened with care: what is in it comes from others."""
 
-from __future__ import annotations
-
 import re
 import tempfile
 from pathlib import Path, PurePosixPath
@@ -9,7 +7,7 @@ from urllib.parse import unquote, urlsplit
 from xml.etree.ElementTree import Element, ParseError, fromstring
 
 from cosim.coupling.fmu.archive import check_xml, unpack
-from cosim.systems.system_errors import SystemFault
+from cosim.systems.specification import SystemFault
 
 STRUCTURE = "SystemStructure.ssd"
 #: Bytes of an archive's contents, members, and how much smaller all may be packed.

@@ -1,6 +1,6 @@
 """SystemStructure.ssd as nested systems: elements, connectors, connections, bindings.
 
-What is here is read as it stands; what it comes to, with all borders gone, is in `flat`.
+What is here is read as it stands; what it comes to, with all borders gone, is in `reader`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from xml.etree.ElementTree import register_namespace
 from cosim.coupling import Affine, UnitDefinition
 from cosim.coupling.conversion import BASE_UNITS
 from cosim.coupling.fmu.variables import NUMERIC
-from cosim.systems.system_errors import SystemFault
+from cosim.systems.specification import SystemFault
 
 _NAMES = {
     **{"ssc": "Common", "ssd": "Description"},

@@ -1,7 +1,5 @@
 """Parameter bindings: sets of values (ssv), and how their names are mapped (ssm)."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
@@ -10,7 +8,7 @@ from xml.etree.ElementTree import Element
 
 from cosim.coupling import UnitDefinition
 from cosim.coupling.fmu.variables import INTEGERS, REALS
-from cosim.systems.specification import Start
+from cosim.systems.specification import Start, SystemFault
 from cosim.systems.ssp.package import Package
 from cosim.systems.ssp.structure import (
     below,
@@ -21,7 +19,6 @@ from cosim.systems.ssp.structure import (
     unit_of,
     units_of,
 )
-from cosim.systems.system_errors import SystemFault
 
 SET, MAPPING = "application/x-ssp-parameter-set", "application/x-ssp-parameter-mapping"
 TRUTH = {"true": True, "1": True, "false": False, "0": False}

@@ -11,11 +11,11 @@ from importlib import import_module
 from ..plugins.errors import PluginError as PluginError
 from ..quantity import Table as Table
 from ..quantity import quantity as quantity
-from .candidate import Candidate as Candidate
-from .candidate import FreeParameter as FreeParameter
-from .candidate import Scales as Scales
+from .effect import Candidate as Candidate
 from .effect import Case as Case
 from .effect import Effect as Effect
+from .effect import FreeParameter as FreeParameter
+from .effect import Scales as Scales
 from .effect import State as State
 
 FILES = (

@@ -4,7 +4,7 @@ from math import cos, radians, sin
 from typing import Any
 
 from ..quantity import quantity
-from .candidate import Candidate, FreeParameter
+from .effect import Candidate, FreeParameter
 
 #: A harmonic is at most so many times as large as the first.
 MOST_HARMONIC = 10

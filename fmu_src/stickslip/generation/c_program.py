@@ -1,7 +1,5 @@
 """What of the text becomes C: constants, functions, what is assigned to variables; and refusals."""
 
-from __future__ import annotations
-
 import ast
 import math
 from collections.abc import Iterator

@@ -14,16 +14,14 @@ from typing import Any, NamedTuple
 
 from pydantic import ValidationError
 
-from ..effects.candidate import Candidate, Scales
-from ..effects.effect import Effect
+from ..effects.effect import Candidate, Effect, Scales
 from ..generation.functions import TEXT
 from ..generation.terms import terms_source
 from ..quantity import Table, details
 from ..text_file import read_text
 from ..units import UNITS
-from .check import check_translatable
+from .check import check_translatable, try_terms
 from .errors import PluginError
-from .trial import try_terms
 
 #: Entry points of installed distributions: each names a module with an EFFECT.
 GROUP = "stickslip.effects"

@@ -14,8 +14,7 @@ from scipy import signal
 
 from .linearised import GRAVITY, Scheme
 from .scheme import INTERVAL, STEPS
-from .spring_angles import ATTACHMENT_ANGLES, ATTACHMENT_RADIUS, fixed_angles, stiffness_matrix
-from .strip_friction import STRIPS
+from .study_rig import ATTACHMENT_ANGLES, ATTACHMENT_RADIUS, STRIPS, fixed_angles, stiffness_matrix
 
 WHOLE_SLIP, WHOLE_SLIP_SAMPLES = 2.0, 200
 

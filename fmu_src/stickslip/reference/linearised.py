@@ -2,9 +2,8 @@
 
 Stick: x' = v, y' = phi' = 0 until the springs reach mu_s N. Slip: M q'' + K q = (F, 0, M_F) with
 q = (x, y, phi), solved exactly in blocks of 10 ms with the friction sampled a hundred times a
-block (`scheme.c`), the spring angles alpha by one of four treatments (`spring_angles`) and
-friction summed over a hundred strips (`strip_friction`). Each known fault can be mended
-(`faults`).
+block (`scheme.c`), the spring angles alpha by one of four treatments and friction summed over a
+hundred strips (`study_rig`). Each known fault can be mended (`scheme_options`).
 
 What the study does not print is a parameter here: the scatter of mu (its standard deviation, per
 strip), the slope of mu_k over the sliding speed (its four data points are only drawn) and, for
@@ -24,16 +23,15 @@ from dataclasses import dataclass, field, fields
 import numpy as np
 
 from .scheme import CUT, SLIP, STUCK_AGAIN, Motion, SchemeFaults, SchemeRig
-from .scheme_effects import NO_EFFECTS, SchemeEffects
-from .scheme_errors import PRINTED, Faults
-from .spring_angles import (
+from .scheme_options import NO_EFFECTS, PRINTED, Faults, SchemeEffects
+from .study_rig import (
     ATTACHMENT_ANGLES,
     ATTACHMENT_RADIUS,
     attachments,
     fixed_angles,
+    strips,
     treatment_number,
 )
-from .strip_friction import strips
 
 GRAVITY = 9.81
 

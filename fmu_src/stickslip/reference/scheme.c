@@ -1,7 +1,7 @@
 /* The source study's scheme: stick and slip in turn, slip in blocks of 10 ms.
 
-   What the equations are stands in linearised.py; what its faults and effects are, in faults.py and
-   scheme_effects.py. SI units, rad. The structures are those of scheme.py, member by member. */
+   What the equations are stands in linearised.py; what its faults and effects are, in
+   scheme_options.py. SI units, rad. The structures are those of scheme.py, member by member. */
 
 #include <math.h>
 #include <stdbool.h>

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from . import scheme_code
-from .scheme_effects import SchemeEffects
+from .scheme_options import SchemeEffects
 
 INTERVAL = 0.01  # s, the pieces of time that the study steps through
 STEPS = 99  # a block is sampled at 100 instants

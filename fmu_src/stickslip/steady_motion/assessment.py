@@ -6,11 +6,10 @@ from typing import Any, TypeVar
 
 from ..parameters import Parameters
 from .borders import Border, nearest_borders
-from .live import DRY, Interface, RunEnded, steps_per_second
+from .live import DRY, Interface, OutOfWork, RunEnded, Work, steps_per_second, unwatched
 from .pretension import COARSE, PretensionBorders, pretension_borders
 from .regimes import Regime, coexisting, grouped, regimes
 from .stability import Stability, stability
-from .work import OutOfWork, Work, unwatched
 
 #: Part at constant speed that is looked at: the longest, s and in natural periods, of which the
 #: longer holds, and the shortest, in natural periods.

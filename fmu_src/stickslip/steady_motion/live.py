@@ -1,12 +1,45 @@
-"""Runs of a rig: whole ones, and such that can be copied, disturbed and continued for stability."""
+"""Runs of a rig: whole ones, and such that can be copied, disturbed and continued for stability.
 
+How much they may compute is counted in steps, not in seconds: a limit in seconds of the clock would
+make what a page says depend on what else the machine does.
+"""
+
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from math import inf
 
 from ..arrays import RunArrays, RunEnded, inputs, interface_temperature
 from ..parameters import Parameters
 from ..simulation import simulate
 from ..trajectory import Trajectory
-from .work import Work
+
+
+class OutOfWork(Exception):
+    """What was asked for takes more steps than are allowed."""
+
+
+def unwatched() -> None:
+    """Nobody wants to stop."""
+
+
+@dataclass
+class Work:
+    """Steps that are left, for runs that take so many for each second of motion.
+
+    look: called now and then, for whoever wants to stop; may raise.
+    """
+
+    left: float = inf
+    per_second: float = 1.0
+    look: Callable[[], None] = unwatched
+
+    def spend(self, seconds: float) -> None:
+        """Count so much motion (s); OutOfWork where no steps are left."""
+        self.look()
+        self.left -= float(seconds) * self.per_second
+        if self.left < 0.0:
+            raise OutOfWork
+
 
 __all__ = ["DRY", "Interface", "RunEnded", "live_run", "simulated", "steps_per_second"]
 

@@ -15,9 +15,8 @@ import numpy as np
 
 from ..parameters import Parameters
 from ..trajectory import Trajectory, break_away_frequency, slip_share
-from .live import DRY, Interface, RunEnded, simulated
+from .live import DRY, Interface, OutOfWork, RunEnded, simulated
 from .starts import BALANCED, OWN, balanced, disturbed, other_starts, started
-from .work import OutOfWork
 
 STICK_SLIP, SLIDING, STICKING, CREEPING = "stick-slip", "sliding", "sticking", "creeping"
 #: Of a run that cannot be followed.

@@ -12,8 +12,7 @@ from math import pi
 from ..arrays import STATE
 from ..packing import GRAVITY
 from ..parameters import Parameters
-from .live import DRY, Interface, RunEnded, simulated
-from .work import Work
+from .live import DRY, Interface, RunEnded, Work, simulated
 
 OWN, DISTURBED, REST, RIDING, BALANCED = "own", "disturbed", "rest", "riding", "balanced"
 RAMP, SHORT_RAMP, LONG_RAMP, TURNED = "ramp", "short_ramp", "long_ramp", "turned"

@@ -12,7 +12,7 @@ from baseline import Figure, arguments, write
 from stickslip import LateralFriction, Parameters, simulate
 from stickslip.reference.interpreted_scheme import interpreted_run
 from stickslip.reference.linearised import Scheme
-from stickslip.reference.scheme_errors import MENDED
+from stickslip.reference.scheme_options import MENDED
 
 
 def median_seconds(call, repeats: int) -> float:

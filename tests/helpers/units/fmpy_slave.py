@@ -5,7 +5,7 @@ from contextlib import contextmanager
 import fmpy
 from fmpy.fmi2 import FMU2Slave
 
-from cosim.coupling.fmu.log import FmuLog
+from cosim.coupling.fmu.instance import FmuLog
 
 
 class Slave:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from lag_unit import lag_unit
 
 from cosim.scenario.validation import known_keys
-from cosim.systems.settings import Coupling, Run
+from cosim.systems.specification import Coupling, Run
 
 #: File of a unit -> units of its input and its output.
 FILES = {"plain.fmu": ("", ""), "heat.fmu": ("J", "J"), "force.fmu": ("m", "N")}

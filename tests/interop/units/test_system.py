@@ -25,7 +25,7 @@ from test_other_hosts import needs_ecospy, output
 from cosim import read_scenario, run_scenario
 from cosim.cli import main
 from cosim.coupling.record import RunFolder
-from cosim.coupling.record.checkpoint import CheckpointError
+from cosim.coupling.record.folder import CheckpointError
 from cosim.fmu.build import SYSTEM
 from cosim.fmu.libraries import platforms_of
 from cosim.fmu.thermal import structure

@@ -6,7 +6,7 @@ import pytest
 from command_line import refusal
 
 from cosim.cli import main
-from cosim.cli.plug_ins import check_resumed, digests
+from cosim.cli.runs.run import check_resumed, digests
 from cosim.coupling.record.folder import UNFINISHED
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cosim.coupling.record import RunFolder
-from cosim.coupling.record.checkpoint import (
+from cosim.coupling.record.folder import (
     Checkpoint,
     CheckpointError,
     load_checkpoint,
@@ -61,7 +61,7 @@ def test_any_damage_is_seen(saved):
 
 
 def test_another_format_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr("cosim.coupling.record.checkpoint.FORMAT", 99)
+    monkeypatch.setattr("cosim.coupling.record.folder.FORMAT", 99)
     path = save_checkpoint(tmp_path / "c.zip", EXAMPLE)
     monkeypatch.undo()
     with pytest.raises(CheckpointError, match="format 99, this version goes on from format 2"):

@@ -14,12 +14,10 @@ from saved_pendulums import ORDER, pendulums
 
 from cosim.coupling import GaussSeidel, run
 from cosim.coupling.record import Keep, RunFolder
-from cosim.coupling.record.checkpoint import CheckpointError, load_checkpoint
-from cosim.coupling.schemes.acceleration import Aitken, QuasiNewton
-from cosim.coupling.schemes.iterated import Iterated
+from cosim.coupling.record.folder import CheckpointError, load_checkpoint
+from cosim.coupling.schemes.iterated import Aitken, Iterated, QuasiNewton
 from cosim.coupling.schemes.scheme import Jacobi
-from cosim.coupling.step_control.adaptive import AdaptiveStep
-from cosim.coupling.step_control.estimates import Defect, Doubling
+from cosim.coupling.step_control.adaptive import AdaptiveStep, Defect, Doubling
 from cosim.coupling.tolerance import Tolerance
 from cosim.files import OutputError
 

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from stickslip.effects.candidate import Candidate
+from stickslip.effects.effect import Candidate
 
 from cosim.gap import agreement, find, models
 from cosim.gap.extended import Part

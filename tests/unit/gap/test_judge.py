@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from stickslip.catalogue import CATALOGUE
-from stickslip.effects.candidate import Scales
 from stickslip.effects.contact.static_strengthening import EFFECT
+from stickslip.effects.effect import Scales
 
 from cosim.gap import models
 from cosim.gap.extended import Part

@@ -10,7 +10,7 @@ from cosim.cli.measurements.gap import CAMPAIGNS
 from cosim.gap import read_campaign
 from cosim.gap.result import Ranked, Score
 from cosim.studies.reproduction.summary.draws import FittedSummary, observations
-from cosim.studies.reproduction.summary.result import SummaryGap
+from cosim.studies.reproduction.summary.find import SummaryGap
 from cosim.studies.reproduction.summary.show import as_json, closing_lines, model_text, write_page
 
 PLAIN = {"friction.mu_s": 0.28, "friction.mu_k": 0.21}

@@ -10,9 +10,9 @@ from command_line import executed
 from cosim.cli.runs import compare as compare_command
 from cosim.cli.runs import simulate as simulate_command
 from cosim.report.compare import Difference, compare, read_result
+from cosim.report.compare.compare import Apart
 from cosim.report.compare.figures import moving
 from cosim.report.compare.page import cells, curve_cells, headline, tiles
-from cosim.report.compare.series import Apart
 
 CASE = """
 name = "{name}"

@@ -5,9 +5,9 @@ import pytest
 import xarray as xr
 
 from cosim.report.compare import OneResult, compare
+from cosim.report.compare.compare import apart, matched
 from cosim.report.compare.figures import has_phases, moving
 from cosim.report.compare.page import page
-from cosim.report.compare.series import apart, matched
 
 METRE, KELVIN = "m", "K"
 

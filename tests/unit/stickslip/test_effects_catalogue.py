@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 from stickslip import EFFECTS, Parameters, effects, simulate, units
-from stickslip.effects.candidate import Scales
-from stickslip.effects.effect import AXES
+from stickslip.effects.effect import AXES, Scales
 from stickslip.parameters import EffectTables
 
 from cosim.fmu import variables

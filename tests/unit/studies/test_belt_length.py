@@ -23,8 +23,13 @@ from cosim.studies.belt_length import (
     verdict,
     work_off,
 )
-from cosim.studies.belt_length.changes import friction_effect, linear_sensitivity
-from cosim.studies.belt_length.drift import drift, run_drift, steady_drift
+from cosim.studies.belt_length.drift import (
+    drift,
+    friction_effect,
+    linear_sensitivity,
+    run_drift,
+    steady_drift,
+)
 from cosim.studies.belt_length.lengths import LENGTHS, SPEEDS
 from cosim.studies.belt_length.study import BOUNDS
 from thermal.belt.air import moving_belt

@@ -13,8 +13,7 @@ from cosim.studies.belt_length import (
     scenario_case,
     shortest_belt,
 )
-from cosim.studies.belt_length.changes import changes
-from cosim.studies.belt_length.drift import drift, interface_drift, run_drift, wait
+from cosim.studies.belt_length.drift import changes, drift, interface_drift, run_drift, wait
 from thermal import ParameterError
 
 AS_PRINTED = 0.05

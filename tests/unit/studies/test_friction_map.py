@@ -16,14 +16,19 @@ from cosim.cli import is_bad_input
 from cosim.cli.studies import friction_map as friction_regimes_command
 from cosim.studies.friction_map import FrictionMap, friction_map
 from cosim.studies.friction_map import map as map_module
-from cosim.studies.friction_map.laws import conducted_share, laws_of
+from cosim.studies.friction_map.laws import (
+    conducted_share,
+    differences,
+    laws_of,
+    measured_beside,
+    own_point,
+)
 from cosim.studies.friction_map.map import (
     SteadySliding,
     decade_slopes,
     lowest_friction,
     steady_scenario,
 )
-from cosim.studies.friction_map.measured import differences, measured_beside, own_point
 from cosim.studies.friction_map.page import page, tiles
 
 CASE = read_scenario("melting_friction").changed(

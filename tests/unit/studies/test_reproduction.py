@@ -8,7 +8,7 @@ from itertools import product
 import numpy as np
 import pytest
 from command_line import executed
-from stickslip.reference.scheme_errors import DESCRIPTIONS
+from stickslip.reference.scheme_options import DESCRIPTIONS
 
 from cosim.cli import main
 from cosim.cli.studies import reproduce as reproduction_command

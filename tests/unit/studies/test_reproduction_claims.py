@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
-from stickslip.reference.scheme_errors import MENDED, PRINTED
+from stickslip.reference.scheme_options import MENDED, PRINTED
 
 from cosim.studies.reproduction import reproduce
 from cosim.studies.reproduction.cases import DATASET_1, DATASET_2, exact_figures, scheme_figures

@@ -12,15 +12,16 @@ from cosim.gap.data import Campaign, MeasuredRun, read_campaign
 from cosim.gap.data.campaign_file import Rig
 from cosim.studies.reproduction.motion import Motion
 from cosim.studies.reproduction.summary import find, find_summary_gap
-from cosim.studies.reproduction.summary.candidates import (
+from cosim.studies.reproduction.summary.draws import Draws, Target, observations, predict
+from cosim.studies.reproduction.summary.models import (
     Candidate,
     Span,
     extensions,
+    figures,
+    motion_of,
     not_felt,
     plain_candidate,
 )
-from cosim.studies.reproduction.summary.draws import Draws, Target, observations, predict
-from cosim.studies.reproduction.summary.models import figures, motion_of
 
 FRICTION = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
 SDS = {"mean_x": 5e-4, "frequency": 0.02, "slip_share": 0.01, "amplitude_x": 5e-4}

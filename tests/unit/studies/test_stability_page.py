@@ -11,7 +11,7 @@ from cosim.report.style import shown
 from cosim.studies.stability import maps, study
 from cosim.studies.stability.figures import draw_pretension_map, draw_regime_map
 from cosim.studies.stability.maps import PretensionMap
-from cosim.studies.stability.stick_slip_range import range_sentence
+from cosim.studies.stability.study import range_sentence
 
 PARAMETERS = read_scenario("study").mechanics
 CASE = SimpleNamespace(name="known", parameters=PARAMETERS, interface=None)

@@ -18,7 +18,7 @@ from cosim.files import _HOST
 from cosim.studies.sweep import SweepError
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import model_version
-from cosim.studies.sweep.plan import BELTS, plan_grid, repeats_grid
+from cosim.studies.sweep.grid import BELTS, plan_grid, repeats_grid
 from cosim.studies.sweep.run import Store
 
 call = partial(executed, sweep_command)

@@ -3,7 +3,7 @@
 import pytest
 
 from thermal import Ambient, Belt, Ice, SteadySliding, ThermalParameters
-from thermal.in_the_end import in_the_end
+from thermal.steady_sliding import in_the_end
 
 RIG = ThermalParameters(belt=Belt(length=1.0))
 

@@ -23,9 +23,8 @@ from skfem import (
 )
 
 from thermal.assembly import Body
-from thermal.eigenmodes import eigenmodes
 from thermal.materials import Medium
-from thermal.relaxation import mean_decay
+from thermal.relaxation import eigenmodes, mean_decay
 
 A, D, H = 0.02, 0.01, 40.0
 MEDIUM = Medium(700.0, 840.0, 0.5)

@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 from cosim.gap.data import read_campaign
-from cosim.studies.reproduction.summary import find, find_summary_gap, search
+from cosim.studies.reproduction.summary import draws as search
+from cosim.studies.reproduction.summary import find, find_summary_gap
 
 STUDY = Path(__file__).parents[3] / "cosim" / "gap" / "campaigns" / "study.toml"
 

@@ -8,9 +8,8 @@ from stickslip.reference.coulomb_oscillator import CoulombOscillator
 from stickslip.reference.interpreted_scheme import interpreted_run
 from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme import CUT, functions
-from stickslip.reference.scheme_errors import DESCRIPTIONS, MENDED, PRINTED, Faults
-from stickslip.reference.spring_angles import fixed_angles, stiffness_matrix
-from stickslip.reference.strip_friction import strips
+from stickslip.reference.scheme_options import DESCRIPTIONS, MENDED, PRINTED, Faults
+from stickslip.reference.study_rig import fixed_angles, stiffness_matrix, strips
 
 #: K/k as printed, five decimals
 PRINTED_MATRICES = {

@@ -5,8 +5,7 @@ import pytest
 from brute_regimes import by_force, drawn_rig, missed, searched
 from line_rig import published
 from stickslip import Parameters
-from stickslip.reference.coulomb_oscillator import CoulombOscillator
-from stickslip.reference.coulomb_starts import BeltStart
+from stickslip.reference.coulomb_oscillator import BeltStart, CoulombOscillator
 from stickslip.steady_motion.regimes import (
     CREEPING,
     SLIDING,

@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 from stickslip import Parameters, simulate
 from stickslip.reference.linearised import Scheme
-from stickslip.reference.scheme_effects import SchemeEffects
-from stickslip.reference.scheme_errors import MENDED, PRINTED
-from stickslip.reference.strip_friction import strips
+from stickslip.reference.scheme_options import MENDED, PRINTED, SchemeEffects
+from stickslip.reference.study_rig import strips
 
 MU_S, MU_K, SPEED = 0.2815, 0.2086, 0.15
 COVERED = strips(0.05)[0].sum()

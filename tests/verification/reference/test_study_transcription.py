@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from stickslip.reference.linearised import Scheme
-from stickslip.reference.scheme_errors import PRINTED
-from stickslip.reference.spring_angles import stiffness_matrix
-from stickslip.reference.strip_friction import strips as reference_strips
+from stickslip.reference.scheme_options import PRINTED
+from stickslip.reference.study_rig import stiffness_matrix
+from stickslip.reference.study_rig import strips as reference_strips
 from study_transcription import R, stiffness, strips, transcribed
 
 DATASET_2 = {"mu_s": 0.065, "mu_k": 0.05}

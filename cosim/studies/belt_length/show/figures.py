@@ -1,7 +1,5 @@
 """Figures of the study: drift over length, what the doubt is made of, map."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,19 +11,17 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
 from cosim.report.palette import BLUE, GREY, INK, RED, SERIES
 from cosim.report.style import panels, picture
 from cosim.studies import FIGURES
+from thermal.arrays import Array
 
 from ..case import Case
 from ..drift import endless_belt, followed, never_comes_round, steady_drift
 from ..lengths import DriftMap
 from ..result import Row, Study
 from ..uncertainty import SingleChange, Uncertainty
-
-Array = NDArray[np.float64]
 
 #: Points along a curve.
 _CURVE = 40

@@ -3,8 +3,6 @@
 The page has what was asked, the answer first, its figures, how sure it is, and why.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib

@@ -1,7 +1,5 @@
 """What is said of a study: `sentences.txt.j2` with the figures in words that it asks for."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterable, Iterator
 from functools import cache
@@ -12,8 +10,8 @@ from cosim.report.material import of_material
 from cosim.report.page import sentences, texts, tiles_of
 from thermal import Belt
 
-from ..changes import NO_HELP
 from ..drift import CAMERA as CAMERA
+from ..drift import NO_HELP
 from ..lengths import LONGEST, length_text, metres, rounded_up
 from ..required_length import NOT_ASKED as NOT_ASKED
 from ..required_length import Answer, Question

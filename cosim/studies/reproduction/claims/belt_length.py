@@ -1,7 +1,5 @@
 """C13 and C15: the check of the belt's length, single pass, repeated passes, finite elements."""
 
-from __future__ import annotations
-
 import math
 from dataclasses import replace
 from functools import cache

@@ -1,7 +1,5 @@
 """C11 and C16 to C18: mu_k/mu_s; dry or lubricated; falling with the speed; strengthening."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
@@ -9,7 +7,7 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from stickslip.reference.scheme_errors import PRINTED
+from stickslip.reference.scheme_options import PRINTED
 
 from cosim.studies.belt_length import Protocol
 

@@ -5,15 +5,13 @@ spread that its wording leaves. A model's misfit is the root mean square of its 
 them, in those spreads.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import cache
 from typing import Any
 
 import numpy as np
 from matplotlib.figure import Figure
-from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
+from stickslip.reference.scheme_options import MENDED, PRINTED, Faults
 
 from cosim.report.palette import LIGHT_GREY
 from cosim.report.style import panels

@@ -1,13 +1,11 @@
 """C5 and C7: what turns the block; the four treatments of the spring angles, the two datasets."""
 
-from __future__ import annotations
-
 from functools import cache
 from typing import Any
 
 import numpy as np
-from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
-from stickslip.reference.spring_angles import TREATMENTS
+from stickslip.reference.scheme_options import MENDED, PRINTED, Faults
+from stickslip.reference.study_rig import TREATMENTS
 
 from cosim.report.palette import SERIES
 

@@ -1,7 +1,5 @@
 """C1 to C4, C12 and C14: the scheme itself, its matrices and verification runs, costs, jumps."""
 
-from __future__ import annotations
-
 import math
 import timeit
 from collections.abc import Callable
@@ -13,8 +11,8 @@ import numpy as np
 from stickslip import simulate
 from stickslip.reference.interpreted_scheme import interpreted_run
 from stickslip.reference.linearised import GRAVITY, Scheme, SchemeRun
-from stickslip.reference.scheme_errors import MENDED, PRINTED, Faults
-from stickslip.reference.spring_angles import ATTACHMENT_RADIUS, fixed_angles, stiffness_matrix
+from stickslip.reference.scheme_options import MENDED, PRINTED, Faults
+from stickslip.reference.study_rig import ATTACHMENT_RADIUS, fixed_angles, stiffness_matrix
 
 from cosim.report.palette import INK
 

@@ -1,7 +1,5 @@
 """C8 to C10: mean x, slip time and mean friction over mass, stiffness and speed."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
@@ -9,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.stats import linregress, spearmanr
 from stickslip.reference.coulomb_oscillator import CoulombOscillator
-from stickslip.reference.scheme_errors import PRINTED
+from stickslip.reference.scheme_options import PRINTED
 
 from cosim.report.palette import INK
 

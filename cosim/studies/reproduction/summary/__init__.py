@@ -1,6 +1,5 @@
 """Runs of which only figures are known: the same question, from a handful of numbers."""
 
-from .find import find_summary_gap
-from .result import SummaryGap
+from .find import SummaryGap, find_summary_gap
 
 __all__ = ["SummaryGap", "find_summary_gap"]

@@ -2,25 +2,27 @@
 
 The models: the exact one, and the source study's scheme as printed, with effects of the catalogue
 under their usual names. The figures: what a report gives where the record is not public.
-"""
 
-from __future__ import annotations
+What may be added to a model: every effect of the catalogue, with the ranges of its numbers.
+"""
 
 import math
 import warnings
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Self
 
 import numpy as np
+from scipy.stats import norm
 from stickslip import Parameters, simulate
+from stickslip.effects import EFFECTS
 from stickslip.packaged import packaged_tables
 from stickslip.packing import GRAVITY
+from stickslip.quantity import details
 from stickslip.reference.linearised import Scheme
-from stickslip.reference.scheme_effects import SchemeEffects
-from stickslip.reference.scheme_errors import PRINTED
+from stickslip.reference.scheme_options import PRINTED, SchemeEffects
 
-from cosim.gap.data import Campaign, MeasuredRun
-
+from ....gap.data import Campaign, MeasuredRun
 from ..cases import CYCLES, SAMPLE, SCATTER, SETTLING, STEADY, Case, longest
 from ..motion import WINDOW, Motion
 from ..motion import figures as read_off
@@ -122,3 +124,137 @@ def scheme_of(values: Values) -> Scheme:
         effects=SchemeEffects(on=bool(set(effects) - {"stick_springs"}), **effects),
         **numbers,
     )
+
+
+# the study's coefficients, the four figures that it prints; how well they are known it does not
+# say, a tenth is what its scatter is taken to be
+STUDY_FRICTION = {"mu_s": (0.2815, 0.028), "mu_k": (0.2086, 0.021)}
+UNKNOWN_FRICTION = (0.02, 0.8)
+FURTHEST = 3.0  # standard deviations that a known number may be off
+# the scheme counts one spring of four in stick: in the catalogue's words, this part of the load
+PRINTED_RATIO = 0.25
+TABLES = {entry.id: entry.table for entry in EFFECTS}
+
+
+@dataclass(frozen=True)
+class Span:
+    """A number that is searched: ``block.parameter`` and its range.
+
+    prior: value and standard deviation where it is known. log: evenly over decades.
+    """
+
+    key: str
+    low: float
+    high: float
+    prior: tuple[float, float] | None = None
+    log: bool = False
+
+    @property
+    def of_friction(self) -> bool:
+        """Is it a coefficient that every model has?"""
+        return self.key.startswith("friction.")
+
+    def at(self, share: float) -> float:
+        """The number below which ``share`` (0 ... 1) of what is expected lies."""
+        if self.prior:
+            value, sd = self.prior
+            low, high = norm.cdf([(self.low - value) / sd, (self.high - value) / sd])
+            return float(value + sd * norm.ppf(low + share * (high - low)))
+        if self.log:
+            return math.exp(math.log(self.low) + share * math.log(self.high / self.low))
+        return self.low + share * (self.high - self.low)
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A model to try: the effects in it, the law's form, what is searched and what is set."""
+
+    effects: tuple[str, ...]
+    form: str
+    spans: tuple[Span, ...]
+    settings: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def off(self) -> dict[str, float]:
+        """Values of what is searched with which the last effect is not there."""
+        pairs = [span.key.split(".") for span in self.spans]
+        return {
+            f"{block}.{name}": float(TABLES[block].model_fields[name].default)
+            for block, name in pairs
+            if block in self.effects[-1:]
+        }
+
+    def values(self, shares: Iterable[float]) -> dict[str, float]:
+        """block.parameter -> number, of shares (p,) of the ranges; what is set, too."""
+        pairs = zip(self.spans, shares, strict=True)
+        found = dict(self.settings) | {span.key: float(span.at(share)) for span, share in pairs}
+        # a contact at rest holds at least what it holds in sliding
+        return found | {"friction.mu_k": min(found["friction.mu_k"], found["friction.mu_s"])}
+
+    def surprise(self, values: Mapping[str, float]) -> float:
+        """Squared distance of known numbers from what is known, in standard deviations."""
+        known = [(values[span.key], *span.prior) for span in self.spans if span.prior]
+        return sum(((number - value) / sd) ** 2 for number, value, sd in known)
+
+    @property
+    def added(self) -> int:
+        """Numbers that it has beside friction."""
+        return sum(not span.of_friction for span in self.spans)
+
+    @property
+    def free(self) -> Self:
+        """The same model, with friction that nothing is known of."""
+        spans = [_coefficient(span.key) if span.of_friction else span for span in self.spans]
+        return replace(self, spans=tuple(spans))
+
+
+def _coefficient(key: str, known: tuple[float, float] | None = None) -> Span:
+    """One of friction; known: value and standard deviation."""
+    if known is None:
+        return Span(key, *UNKNOWN_FRICTION, log=True)
+    value, reach = known[0], FURTHEST * known[1]
+    return Span(key, max(value - reach, 1e-3), value + reach, prior=known)
+
+
+def plain_candidate(campaign: Campaign) -> Candidate:
+    """The model as it is; mu_s and mu_k known as the campaign says, or as the study does."""
+    is_study = campaign.scheme == "study"
+    known = (STUDY_FRICTION if is_study else {}) | dict(campaign.friction)
+    spans = [_coefficient(f"friction.{name}", known.get(name)) for name in STUDY_FRICTION]
+    settings = {"stick_stiffness.ratio": PRINTED_RATIO} if is_study else {}
+    return Candidate((), "", tuple(spans), settings)
+
+
+def extensions(campaign: Campaign, base: Candidate) -> tuple[Candidate, ...]:
+    """``base`` with each effect that is not in it, in the catalogue's order, form by form."""
+    left_out = {*base.effects, *not_felt(campaign)}
+    if campaign.rig.surface == "slab":
+        left_out.add("turning_surface")  # known: the rig says how far its centre is
+    found = []
+    for form in CATALOGUE["form"]:
+        effect, settings = form["effect"], form.get("set", {})
+        spans = tuple(_span(effect, number) for number in form.get("searched", ()))
+        keys = [*(span.key for span in spans), *settings]
+        told = campaign.scheme != "study" or all(map(has_meaning, keys))
+        if told and effect not in left_out:
+            kept = {key: value for key, value in base.settings.items() if key not in keys}
+            effects = (*base.effects, effect)
+            found.append(Candidate(effects, form["name"], base.spans + spans, kept | settings))
+    return tuple(found)
+
+
+def not_felt(campaign: Campaign) -> dict[str, str]:
+    """Effects that no figure of the campaign can tell from none: id -> why."""
+    found = {}
+    if len({run.mass for run in campaign.runs if run.summary}) == 1:
+        found["load_dependence"] = "all runs have one mass: the same as other coefficients"
+    if campaign.scheme == "exact" and campaign.rig.degrees_of_freedom == ("x",):
+        found |= dict.fromkeys(("lateral_friction", "turning_surface"), "the rig allows only x")
+    return found
+
+
+def _span(effect: str, number: str) -> Span:
+    name, _, scale = number.partition(" ")
+    key = f"{effect}.{name}"
+    low, high = CATALOGUE["range"].get(key) or details(TABLES[effect].model_fields[name])["typical"]
+    return Span(key, low, high, log=scale == "log")

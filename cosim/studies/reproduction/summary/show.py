@@ -1,7 +1,5 @@
 """What the answer for runs of which only figures are known leaves behind: as `cosim.gap.show`."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -26,8 +24,8 @@ from cosim.studies import FIGURES
 
 from ..cases import SETTLING
 from ..motion import WINDOW
+from .find import SummaryGap
 from .models import SAID
-from .result import SummaryGap
 
 #: What is written as it stands in an answer.
 AS_IT_IS = (

@@ -11,8 +11,7 @@ from collections.abc import Iterator
 from math import sqrt
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FormsOf, Scales
-from ..effect import Case, Effect
+from ..effect import Candidate, Case, Effect, FormsOf, Scales
 
 
 class FilmDrag(Table):

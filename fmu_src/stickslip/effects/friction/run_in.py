@@ -13,8 +13,7 @@ from dataclasses import replace
 from math import exp
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FormsOf, FreeParameter, Scales
-from ..effect import Case, Effect
+from ..effect import Candidate, Case, Effect, FormsOf, FreeParameter, Scales
 from ..static_share import STATIC_FORMS, static_absolute, static_factor, static_relative
 
 

@@ -17,8 +17,7 @@ from collections.abc import Iterator
 from math import exp
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FormsOf, FreeParameter, Scales
-from ..effect import Case, Effect, State
+from ..effect import Candidate, Case, Effect, FormsOf, FreeParameter, Scales, State
 from ..static_share import STATIC_FORMS, static_absolute, static_factor, static_relative
 
 #: Memories beside tau, shorter and longer by so much, and their weights: those with which the rise

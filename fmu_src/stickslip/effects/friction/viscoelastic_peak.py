@@ -12,8 +12,7 @@ from collections.abc import Iterator
 from math import exp, log10
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FormsOf, Scales
-from ..effect import Case, Effect
+from ..effect import Candidate, Case, Effect, FormsOf, Scales
 
 
 class ViscoelasticPeak(Table):

@@ -7,8 +7,7 @@ force that is its own mirror image. The quintic one stays small for long and the
 from collections.abc import Iterator
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FormsOf, Scales
-from ..effect import Case, Effect
+from ..effect import Candidate, Case, Effect, FormsOf, Scales
 
 
 class SpringHardening(Table):

@@ -8,8 +8,7 @@ moment r omega stands against the rotation.
 from collections.abc import Iterator
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FormsOf, Scales
-from ..effect import Case, Effect
+from ..effect import Candidate, Case, Effect, FormsOf, Scales
 
 
 class StructuralDamping(Table):

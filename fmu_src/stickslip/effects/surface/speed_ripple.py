@@ -7,8 +7,7 @@ from collections.abc import Iterator
 from math import cos, pi, radians, sin
 
 from ...quantity import Table, quantity
-from ..candidate import Candidate, FormsOf, Scales
-from ..effect import Case, Effect
+from ..effect import Candidate, Case, Effect, FormsOf, Scales
 from ..periodic import HARMONICS, harmonic_amplitude, harmonic_phase, periodic
 
 

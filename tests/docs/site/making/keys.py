@@ -14,7 +14,7 @@ from stickslip.quantity import details
 
 from cosim.gap.data import campaign_file
 from cosim.scenario import Scenario
-from cosim.systems import settings, toml_file
+from cosim.systems import specification, toml_file
 
 from .markdown import code, heading, table
 
@@ -51,8 +51,8 @@ def system() -> str:
     return (
         section("units.NAME", toml_file.Unit)
         + section("connections", toml_file.ConnectionTable, "a list of tables: ")
-        + section("coupling", settings.Coupling)
-        + section("run", settings.Run)
+        + section("coupling", specification.Coupling)
+        + section("run", specification.Run)
     )
 
 

@@ -1,12 +1,16 @@
-"""Faults of the study's scheme that can be switched one by one.
+"""What the study's scheme can be asked for: its faults one by one, and effects of the catalogue.
 
 F1 to F6 keep the numbers under which they are known; F12 to F15 are further ones, found when the
 scheme was written anew.
+
+What each effect is stands in `stickslip.effects`; here it is added to the scheme's loads, off by
+default, in the form that the scheme's own elements allow: springs linear in x, y and phi, a disc of
+strips along y, stick judged along x. With all faults mended and the block guided along x it is the
+kernel's (the tests hold it to that).
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, fields, replace
+from typing import NamedTuple, Self
 
 DESCRIPTIONS = {
     "F1": "stick ends where k x, not 4 k x, reaches mu_s N",
@@ -34,17 +38,17 @@ class Faults:
     F15: bool = True
 
     @classmethod
-    def mended(cls) -> Faults:
+    def mended(cls) -> Self:
         """None of them."""
         return cls(**{field.name: False for field in fields(cls)})
 
-    def without(self, *ids: str) -> Faults:
+    def without(self, *ids: str) -> Self:
         """These faults mended; ValueError for an unknown one."""
         return replace(self, **{known(one): False for one in ids})
 
-    def only(self, *ids: str) -> Faults:
+    def only(self, *ids: str) -> Self:
         """These faults and no other; ValueError for an unknown one."""
-        return replace(Faults.mended(), **{known(one): True for one in ids})
+        return replace(self.mended(), **{known(one): True for one in ids})
 
 
 def known(fault: str) -> str:
@@ -56,3 +60,35 @@ def known(fault: str) -> str:
 
 PRINTED = Faults()
 MENDED = Faults.mended()
+
+
+class SchemeEffects(NamedTuple):
+    """Numbers of the effects; SI units, rad. `on` says whether there are any.
+
+    stick_springs: springs counted in stick, 0 for what fault F1 says.
+    """
+
+    on: bool = False
+    stick_springs: float = 0.0
+    lateral: float = 0.0
+    ageing: float = 0.0
+    hold_time: float = 0.01
+    film: float = 0.0
+    weakening_per_joule: float = 0.0
+    relaxation: float = 5.0
+    run_in: float = 0.0
+    run_in_distance: float = 1.0
+    cubic: float = 0.0
+    damping: float = 0.0
+    damping_rotation: float = 0.0
+    ripple: float = 0.0
+    ripple_rate: float = 1.0
+    ripple_phase: float = 0.0
+    pattern: float = 0.0
+    pattern_wavenumber: float = 1.0
+    pattern_phase: float = 0.0
+    spring_angle: float = 0.0
+    anchor_offset: float = 0.0
+
+
+NO_EFFECTS = SchemeEffects()
