@@ -6,21 +6,11 @@ import meshio
 import numpy as np
 import pytest
 import xarray as xr
-from command_line import stickslip_here
+from command_line import SHORT_CASE, stickslip_here
 from PIL import Image
 from skfem import MeshTet
 
-SHORT = """
-defaults = "plain"
-[surface]
-run_up_time = 0.2
-[run]
-duration = 1.0
-snapshot_interval = 0.25
-[belt]
-cell_length = 5e-3
-elements = 3
-"""
+SHORT = SHORT_CASE.format(run_up=0.2, duration=1.0, snapshots=0.25)
 
 
 #: A film of ice that the first friction melts away.

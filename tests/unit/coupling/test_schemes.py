@@ -240,14 +240,6 @@ def test_steps_that_are_made_again_and_again_are_worth_a_remark():
     assert re.fullmatch(r"did not converge until it was halved \d+ times", said[0][1])
 
 
-def test_known_events_are_communication_points_off_the_grid():
-    plain = Plain()
-    scheme, events = GaussSeidel(("plain",)), [0.3, 0.5, 7.0]
-    run(CoupledSystem([plain], []), scheme, stop=1.0, macro_step=0.5, events=events)
-    np.testing.assert_allclose([time for time, _ in plain.steps], [0.0, 0.3, 0.5])
-    assert sum(plain.steps[-1]) == 1.0
-
-
 def test_who_cannot_follow_a_waveform_gets_its_mean():
     """x' = u of u' = -u: of second order with linear inputs, in spite of held ones."""
 

@@ -33,7 +33,6 @@ from thermal.steady_sliding import SteadySliding
 FAST = ("--samples", 0, "--map", 0, "--jobs", 1)
 #: A contact that holds, and starts with the belt.
 HELD = "[friction]\nmu_s = 200.0\n[surface]\nrun_up_time = 2.0"
-NO_RAMP = Protocol(ramp=0.0)
 
 
 call = partial(executed, belt_length_command)
@@ -61,16 +60,6 @@ def test_mended_single_pass_is_force_over_capacity_less_newton_cooling():
         * np.exp(-2.0 * 10.0 * 0.075 / (0.0525 * 840.0) * (2.0 - length) / 0.5)
     )
     assert drift(case).single_pass == pytest.approx(expected, rel=1e-9)
-
-
-def test_drifts_in_the_order_that_they_must_have():
-    found = drift(Case(1.0, 0.82))
-    assert found.study < found.single_pass < found.run < found.steady
-    assert found.interface_drift_endless < found.interface_drift < found.interface_run
-    assert drift(Case(1.0, 0.82, protocol=NO_RAMP)).run < found.run
-    assert found.run < found.interface_run < found.flash_run
-    assert 0.5 < found.belt_share < found.belt_share_steady < 1.0
-    assert found.run > CAMERA and not found.steady_melts
 
 
 def test_shortest_belt_meets_the_limit():

@@ -111,12 +111,6 @@ def test_a_value_in_another_unit_is_refused_in_a_line(chain, value, unit, line, 
     assert not (tmp_path / "out").exists()
 
 
-def test_rows_can_be_fewer_than_steps(chain):
-    result = result_of(chain(), **{"run.output_interval": 0.1}).result
-    np.testing.assert_allclose(result.time, np.linspace(0.0, 1.0, 11), rtol=0, atol=1e-12)
-    assert result.steps == 100
-
-
 def test_what_is_not_said_is_told(chain):
     lag_unit(chain().parent / "second.fmu")
     done = result_of(chain(step=("macro_step = 0.01", "")))

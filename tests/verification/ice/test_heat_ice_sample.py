@@ -41,13 +41,6 @@ def sample(tmp_path, mesh, h=0.0, width=WIDE):
     return Sample(Ice(air_heat_transfer=h), path, width)
 
 
-def slab(t, height):
-    """Face of an insulated slab under 1 W/m2, K m2/W."""
-    n = np.arange(1, 200_000)
-    series = np.sum(-np.expm1(-ALPHA * (n * np.pi / height) ** 2 * t) / n**2)
-    return t / (RHO * C * height) + 2.0 * height / (K * np.pi**2) * series
-
-
 def test_slowest_rate_of_the_cooled_box(tmp_path):
     """Both pairs of sides: y tan y = h l/(2 k); height, insulated below: y tan y = h H/k."""
     h = 50.0
