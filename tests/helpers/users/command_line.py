@@ -26,6 +26,13 @@ elements = 3
 """
 
 
+def written(folder, text, name="case.toml"):
+    """A file of a text, or of bytes."""
+    path = folder / name
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
+
 def stickslip(folder, *arguments):
     """Of a process of its own, in a folder: exit status, what it printed."""
     return subprocess.run(

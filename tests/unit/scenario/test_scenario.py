@@ -4,6 +4,7 @@ import math
 import warnings
 
 import pytest
+from command_line import written
 from hypothesis import given
 from hypothesis import strategies as st
 from refusals import one_line
@@ -13,12 +14,6 @@ from stickslip.contradictions import COMPUTABLE
 from cosim.scenario import Scenario, packaged_scenarios, read_scenario
 from cosim.scenario.validation import ScenarioError
 from thermal import ThermalParameters
-
-
-def written(tmp_path, text, name="case.toml"):
-    path = tmp_path / name
-    path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return path
 
 
 def fault(tmp_path, text):
