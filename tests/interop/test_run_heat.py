@@ -48,21 +48,6 @@ def test_a_sample_beside_the_scenario_and_an_animation(tmp_path, fmu, mesh):
     assert heat["relative_residual"] < 1e-10
 
 
-@pytest.mark.parametrize(
-    ("factor", "says"),
-    [
-        (1000.0, "the sample is 60 x 60 x 80 m, allowed is up to 2 m: is the file in mm?"),
-        (0.0, "the sample is 0 x 0 x 0 m"),
-    ],
-)
-def test_a_bad_mesh_is_one_line(tmp_path, fmu, mesh, factor, says):
-    meshio.Mesh(factor * mesh.p.T, [("tetra", mesh.t.T)]).write(tmp_path / "block.vtk")
-    done = run(tmp_path, fmu, SHORT + '[ice]\nmesh = "block.vtk"\n')
-    assert done.returncode == 2
-    assert done.stderr.startswith("error: ice.mesh: ") and says in done.stderr
-    assert done.stderr.count("\n") == 1
-
-
 def test_without_asking_there_is_no_animation_and_melting_away_ends_the_run(tmp_path, fmu):
     text = SHORT + MELTS + "[mixed_lubrication]\nshare = 1e-6\n"
     done = run(tmp_path, fmu, text)
