@@ -15,21 +15,11 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from command_line import stickslip, stickslip_here
+from command_line import SHORT_CASE, stickslip, stickslip_here
 
 MODULE = [sys.executable, "-m", "cosim"]
 SCRIPT = Path(sys.executable).with_name("stickslip")
-SHORT = """
-defaults = "plain"
-[surface]
-run_up_time = 0.5
-[run]
-duration = 2.0
-snapshot_interval = 0.5
-[belt]
-cell_length = 5e-3
-elements = 3
-"""
+SHORT = SHORT_CASE.format(run_up=0.5, duration=2.0, snapshots=0.5)
 RESULTS = {"result.nc", "result.csv", "summary.json", "report.html"}
 
 

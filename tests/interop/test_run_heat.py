@@ -6,21 +6,11 @@ import meshio
 import numpy as np
 import pytest
 import xarray as xr
-from command_line import stickslip_here
+from command_line import SHORT_CASE, stickslip_here
 from PIL import Image
 from skfem import MeshTet
 
-SHORT = """
-defaults = "plain"
-[surface]
-run_up_time = 0.2
-[run]
-duration = 1.0
-snapshot_interval = 0.25
-[belt]
-cell_length = 5e-3
-elements = 3
-"""
+SHORT = SHORT_CASE.format(run_up=0.2, duration=1.0, snapshots=0.25)
 
 
 #: A film of ice that the first friction melts away.
@@ -56,21 +46,6 @@ def test_a_sample_beside_the_scenario_and_an_animation(tmp_path, fmu, mesh):
     assert {block.type for block in fields.cells} == {"quad", "tetra"}
     heat = json.loads((tmp_path / "out" / "summary.json").read_text())["ledger"]["heat"]
     assert heat["relative_residual"] < 1e-10
-
-
-@pytest.mark.parametrize(
-    ("factor", "says"),
-    [
-        (1000.0, "the sample is 60 x 60 x 80 m, allowed is up to 2 m: is the file in mm?"),
-        (0.0, "the sample is 0 x 0 x 0 m"),
-    ],
-)
-def test_a_bad_mesh_is_one_line(tmp_path, fmu, mesh, factor, says):
-    meshio.Mesh(factor * mesh.p.T, [("tetra", mesh.t.T)]).write(tmp_path / "block.vtk")
-    done = run(tmp_path, fmu, SHORT + '[ice]\nmesh = "block.vtk"\n')
-    assert done.returncode == 2
-    assert done.stderr.startswith("error: ice.mesh: ") and says in done.stderr
-    assert done.stderr.count("\n") == 1
 
 
 def test_without_asking_there_is_no_animation_and_melting_away_ends_the_run(tmp_path, fmu):

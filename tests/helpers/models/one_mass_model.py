@@ -20,11 +20,12 @@ ACCURACY = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-14}
 
 @dataclass
 class OneMass:
-    """m x'' = pull(x) - damping x' + friction on a belt of speed(t).
+    """m x'' = pull(x) - damping(x') + friction on a belt of speed(t).
 
     Attributes
     ----------
     pull : force of the springs on the block at x, N
+    damping : force against the block's own velocity, N, of it
     kinetic : friction of a slip, N >= 0, of (sliding speed, state)
     static : what the contact holds, N, of (time at rest, state)
     speed, acceleration : of the belt, of t
@@ -39,7 +40,7 @@ class OneMass:
     static: Callable[[float, np.ndarray], float]
     speed: Callable[[float], float]
     acceleration: Callable[[float], float] = lambda t: 0.0
-    damping: float = 0.0
+    damping: Callable[[float], float] = lambda velocity: 0.0
     relaxation: float = np.inf
     judged: float = 1.0
     lag: Callable[[np.ndarray], float] = lambda state: 0.0
@@ -79,7 +80,7 @@ class OneMass:
         def slopes(t, s):
             sliding = abs(s[V] - self.speed(t))
             friction = self.kinetic(sliding, s)
-            force = self.pull(s[X]) - self.damping * s[V] - side * friction
+            force = self.pull(s[X]) - self.damping(s[V]) - side * friction
             heat = friction * sliding
             warming = heat - s[RECENT_HEAT] / self.relaxation
             return [s[V], force / self.mass, heat, warming, sliding, self.speed(t)]
@@ -103,7 +104,7 @@ class OneMass:
 
     def _holding(self, t, s):
         """Friction that would keep the block on the belt, N."""
-        return self.mass * self.acceleration(t) - self.pull(s[X]) + self.damping * self.speed(t)
+        return self.mass * self.acceleration(t) - self.pull(s[X]) + self.damping(self.speed(t))
 
     def _after(self, t, since, side, s):
         """0: stick; +-1: the side to which the block slides on."""

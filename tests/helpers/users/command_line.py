@@ -12,6 +12,26 @@ import sys
 from cosim.cli import main
 from cosim.cli.arguments import add_arguments
 
+#: A coupled case that takes next to no time.
+SHORT_CASE = """
+defaults = "plain"
+[surface]
+run_up_time = {run_up}
+[run]
+duration = {duration}
+snapshot_interval = {snapshots}
+[belt]
+cell_length = 5e-3
+elements = 3
+"""
+
+
+def written(folder, text, name="case.toml"):
+    """A file of a text, or of bytes."""
+    path = folder / name
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
 
 def stickslip(folder, *arguments):
     """Of a process of its own, in a folder: exit status, what it printed."""

@@ -17,17 +17,7 @@ pytestmark = pytest.mark.usefixtures("elsewhere")
 
 
 #: Commands that compute no figures.
-NO_FIGURES = {
-    "campaign",
-    "build",
-    "completion",
-    "docs",
-    "effect",
-    "explore",
-    "new",
-    "plot",
-    "schema",
-}
+NO_FIGURES = set("campaign build completion docs effect explore new plot schema".split())
 
 
 @pytest.mark.parametrize("command", ["", *COMMANDS])
@@ -62,22 +52,6 @@ def test_version(capsys):
 )
 def test_arguments_that_do_not_exist_are_refused(capsys, argv, line):
     assert line in refusal(capsys, *argv)
-
-
-@pytest.mark.parametrize("command", ["run", "simulate"])
-@pytest.mark.parametrize(
-    "text, line",
-    [
-        ("[rig]\nmas = 1", "case.toml: rig.mas: no such key, nearest known: rig.mass"),
-        (None, "case.toml: no such file"),
-    ],
-)
-def test_a_bad_scenario_is_refused(capsys, tmp_path, command, text, line):
-    """As the reader does, whose own tests have all the cases."""
-    if text is not None:
-        (tmp_path / "case.toml").write_text(text)
-    assert line in refusal(capsys, command, "case.toml", "-o", "out")
-    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.parametrize(

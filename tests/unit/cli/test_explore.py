@@ -53,34 +53,32 @@ def test_it_takes_the_place_of_its_own_pages_only(tmp_path, capsys, opened):
     assert main(["explore", "-o", "thesis.html", "--no-open", "--force"]) == 0
 
 
-def test_without_a_kernel_it_says_what_to_do(tmp_path, capsys, monkeypatch):
+@pytest.fixture
+def nothing_compiles(tmp_path, monkeypatch):
+    """What the package brings along is in this folder, and there is no compiler."""
     monkeypatch.undo()
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(libraries, "__file__", str(tmp_path / "libraries.py"))
     monkeypatch.setattr(libraries, "possible", lambda platforms: [])
-    monkeypatch.setattr(web, "has_zig", lambda: False)
     libraries.libraries.cache_clear()
-    try:
-        said = refusal(capsys, "explore", "-o", "page.html", "--no-open")
-    finally:
-        libraries.libraries.cache_clear()
+    yield
+    libraries.libraries.cache_clear()
+
+
+def test_without_a_kernel_it_says_what_to_do(nothing_compiles, tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(web, "has_zig", lambda: False)
+    said = refusal(capsys, "explore", "-o", "page.html", "--no-open")
     assert said.startswith("no kernel for the browser: ")
     assert "`pip install ziglang`" in said
     assert not (tmp_path / "page.html").exists()
 
 
 @pytest.mark.skipif(not compiler.has_zig(), reason="needs zig")
-def test_a_wheel_brings_the_kernel(tmp_path, monkeypatch):
+def test_a_wheel_brings_the_kernel(request, tmp_path):
     """And what it brings is taken where there is no compiler."""
-    monkeypatch.undo()
     folder = tmp_path / libraries.PREBUILT
     made = libraries.prebuild(folder, web.NAME, web.guid(), web.sources, [libraries.BROWSER])
     (file,) = made.iterdir()
     assert file.read_bytes().startswith(MODULE)
-    monkeypatch.setattr(libraries, "__file__", str(tmp_path / "libraries.py"))
-    monkeypatch.setattr(libraries, "possible", lambda platforms: [])
-    libraries.libraries.cache_clear()
-    try:
-        assert web.module() == file.read_bytes()
-    finally:
-        libraries.libraries.cache_clear()
+    request.getfixturevalue("nothing_compiles")
+    assert web.module() == file.read_bytes()

@@ -8,7 +8,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 import pytest
-from command_line import refusal
+from command_line import SHORT_CASE, refusal
 
 import cosim.files
 from cosim.cli import main
@@ -22,17 +22,7 @@ from cosim.manifest import (
     results_in,
 )
 
-SHORT = """
-defaults = "plain"
-[surface]
-run_up_time = 0.2
-[run]
-duration = 0.5
-snapshot_interval = 0.1
-[belt]
-cell_length = 5e-3
-elements = 3
-"""
+SHORT = SHORT_CASE.format(run_up=0.2, duration=0.5, snapshots=0.1)
 
 
 pytestmark = pytest.mark.usefixtures("elsewhere")
@@ -105,14 +95,6 @@ def test_a_file_of_somebody_else_is_not_overwritten(capsys, tmp_path, argv, name
     line = refusal(capsys, *argv, "-o", "out")
     assert line.startswith(f"out/{name}: is no result of an earlier run")
     assert "--force" in line and theirs.read_text() == "my own"
-
-
-def test_force_overwrites(tmp_path):
-    (tmp_path / "short.toml").write_text(SHORT)
-    (tmp_path / "out").mkdir()
-    (tmp_path / "out" / "result.csv").write_text("my own")
-    assert main(["simulate", "short.toml", "-o", "out", "--force"]) == 0
-    assert (tmp_path / "out" / "result.csv").read_text().startswith("time,")
 
 
 def test_what_nobody_could_know_of_before_is_kept_beside_it(tmp_path):

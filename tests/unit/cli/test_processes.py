@@ -3,11 +3,10 @@
 import os
 import subprocess
 import sys
-import time
 from importlib.util import find_spec
-from pathlib import Path
 
 import pytest
+from process_ids import is_soon, lives
 
 from cosim.processes import STOP_SECONDS, apart, as_finished, processes
 
@@ -112,21 +111,6 @@ def test_workers_end_with_a_parent_that_was_killed(tmp_path):
         parent.kill()
     workers = [int(file.name) for file in place.iterdir()]
     is_soon(lambda: not any(map(lives, workers)), STOP_SECONDS / 2)
-
-
-def is_soon(true, seconds=40.0):
-    until = time.monotonic() + seconds
-    while not true():
-        assert time.monotonic() < until
-        time.sleep(0.1)
-
-
-def lives(process):
-    try:
-        os.kill(process, 0)
-    except ProcessLookupError:
-        return False
-    return " Z " not in Path(f"/proc/{process}/stat").read_text()
 
 
 def test_apart_looks_for_nothing_in_a_unit_that_was_left_on_the_path(tmp_path, monkeypatch):

@@ -120,11 +120,6 @@ def test_quiet_does_not_say_what_compiles_and_python_does(case, not_compiled, ca
 
 
 class TestJson:
-    def test_printed_it_is_all_there_is_on_stdout(self, case, capsys):
-        assert main(["simulate", case, "--json", "-o", "out"]) == 0
-        numbers = json.loads(capsys.readouterr().out)
-        assert numbers["status"] == "complete"
-
     def test_in_a_file_it_is_beside_the_lines(self, case, capsys, tmp_path):
         for _ in range(2):  # an earlier one is overwritten
             assert main(["simulate", case, "--json", "deep/numbers.json"]) == 0

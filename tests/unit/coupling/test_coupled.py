@@ -41,13 +41,6 @@ def test_a_run_is_complete_and_no_joule_is_lost(plain):
     assert largest_residual(ledger) < 1e-10 * exchanged(ledger)
 
 
-def test_the_belt_passes_as_far_as_the_surface_less_the_block(plain):
-    run = plain
-    moved = last(run, "mechanics.x") - run.result["mechanics.x"][0]
-    slid = last(run, "mechanics.surface_travel") - moved
-    assert run.snapshots.contact[-1] == pytest.approx((0.5 - slid) % 1.0, abs=1e-12)
-
-
 def test_temperature_acts_on_friction_only_when_it_is_asked_to(plain, fmu):
     fed = "mechanics.interface_temperature"
     assert plain.result[fed][-1] == plain.result["thermal.interface_temperature"][-2]
@@ -195,13 +188,6 @@ def test_a_state_that_is_taken_back_is_in_no_picture():
     part.observe()
     assert pictures.time.tolist() == [0.0, 0.1]
     assert pictures.temperature.max() < -7.9
-
-
-def test_pictures_are_of_communication_points_that_stand(fmu):
-    steps = {"coupling__step_control": "doubling", "coupling__macro_step": 0.05}
-    run = run_scenario(case(run__duration=0.6, run__snapshot_interval=1e-6, **steps), fmu=fmu)
-    assert run.result.statistics.steps < run.result.statistics.participants["thermal"].steps
-    np.testing.assert_array_equal(run.snapshots.time, run.result.time)
 
 
 WARM_FRICTION = case(temperature_dependence__sensitivity=0.05)

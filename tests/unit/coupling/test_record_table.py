@@ -34,18 +34,6 @@ def loaded(path):
     return np.load(path, mmap_mode="r")
 
 
-def test_numpy_reads_it_after_every_row(tmp_path):
-    table = GrowingTable(3, tmp_path / "t.npy")
-    assert loaded(table.path).shape == (0, 3)
-    for n in range(20):
-        table.append([n, 0.1 * n, -1.0])
-        found = loaded(table.path)
-        assert found.shape == (n + 1, 3)
-        assert found[-1].tolist() == [n, 0.1 * n, -1.0]
-    assert table.path.stat().st_size % 8 == 0
-    np.testing.assert_array_equal(np.load(table.path), table.rows())
-
-
 def test_every_number_comes_back_as_it_was(tmp_path):
     odd = [np.nan, np.inf, -np.inf, -0.0, 5e-324, 1.7976931348623157e308, 0.1]
     table = GrowingTable(len(odd), tmp_path / "t.npy")

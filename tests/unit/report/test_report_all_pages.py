@@ -49,18 +49,7 @@ PAGES = {
 }
 QUICK = ("effects",)
 #: Those that write no page, and the explorer, whose page has a room of its own (interop/explorer).
-WITHOUT = {
-    "build",
-    "campaign",
-    "completion",
-    "docs",
-    "effect",
-    "explore",
-    "keys",
-    "new",
-    "plot",
-    "schema",
-}
+WITHOUT = "build campaign completion docs effect explore keys new plot schema".split()
 
 
 @pytest.mark.parametrize(

@@ -74,13 +74,6 @@ def test_a_block_that_leaves_the_belt_is_told_of_with_time_and_place(make, side,
     assert "beyond the belt&#39;s edge" in page
 
 
-@pytest.mark.parametrize("make", [coupled_dataset, mechanics_dataset])
-def test_a_block_on_its_belt_is_not_told_of(make):
-    found = summary(aside(make(), 0.002))
-    assert found["left_belt"]["time"] is None and found["overstretched"]["time"] is None
-    assert bounds_sentences(found) == []
-
-
 def test_a_slab_has_a_centre_and_its_heat_a_track():
     mechanics = summary(aside(mechanics_dataset("slab"), 0.48))
     assert "left_belt" not in mechanics

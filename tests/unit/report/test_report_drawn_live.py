@@ -1,16 +1,11 @@
 """What a drawn figure over time gives to a page: its curves, levels, names and units."""
 
-import base64
-
 import numpy as np
 from matplotlib.figure import Figure
+from test_report_live import unpacked
 
 from cosim.report.live import Curve, Panel, Series, panels_on_one_axis
 from cosim.report.live_of_figure import live_of
-
-
-def unpacked(values):
-    return np.frombuffer(base64.b64decode(values["data"]), dtype=f"<{values['type']}")
 
 
 def test_curves_of_other_times_share_an_axis():

@@ -23,14 +23,12 @@ def dataset(**last):
     )
 
 
-def shares(found):
-    return heat_shares(found)
-
-
 def test_without_railing_and_rollers_the_shares_are_those_of_the_contacts_heat():
     found = dataset()
     assert "from_railing" not in heat_ledger(found)
-    assert shares(found) == pytest.approx({"belt": 0.5, "ice": 0.3, "air": 0.2, "supports": 0.0})
+    assert heat_shares(found) == pytest.approx(
+        {"belt": 0.5, "ice": 0.3, "air": 0.2, "supports": 0.0}
+    )
 
 
 @pytest.mark.parametrize(
@@ -43,7 +41,7 @@ def test_without_railing_and_rollers_the_shares_are_those_of_the_contacts_heat()
 )
 def test_shares_are_of_all_heat_and_add_up(others):
     found = dataset(**others)
-    assert sum(shares(found).values()) == pytest.approx(1.0)
-    assert min(shares(found).values()) >= 0.0
+    assert sum(heat_shares(found).values()) == pytest.approx(1.0)
+    assert min(heat_shares(found).values()) >= 0.0
     assert heat_ledger(found)["supports"] == others.get("support_heat", 0.0)
     assert ("from_railing" in heat_ledger(found)) is ("railing_heat" in others)

@@ -51,12 +51,8 @@ def melted(thickness=THICKNESS, **changes) -> xr.Dataset:
     )
 
 
-def numbers(dataset) -> dict[str, float]:
-    return melting(dataset)
-
-
 def test_what_melted_and_when():
-    found = numbers(melted())
+    found = melting(melted())
     assert found["onset"] == pytest.approx(ONSET, abs=0.011)
     assert found["melted_mass"] == pytest.approx(RATE * (END - ONSET))
     assert found["refrozen_mass"] == pytest.approx(0.25 * RATE * (END - ONSET))
@@ -70,7 +66,7 @@ def test_what_melted_and_when():
 
 
 def test_the_balance_of_the_film():
-    found = numbers(melted())
+    found = melting(melted())
     couette = ETA * SPEED / THICKNESS
     flooded = SHARE * THICKNESS / (THICKNESS + ROUGHNESS)
     assert found["film_thickness"] == pytest.approx(THICKNESS)
@@ -88,7 +84,7 @@ def test_a_film_too_thin_for_its_friction_covers_a_part_of_the_contact():
     thin = melted(6.5e-7, **{"rig.mass": 0.67})
     thin["friction_force_y"][:] = 0.21 * 0.67 * 9.81
     thin["sliding_speed"][:] = 0.5
-    found = numbers(thin)
+    found = melting(thin)
     excess = found["whole_film_shear"] / found["friction_stress"]
     assert excess == pytest.approx(5.0, abs=0.1)
     assert found["largest_flooded_share"] == pytest.approx(excess**-0.5)
@@ -105,7 +101,7 @@ def test_no_film_in_stick_and_none_without_water():
         film.friction_stress[:200] > 0.0
     )
     assert not np.any(np.isfinite(film.friction_stress[300:]))
-    assert numbers(dataset)["friction_end"] is None
+    assert melting(dataset)["friction_end"] is None
 
 
 def test_the_breadth_of_a_mesh_is_not_known():
@@ -113,7 +109,7 @@ def test_the_breadth_of_a_mesh_is_not_known():
     blocks = json.loads(dataset.attrs["parameters"])
     blocks["ice"]["mesh"]["value"] = "sample.msh"
     dataset.attrs["parameters"] = json.dumps(blocks)
-    assert numbers(dataset)["film_fed_by_melting"] is None
+    assert melting(dataset)["film_fed_by_melting"] is None
 
 
 def test_numbers_and_figure_only_where_something_melted():

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
-from lag_unit import lag_unit
+from lag_unit import RAMP, lag_unit
 from stickslip import Parameters
 
 from cosim import read_scenario, run_scenario, simulate_scenario
@@ -73,30 +73,11 @@ def test_an_answer_as_a_dataset_has_runs_models_and_numbers(gap, tmp_path):
         assert read.sizes == data.sizes
 
 
-#: y1 = 6 t, which a second unit follows.
-SYSTEM = """
-[units.ramp]
-file = "lag.fmu"
-parameters = { "part.gain" = 6.0 }
-inputs = { u = 1.0 }
-[units.lag]
-file = "lag.fmu"
-parameters = { "part.rate" = 2.0 }
-[[connections]]
-from = "ramp.y"
-to = "lag.u"
-[coupling]
-macro_step = 0.1
-[run]
-stop = 1.0
-"""
-
-
 @pytest.fixture(scope="module")
 def system(tmp_path_factory):
     folder = tmp_path_factory.mktemp("system")
     lag_unit(folder / "lag.fmu")
-    (folder / "system.toml").write_text(SYSTEM, encoding="utf-8")
+    (folder / "system.toml").write_text(RAMP.format(more=""), encoding="utf-8")
     with read_system(folder / "system.toml") as specification:
         return run_system(specification)
 

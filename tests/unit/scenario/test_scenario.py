@@ -4,6 +4,7 @@ import math
 import warnings
 
 import pytest
+from command_line import written
 from hypothesis import given
 from hypothesis import strategies as st
 from refusals import one_line
@@ -15,28 +16,12 @@ from cosim.scenario.validation import ScenarioError
 from thermal import ThermalParameters
 
 
-def written(tmp_path, text, name="case.toml"):
-    path = tmp_path / name
-    path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return path
-
-
 def fault(tmp_path, text):
     """The line that a file gets, without the file."""
     path = written(tmp_path, text)
     line = one_line(ScenarioError, read_scenario, path)
     assert line.startswith(f"{path}: ")
     return line.removeprefix(f"{path}: ")
-
-
-def test_reference_is_the_published_case():
-    case = read_scenario("reference")
-    assert (case.rig.mass, case.springs.stiffness) == (0.67, 20.17)
-    assert (case.friction.mu_s, case.friction.mu_k) == (0.2815, 0.2086)
-    assert (case.belt.length, case.surface.speed, case.surface.run_up_time) == (1.0, 0.15, 10.0)
-    assert (case.ambient.temperature_degC, case.run.duration) == (-8.0, 30.0)
-    assert (case.lateral_friction.ratio, case.coupling.macro_step) == (1.0, 0.01)
-    assert (case.rig.spring_length, case.rig.spring_natural_length) == (0.20, 0.17)
 
 
 def test_what_the_reference_leaves_out_or_states_is_the_default():

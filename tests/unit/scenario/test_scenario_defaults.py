@@ -3,6 +3,7 @@
 import json
 
 import pytest
+from command_line import written
 
 from cosim.cli import main
 from cosim.scenario import Scenario, read_scenario
@@ -10,12 +11,6 @@ from cosim.scenario.defaults import IN_PROPORTION, stated
 from cosim.scenario.validation import known_keys
 
 THREE_LINES = "[rig]\nmass = 1.0\n[run]\nduration = 30.0\n"
-
-
-def written(tmp_path, text, name="case.toml"):
-    path = tmp_path / name
-    path.write_text(text)
-    return path
 
 
 def flat(scenario):

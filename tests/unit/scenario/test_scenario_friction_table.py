@@ -1,6 +1,7 @@
 """A table of friction in a scenario: its numbers, or the CSV file that has them."""
 
 import pytest
+from command_line import written
 from refusals import one_line
 
 from cosim.scenario import Scenario, read_scenario
@@ -10,10 +11,8 @@ CSV = "v, mu\n0, 0.25\n0.1, 0.2\n0.3, 0.22\n"
 
 
 def scenario(folder, text, csv=CSV, name="mu_v.csv"):
-    (folder / name).write_text(csv, encoding="utf-8")
-    path = folder / "case.toml"
-    path.write_text(text, encoding="utf-8")
-    return path
+    written(folder, csv, name)
+    return written(folder, text)
 
 
 def test_a_file_is_named_from_where_the_scenario_is(tmp_path, monkeypatch):
@@ -25,8 +24,7 @@ def test_a_file_is_named_from_where_the_scenario_is(tmp_path, monkeypatch):
 
 def test_it_is_written_back_as_numbers(tmp_path):
     first = read_scenario(scenario(tmp_path, '[friction]\ntable = "mu_v.csv"\n'))
-    copy = tmp_path / "copy.toml"
-    copy.write_text(first.to_toml(), encoding="utf-8")
+    copy = written(tmp_path, first.to_toml(), "copy.toml")
     (tmp_path / "mu_v.csv").unlink()
     assert read_scenario(copy).friction == first.friction
 

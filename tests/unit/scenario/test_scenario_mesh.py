@@ -1,10 +1,10 @@
+from command_line import written
+
 from cosim.scenario import read_scenario
 
 
 def scenario(folder, mesh):
-    path = folder / "case.toml"
-    path.write_text(f'[ice]\nmesh = "{mesh}"\n')
-    return path
+    return written(folder, f'[ice]\nmesh = "{mesh}"\n')
 
 
 def test_a_mesh_is_named_from_where_the_scenario_is(tmp_path, monkeypatch):
@@ -20,6 +20,5 @@ def test_a_mesh_is_named_from_where_the_scenario_is(tmp_path, monkeypatch):
 def test_an_absolute_mesh_stays_what_it_is_and_is_written_back(tmp_path):
     first = read_scenario(scenario(tmp_path, tmp_path / "sample.msh"))
     (tmp_path / "elsewhere").mkdir()
-    copy = tmp_path / "elsewhere" / "copy.toml"
-    copy.write_text(first.to_toml())
+    copy = written(tmp_path / "elsewhere", first.to_toml())
     assert read_scenario(copy).ice.mesh == str(tmp_path / "sample.msh")

@@ -4,10 +4,9 @@ import os
 import signal
 import subprocess
 import sys
-import time
-from contextlib import suppress
 
 import pytest
+from process_ids import is_soon, lives
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="by signals")
 
@@ -24,14 +23,6 @@ compiled({"a.c": b"int a;"}, [this_machine()], "a", stays=True)
 """
 
 
-def lives(number):
-    """Whether a process is there, and no zombie that nobody has asked for."""
-    with suppress(OSError):
-        with open(f"/proc/{number}/stat") as file:
-            return file.read().rpartition(")")[2].split()[0] != "Z"
-    return False
-
-
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGINT, signal.SIGTERM])
 def test_a_compiler_ends_with_whoever_asked_for_it(tmp_path, number):
     started, compiler = tmp_path / "started", tmp_path / "cc"
@@ -41,15 +32,9 @@ def test_a_compiler_ends_with_whoever_asked_for_it(tmp_path, number):
     process = subprocess.Popen(
         [sys.executable, "-c", AT_WORK], env=environment, stderr=subprocess.DEVNULL
     )
-    until = time.monotonic() + 20.0
-    while not (started.exists() and started.read_text().endswith("\n")):
-        assert time.monotonic() < until
-        time.sleep(0.02)
+    is_soon(lambda: started.exists() and started.read_text().endswith("\n"), 20.0)
     programs = [int(each) for each in started.read_text().split()]
     assert all(map(lives, programs))
     process.send_signal(number)
     assert process.wait(10.0) != 0
-    until = time.monotonic() + 5.0
-    while any(map(lives, programs)) and time.monotonic() < until:
-        time.sleep(0.02)
-    assert not any(map(lives, programs))
+    is_soon(lambda: not any(map(lives, programs)), 5.0)

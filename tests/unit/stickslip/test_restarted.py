@@ -45,16 +45,6 @@ def test_places_alone_are_those_of_the_outputs(p):
     assert np.array_equal(places, outputs[:, O_X : O_X + 3])
 
 
-def test_restarts_with_the_model_s_own_states_change_nothing(p):
-    times = np.linspace(0.0, 4.0, 401)
-    whole = simulate_restarted(p, SPEED, COLD, times, FROM_REST)
-    slips = np.flatnonzero(whole[:, O_MODE] == 1.0)
-    rows = slips[(slips > 50) & (slips < 350)][::7]
-    again = Restarts.at([0, *rows], [state(), *whole[rows, O_X : O_X + 6]])
-    cut = simulate_restarted(p, SPEED, COLD, times, again)
-    assert np.abs(cut[:, O_X] - whole[:, O_X]).max() < 1e-7
-
-
 @pytest.fixture(scope="module")
 def creeping(parameters):
     return parameters.model_copy(update={"friction": Friction(stick_creep=2e-3)}).pack()

@@ -11,7 +11,6 @@ from cosim.studies.belt_length import (
     Protocol,
     StudyError,
     scenario_case,
-    shortest_belt,
 )
 from cosim.studies.belt_length.drift import changes, drift, interface_drift, run_drift, wait
 from thermal import ParameterError
@@ -24,14 +23,6 @@ def test_the_ramp_counts(h, printed):
     """1 m at 0.15 m/s, against figures computed elsewhere; without the ramp it is a sixth less."""
     assert run_drift(Case(1.0, 0.15, h=h)) == pytest.approx(printed, rel=AS_PRINTED)
     assert run_drift(Case(1.0, 0.15, h=15.0, protocol=Protocol(ramp=0.0))) < CAMERA
-
-
-@pytest.mark.parametrize(("speed", "with_ramp", "without"), [(0.15, 1.2, 1.0), (0.82, 8.3, 7.3)])
-def test_shortest_belts_with_and_without_ramp(speed, with_ramp, without):
-    case = Case(1.0, speed, h=15.0)
-    assert shortest_belt(case, CAMERA, run_drift) == pytest.approx(with_ramp, rel=AS_PRINTED)
-    case = replace(case, protocol=Protocol(ramp=0.0))
-    assert shortest_belt(case, CAMERA, run_drift) == pytest.approx(without, rel=AS_PRINTED)
 
 
 def test_the_ice_warms_itself_whatever_the_belt():

@@ -111,12 +111,6 @@ def test_a_value_in_another_unit_is_refused_in_a_line(chain, value, unit, line, 
     assert not (tmp_path / "out").exists()
 
 
-def test_rows_can_be_fewer_than_steps(chain):
-    result = result_of(chain(), **{"run.output_interval": 0.1}).result
-    np.testing.assert_allclose(result.time, np.linspace(0.0, 1.0, 11), rtol=0, atol=1e-12)
-    assert result.steps == 100
-
-
 def test_what_is_not_said_is_told(chain):
     lag_unit(chain().parent / "second.fmu")
     done = result_of(chain(step=("macro_step = 0.01", "")))
@@ -243,15 +237,21 @@ def test_the_run_of_another_command_is_not_gone_on_with(tmp_path, capsys, comman
     assert said in refusal(capsys, command, "--resume", tmp_path)
 
 
+def cut_off(folder, system):
+    """An unfinished run of a system in a folder."""
+    folder.mkdir()
+    run = RunFolder.begun(folder, {"system": system}, {})
+    run.checkpoint.write_text("of a run that was cut off")
+    run.release()
+    return run.checkpoint
+
+
 @pytest.mark.parametrize("named", [False, True])
 def test_units_that_only_an_unfinished_run_names_are_not_run(chain, tmp_path, capsys, named):
     """A folder of somebody else's can name any: the system of the call is read, or none."""
     theirs = tmp_path / "theirs.toml"
     theirs.write_text("no system at all")
-    (tmp_path / "out").mkdir()
-    folder = RunFolder.begun(tmp_path / "out", {"system": str(theirs)}, {})
-    folder.checkpoint.write_text("of a run that was cut off")
-    folder.release()
+    cut_off(tmp_path / "out", str(theirs))
     system = [str(chain())] if named else []
     assert main(["couple", *system, "--resume", str(tmp_path / "out")]) == 2
     told = capsys.readouterr().err.splitlines()[-1]
@@ -264,12 +264,9 @@ def test_units_that_only_an_unfinished_run_names_are_not_run(chain, tmp_path, ca
 
 @pytest.mark.parametrize("old, new", [("second.fmu", "third.fmu"), ("second.u", "second.v")])
 def test_what_is_refused_leaves_an_unfinished_run_alone(chain, tmp_path, old, new):
-    (tmp_path / "out").mkdir()
-    folder = RunFolder.begun(tmp_path / "out", {"system": "chain.toml"}, {})
-    folder.checkpoint.write_text("of a run that was cut off")
-    folder.release()
+    checkpoint = cut_off(tmp_path / "out", "chain.toml")
     assert main(["couple", str(chain(change=(old, new))), "-o", str(tmp_path / "out")]) == 2
-    assert folder.checkpoint.read_text() == "of a run that was cut off"
+    assert checkpoint.read_text() == "of a run that was cut off"
 
 
 def test_energy_that_is_taken_up_is_in_the_ledger(chain):

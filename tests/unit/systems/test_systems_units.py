@@ -3,29 +3,9 @@
 import numpy as np
 import pytest
 from c_units import made
-from lag_unit import lag_unit
+from lag_unit import RAMP, lag_unit
 
 from cosim.systems import SystemFault, read_system, run_system
-
-#: y1 = 6 t exactly, which a linear waveform is; y2' = y1 - 2 y2.
-RAMP = """
-[units.ramp]
-file = "lag.fmu"
-parameters = { "part.gain" = 6.0 }
-inputs = { u = 1.0 }
-[units.lag]
-file = "lag.fmu"
-parameters = { "part.rate" = 2.0 }
-EXTRA
-[[connections]]
-from = "ramp.y"
-to = "lag.u"
-[coupling]
-scheme = "iterated"
-macro_step = 0.1
-[run]
-stop = 1.0
-"""
 
 
 @pytest.fixture
@@ -35,7 +15,7 @@ def lag(tmp_path):
 
     def values(extra):
         path = tmp_path / "ramp.toml"
-        path.write_text(RAMP.replace("EXTRA", extra))
+        path.write_text(RAMP.format(more=extra))
         with read_system(path) as specification:
             result = run_system(specification).result
         assert result.status == "complete", result.reason

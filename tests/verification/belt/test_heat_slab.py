@@ -14,7 +14,6 @@ D, K, RHO, C = 1e-3, 0.5, 700.0, 840.0
 ALPHA = K / (RHO * C)
 LANE = 0.075
 ORDER_OF_P2_IN_L2 = 3
-ORDER_OF_P1_EIGENVALUES = 2
 # The graded meshes are similar only in the limit of many elements.
 ASYMPTOTIC = 0.25
 
@@ -69,18 +68,6 @@ def test_finite_slab_under_constant_flux_and_order_in_l2():
         errors.append(np.sqrt(np.mean(error**2)) / np.sqrt(np.mean(exact**2)))
     assert errors[1] < 1e-3
     assert orders(sizes, errors)[-1] == pytest.approx(ORDER_OF_P2_IN_L2, abs=ASYMPTOTIC)
-
-
-def test_diffusion_along_the_belt():
-    """cos(2 pi j x/L) decays with alpha (2 pi j/L)^2 on top of the thickness mode."""
-    length, j = 0.02, 3
-    exact = ALPHA * (2 * np.pi * j / length) ** 2
-    cells = np.array([20, 40, 80, 160])
-    errors = [
-        abs((belt.rates[0, j] - belt.rates[0, 0]) / exact - 1.0)
-        for belt in (slab(cells=n, length=length) for n in cells)
-    ]
-    assert orders(1 / cells, errors) == pytest.approx(ORDER_OF_P1_EIGENVALUES, abs=0.05)
 
 
 def test_constant_flux_is_exact_in_time():

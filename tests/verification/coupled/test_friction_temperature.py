@@ -28,11 +28,6 @@ def law(temperature=COLD, speeds=SPEEDS, **effects):
     return friction_coefficient(parameters(**effects), speeds, temperature)
 
 
-def asperity(speed, temperature=COLD, constant=1.128):
-    warming = constant * ASPERITY["effusivity"] * -temperature
-    return warming / (ASPERITY["hardness"] * np.sqrt(ASPERITY["length"] * speed))
-
-
 def film(speed):
     """Mean shear stress of a film that the shear thickens while it is slid over, by pressure.
 
@@ -114,20 +109,6 @@ def test_a_film_of_melt_is_sheared():
     for at in range(0, len(SPEEDS), 8):
         # the film begins at 1e-8 of its thickness
         assert found[at] == pytest.approx(film(SPEEDS[at]), rel=1e-6)
-
-
-def test_slopes_and_minimum_of_the_law():
-    """-1/2 where asperities melt, 1/2 where a film is sheared, the minimum where both are equal."""
-    speeds = np.geomspace(1e-7, 1e9, 4001)
-    found = law(speeds=speeds, melt_film=FILM | {"wetted_share": 1e-6}, asperity_melting=ASPERITY)
-    slope = np.gradient(np.log(found), np.log(speeds))
-    assert slope[0] == pytest.approx(0.0, abs=1e-3)
-    assert slope.min() == pytest.approx(-0.5, abs=1e-3)
-    assert slope[-1] == pytest.approx(0.5, abs=1e-3)
-    wet = film(1.0) * 1e-6 / FILM["wetted_share"]
-    lowest = speeds[np.argmin(found)]
-    assert lowest == pytest.approx(asperity(1.0) / wet, rel=0.01)  # a step of the grid is 0.9 %
-    assert found.min() == pytest.approx(sqrt(2.0 * asperity(1.0) * wet), rel=1e-4)
 
 
 @pytest.mark.parametrize("temperature", [-20.0, -1.0, -1e-3, -1e-11, -1e-160, 0.0, 2.0])

@@ -162,7 +162,11 @@ CASES = {
         {"pull": lambda x: -STIFFNESS * x - 4e4 * ((x + 0.01) ** 3 + (x - 0.01) ** 3)}),
     "spring_hardening, quintic": (
         {"quintic": 2e7}, {"pull": lambda x: -STIFFNESS * x - 8e7 * x**5}),
-    "structural_damping": ({"coefficient": 0.08}, {"damping": 0.08}),
+    "structural_damping": ({"coefficient": 0.08}, {"damping": lambda v: 0.08 * v}),
+    "structural_damping, quadratic": ({"quadratic": 0.5}, {"damping": lambda v: 0.5 * abs(v) * v}),
+    "structural_damping, dry": (
+        {"dry_force": 0.02, "dry_speed": 0.05},
+        {"damping": lambda v: 0.02 * v / np.hypot(v, 0.05)}),
     "speed_ripple": (RIPPLED, {"speed": ripple, "acceleration": ripple_rate}),
     "surface_pattern": (PATTERNED, both(pattern)),
     "speed_ripple, four harmonics": (

@@ -5,8 +5,6 @@ import numpy as np
 import pytest
 from sample_meshes import box, cylinder, write
 from scipy.linalg import eigh
-from scipy.optimize import brentq
-from scipy.sparse.linalg import eigsh
 from scipy.special import erfc
 
 from thermal import (
@@ -33,40 +31,11 @@ WIDE = 1.0
 
 #: The round side is a polygon: its area and its circumference err by the square of a side.
 ORDER_OF_THE_POLYGON = 2
-ORDER_OF_P2_EIGENVALUES = 4
 
 
 def sample(tmp_path, mesh, h=0.0, width=WIDE):
     path = write(tmp_path / "sample.vtu", *mesh)
     return Sample(Ice(air_heat_transfer=h), path, width)
-
-
-def slab(t, height):
-    """Face of an insulated slab under 1 W/m2, K m2/W."""
-    n = np.arange(1, 200_000)
-    series = np.sum(-np.expm1(-ALPHA * (n * np.pi / height) ** 2 * t) / n**2)
-    return t / (RHO * C * height) + 2.0 * height / (K * np.pi**2) * series
-
-
-def test_slowest_rate_of_the_cooled_box(tmp_path):
-    """Both pairs of sides: y tan y = h l/(2 k); height, insulated below: y tan y = h H/k."""
-    h = 50.0
-
-    def root(biot):
-        return brentq(lambda s: s * np.tan(s) - biot, 1e-6, 1.57)
-
-    exact = ALPHA * (
-        (root(h * EXTENT[2] / K) / EXTENT[2]) ** 2
-        + sum((root(0.5 * h * length / K) / (0.5 * length)) ** 2 for length in EXTENT[:2])
-    )
-    errors = []
-    for n in (3, 6):
-        points, cells = box((n, n, n), EXTENT)
-        body = assembled(Ice(air_heat_transfer=h), points, cells, WIDE)
-        rates = eigsh(body.conduction(), 1, body.capacity(), sigma=0.0, return_eigenvectors=False)
-        errors.append(rates[0] / exact - 1.0)
-    assert np.log2(errors[0] / errors[1]) == pytest.approx(ORDER_OF_P2_EIGENVALUES, abs=0.4)
-    assert errors[1] < 1e-4
 
 
 def test_the_small_space_answers_as_the_whole_mesh():

@@ -27,26 +27,6 @@ def test_free_vibration(ratio, speed):
     assert np.all(run["mode"] == 1)  # a block without friction slides
 
 
-@pytest.mark.parametrize("ratio", [0.0, 1.0])
-def test_runaway_without_springs(ratio):
-    """k = 0: x = F t^2 / (2 m) under the constant friction F, until the surface is caught up."""
-    run = simulate(
-        Parameters(
-            springs=dict(stiffness=0.0), surface=dict(speed=5.0), lateral_friction=dict(ratio=ratio)
-        ),
-        4.0,
-    )
-    a = 0.2086 * GRAVITY
-    caught_up = 5.0 / a
-    sliding = run.time < caught_up
-    np.testing.assert_allclose(run["x"][sliding], 0.5 * a * run.time[sliding] ** 2, rtol=1e-10)
-    assert run.events[-1, :2] == pytest.approx([caught_up, 0.0], abs=1e-12)
-    riding = ~sliding
-    np.testing.assert_allclose(
-        run["x"][riding], 0.5 * 5.0 * caught_up + 5.0 * (run.time[riding] - caught_up), rtol=1e-10
-    )
-
-
 def test_block_at_rest_on_a_standing_belt_stays():
     run = simulate(Parameters(surface=dict(speed=0.0), initial=dict(x=0.01)), 5.0)
     assert np.all(run["x"] == 0.01)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from effect_cases import IDS, draw_parameters
 from kernel_steps import memory_of
-from stickslip import Parameters, simulate
+from stickslip import Parameters
 from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import advance, layout, outputs
 from stickslip.kernel.interpolant import copy_instant
@@ -114,12 +114,3 @@ def test_a_state_taken_inside_a_step_continues_bit_for_bit():
         outputs.show(p, u, other, scratch, row, 0)
         kept = list(kept)
     assert shown[0] == shown[1]
-
-
-def test_slip_time_is_the_time_between_events():
-    run = simulate(Parameters(lateral_friction={"ratio": 1.0}), 5.0)
-    between = np.diff([0.0, *run.events[:, 0], 5.0])
-    modes = [run["mode"][0], *run.events[:, 1]]
-    expected = sum(span for span, mode in zip(between, modes, strict=True) if mode == layout.SLIP)
-    assert len(run.events) > 4
-    assert run["slip_time"][-1] == pytest.approx(expected, abs=1e-12)
