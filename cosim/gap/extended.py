@@ -90,7 +90,7 @@ class Part:
     def rivals(self, campaign: Campaign) -> list[LawFit]:
         """Other laws of this curve, each form of its effect and the best of each other: those
         nearly as probable, by e^3, and those of the user's own files, as a kink of theirs is no
-        smooth curve."""
+        smooth curve. The best of all where the curve itself is in the model."""
         if not self.fits:
             return []
         best, own = self.fits[0], own_effects(campaign)
@@ -99,7 +99,7 @@ class Part:
             if fit.price < best.price + 2.0 * ALIKE or fit.effect in own:
                 form = fit.candidate.form if fit.effect == best.effect else ""
                 others.setdefault((fit.effect, form), fit)
-        return list(others.values())[1:]
+        return list(others.values())[0 if self.in_model else 1 :]
 
 
 def rounding_of(campaign: Campaign) -> Part | None:
@@ -398,6 +398,9 @@ def started_from(campaign: Campaign, rows: Rung) -> dict[str, float]:
         name, values = each.unknown.name, rows.posterior[0][rows.part_of(each)]
         if name == rig.MU_K or (name == rig.MU_S and any(run.events for run in rows.system.fitted)):
             starts[f"friction.{name}"] = float(values[0])
+        elif name == rig.MU_S:  # no break-away is seen: a model with other springs may show them
+            excess = rows.system.level.static / rows.system.level.kinetic
+            starts["friction.mu_s"] = excess * starts["friction.mu_k"]
         elif name == rig.SPRINGS:
             factor = math.log1p(max(float(values[0]), -0.5))
             setups = {

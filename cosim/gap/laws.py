@@ -6,6 +6,7 @@ the curve's own covariance, and the one with the least chi^2 + parameters ln(nod
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -21,8 +22,9 @@ from cosim.gap.weak_form.rows import RunRows
 from cosim.gap.weak_form.system import Rung
 
 #: A curve is followed by a law whose chi^2 per node is below this: a chi^2 of nine degrees of
-#: freedom exceeds 2.8 of them once in 300 curves.
-FOLLOWED = 2.8
+#: freedom exceeds 2.8 of them once in 300 curves. Or whose distance is below this part of the
+#: curve's values (root mean square), which smoothed arguments turn by some percent.
+FOLLOWED, NEARLY = 2.8, 0.05
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,7 @@ class LawFit:
 
     values : `block.parameter` -> value, fitted and set; at : (q,) of the law at the curve's nodes;
     misfit : chi^2 per node; level : by which the curve lies above the law all along
+    off : root mean square distance of the law, in parts of the curve's values
     """
 
     effect: str
@@ -49,6 +52,7 @@ class LawFit:
     misfit: float
     price: float
     level: float = 0.0
+    off: float = math.inf
 
     @property
     def law(self) -> tuple[str, str]:
@@ -58,7 +62,7 @@ class LawFit:
     @property
     def follows(self) -> bool:
         """Whether the curve may be this law's."""
-        return self.misfit < FOLLOWED
+        return self.misfit < FOLLOWED or self.off < NEARLY
 
 
 def scales_of(campaign: Campaign, runs: list[RunRows], mu_k: float) -> Scales:
@@ -261,8 +265,9 @@ def _fitted(
     solved = least_squares(residuals, start, bounds=(low - 1e-12, high + 1e-12))
     own = {each.key.removeprefix(prefix) for each in free} | set(set_values)
     chosen = {f"{prefix}{name}": value for name, value in values(solved.x).items() if name in own}
-    chi = float(2.0 * solved.cost)
+    chi, above, at = float(2.0 * solved.cost), beside(solved.x)[1], law(curve.at, values(solved.x))
+    off = float(np.linalg.norm(at + above - curve.mean) / max(np.linalg.norm(curve.mean), 1e-300))
     return LawFit(
-        effect.id, candidate, chosen, law(curve.at, values(solved.x)), chi / curve.at.size,
-        chi + len(free) * float(np.log(curve.at.size)), beside(solved.x)[1],
+        effect.id, candidate, chosen, at, chi / curve.at.size,
+        chi + len(free) * float(np.log(curve.at.size)), above, off,
     )  # fmt: skip
