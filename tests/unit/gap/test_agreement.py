@@ -8,7 +8,7 @@ import pytest
 from stickslip.effects.effect import Candidate
 
 from cosim.gap import agreement, find, models
-from cosim.gap.extended import Part
+from cosim.gap.extended import CURVE_NUMBERS, Part
 from cosim.gap.judge import SURE
 from cosim.gap.laws import LawFit
 from cosim.gap.models import Models, _same
@@ -318,6 +318,23 @@ def test_a_lost_finding_stays_where_simulated_runs_ask_for_it_by_more(monkeypatc
 
 def law(effect, form, price=0.0):
     return LawFit(effect, Candidate(effect, form, ()), {}, np.zeros(2), 1.0, price)
+
+
+@pytest.mark.parametrize(("off", "follows"), [(0.045, True), (0.055, False)])
+def test_a_law_near_its_curve_is_tried_before_the_curve_itself(off, follows):
+    """However small the curve's own errors are: smoothing turns it by some percent."""
+    cubic = replace(law("spring_hardening", "cubic"), misfit=50.0, off=off)
+    assert cubic.follows == follows
+
+
+@pytest.mark.parametrize(
+    ("numbers", "tried"), [((), ["as installed"]), (CURVE_NUMBERS, ["cubic", "as installed"])]
+)
+def test_where_the_curve_is_in_the_model_the_best_law_is_its_rival(numbers, tried):
+    forms = tuple(law("spring_hardening", form) for form in ("cubic", "as installed"))
+    found = Part(finding("spring_hardening", 10.0), None, forms, numbers)
+    campaign = SimpleNamespace(catalogue=SimpleNamespace(effects=()))
+    assert [fit.candidate.form for fit in found.rivals(campaign)] == tried
 
 
 @pytest.mark.parametrize(
