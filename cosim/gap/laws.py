@@ -266,7 +266,7 @@ def _fitted(
     own = {each.key.removeprefix(prefix) for each in free} | set(set_values)
     chosen = {f"{prefix}{name}": value for name, value in values(solved.x).items() if name in own}
     chi, above, at = float(2.0 * solved.cost), beside(solved.x)[1], law(curve.at, values(solved.x))
-    off = float(np.linalg.norm(at + above - curve.mean) / max(np.linalg.norm(curve.mean), 1e-300))
+    off = float(np.linalg.norm(at + above - curve.mean)) / (float(np.linalg.norm(curve.mean)) or 1.0)
     return LawFit(
         effect.id, candidate, chosen, at, chi / curve.at.size,
         chi + len(free) * float(np.log(curve.at.size)), above, off,

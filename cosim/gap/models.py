@@ -212,19 +212,19 @@ class Models:
         """With one more finding, from where the ladder ended; and ln of how much less probable
         every run is beforehand, where a number of it is less known with the finding."""
         (numbers, settings, scatter), near = self.free[-1], self.fits[-1]
-        # as the rows have it all, which may lose a run, and from next to nothing of it
         rows = self.system.rung([*self._added, *part.finding.added])
-        starts = [
-            {**near.values, **part.starts, **self._by_rows(rows, part)},
-            {**near.values, **part.starts, **_next_to_nothing(part.numbers)},
-        ]
+        as_rows = {**near.values, **part.starts, **self._by_rows(rows, part)}
+        inside = {**near.values, **part.starts, **_next_to_nothing(part.numbers)}
         free = [*part.numbers, *numbers], {**settings, **part.settings}
         known = {number.key: number.prior for number in numbers}
         wider = sum(
             math.log(number.prior / before) for number in part.numbers
             if number.prior and (before := known.get(number.key))
         )  # fmt: skip
-        return self._fitted_once(free, scatter, starts, near, each=True), wider
+        found = self._fitted_once(free, scatter, [as_rows], near)
+        if found.cost > near.cost:
+            found = self._from_inside(found, free, scatter, inside, lambda fitted: fitted.cost)
+        return found, wider
 
     def _fit(self, free: _Free, scatter: float, rows: Rows) -> Fitted:
         near = self.fits[-1] if self.fits else None
@@ -232,13 +232,23 @@ class Models:
         before = {**own, **(near.values if near else {})}
         starts = [{**before, **self._by_rows(rows)}, before]
         found = self._fitted_once(free, scatter, starts, near)
-        if near and found.gap[0] > near.gap[0] + FELT_GAP:  # though it holds that model
+        if near and found.gap[0] > near.gap[0] + FELT_GAP:
             held = {number.key for number in self.free[-1][0]}
             new = [number for number in free[0] if number.key not in held]
             inside = {**before, **_next_to_nothing(new)}
-            again = fit(self.campaign, self.windows, *free, scatter, [inside], near, self.jobs)
-            found = self.known[_same(*free, scatter)] = min(found, again, key=lambda f: f.gap[0])
+            found = self._from_inside(found, free, scatter, inside, lambda fitted: fitted.gap[0])
         return found
+
+    def _from_inside(
+        self, found: Fitted, free: _Free, scatter: float, inside: dict[str, float],
+        measure: Callable[[Fitted], float],
+    ) -> Fitted:  # fmt: skip
+        """A fit that came out worse than the last model, though it holds that, or from next to it:
+        the better of the two."""
+        near = self.fits[-1]
+        again = fit(self.campaign, self.windows, *free, scatter, [inside], near, self.jobs)
+        better = self.known[_same(*free, scatter)] = min(found, again, key=measure)
+        return better
 
     def _by_rows(self, rows: Rows, *more: Part) -> dict[str, float]:
         """label -> value of the rig's numbers as the rows have them beside the laws."""
@@ -249,14 +259,13 @@ class Models:
         return starts
 
     def _fitted_once(
-        self, free: _Free, scatter: float, starts: Sequence[dict[str, float]],
-        near: Fitted | None, each: bool = False,
-    ) -> Fitted:  # fmt: skip
+        self, free: _Free, scatter: float, starts: Sequence[dict[str, float]], near: Fitted | None
+    ) -> Fitted:
         """The same numbers are fitted once, wherever the rows would have them set out from."""
         same = _same(*free, scatter)
         if same not in self.known:
             self.known[same] = fit(
-                self.campaign, self.windows, *free, scatter, starts, near, self.jobs, each
+                self.campaign, self.windows, *free, scatter, starts, near, self.jobs
             )
         return self.known[same]
 

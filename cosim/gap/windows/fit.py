@@ -25,7 +25,6 @@ def fit(
     campaign: Campaign, windows: Mapping[str, Windows], numbers: Sequence[Number],
     settings: Mapping[str, float] | None = None, scatter: float = 0.0,
     starts: Sequence[Mapping[str, float]] = (), near: Fitted | None = None, jobs: int = 2,
-    each: bool = False,
 ) -> Fitted:  # fmt: skip
     """Numbers that minimise the squared residuals over the windows of the runs for fitting.
 
@@ -36,13 +35,12 @@ def fit(
     of what else of the model is not at its default; scatter : see `judge`; starts : labels ->
     values to set out from, of which the best is followed; other numbers are at their own starts
     near : a model whose start states are near; jobs : runs simulated at a time
-    each : every start is followed, as where two models are compared
     """
     settings = dict(settings or {})
     runs = [run for run in campaign.fit_runs if run.name in windows]
     states = {run.name: run.states for run in near.runs} if near else {}
     problem = Problem(campaign, runs, windows, numbers, settings, near=states, jobs=jobs)
-    fitted = problem.solved(starts, each)
+    fitted = problem.solved(starts)
     held_out = [run for run in campaign.held_out_runs if run.name in windows]
     if not held_out:
         return fitted

@@ -93,12 +93,9 @@ class Problem:
         off = self.leeway.rows @ (scaled[there] - self.leeway.centre)
         return np.concatenate([rows, off]), np.vstack([np.diag(slopes), more])
 
-    def solved(self, starts: Sequence[Mapping[str, float]] = (), each: bool = False) -> Fitted:
-        """The best numbers, from the best of several starts: labels -> values, the rest as given.
-
-        each : no start is left out because an earlier one leads to where only noise is left
-        """
-        leading = self._first(starts or [{}], each)
+    def solved(self, starts: Sequence[Mapping[str, float]] = ()) -> Fitted:
+        """The best numbers, from the best of several starts: labels -> values, the rest as given"""
+        leading = self._first(starts or [{}])
         points = [self._settled(point) for point in leading]
         best = min(points, key=lambda point: point.cost)
         if best is not points[-1]:
@@ -142,7 +139,7 @@ class Problem:
         for part, started in zip(self.parts, point.started, strict=True):
             part.forget(point.scaled, started)
 
-    def _first(self, starts: Sequence[Mapping[str, float]], each: bool) -> list[Point]:
+    def _first(self, starts: Sequence[Mapping[str, float]]) -> list[Point]:
         """Where starts lead in a few steps: those near to the best."""
         points: list[Point] = []
         for start in starts:
@@ -151,7 +148,7 @@ class Problem:
             tries = FIRST_TRIES if len(starts) > 1 else MOST_TRIES
             points.append(self._descended(self._started_at(start), tries))
             in_step = IN_STEP**2 * sum(part.model.size for part in self.parts)
-            if points[-1].cost < in_step and not each:
+            if points[-1].cost < in_step:
                 return points[-1:]
         best = min(point.cost for point in points)
         return [point for point in points if point.cost <= LEADS * best]

@@ -374,7 +374,7 @@ def test_a_model_that_comes_out_worse_than_the_one_it_holds_sets_out_from_it(
 ):
     started, gaps = [], iter([1.2, reached, 1.1])
 
-    def fit(campaign, windows, numbers, settings, scatter, starts, near, jobs, each=False):
+    def fit(campaign, windows, numbers, settings, scatter, starts, near, jobs):
         started.append(starts)
         return SimpleNamespace(gap=(next(gaps), 1.0), values={"friction.mu_k": 0.2})
 

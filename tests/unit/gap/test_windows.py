@@ -291,7 +291,7 @@ def test_shared_numbers_that_no_step_leads_back_begin_inside_what_the_fit_leaves
     problem, labels, far = object.__new__(Problem), ["a", "b", "own"], np.array([5.0, -8.0, 3.0])
     problem.labels, problem.leeway = labels, Leeway(("a", "b"), np.ones(2), 10.0 * np.eye(2))
     stays = {
-        "_first": lambda self, starts, each: [Point(far, [], 0.0)],
+        "_first": lambda self, starts: [Point(far, [], 0.0)],
         "_settled": lambda self, at: at,
         "_descended": lambda self, at, tries: Point(at, [], 0.0),
         "_fitted": lambda self, at: at,
