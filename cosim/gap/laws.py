@@ -266,8 +266,8 @@ def _fitted(
     own = {each.key.removeprefix(prefix) for each in free} | set(set_values)
     chosen = {f"{prefix}{name}": value for name, value in values(solved.x).items() if name in own}
     chi, above, at = float(2.0 * solved.cost), beside(solved.x)[1], law(curve.at, values(solved.x))
-    off = float(np.linalg.norm(at + above - curve.mean)) / (float(np.linalg.norm(curve.mean)) or 1.0)
+    left, size = (float(np.linalg.norm(one)) for one in (at + above - curve.mean, curve.mean))
     return LawFit(
         effect.id, candidate, chosen, at, chi / curve.at.size,
-        chi + len(free) * float(np.log(curve.at.size)), above, off,
+        chi + len(free) * float(np.log(curve.at.size)), above, left / (size or 1.0),
     )  # fmt: skip
