@@ -22,7 +22,7 @@ from stickslip.units import in_unit
 from cosim.files import OutputRefused, write_text
 from cosim.gap.data.campaign_file import FILE_NAME
 from cosim.gap.data.columns import FACTORS, SI, Reading, channel_of, header_parts, unit_in_name
-from cosim.gap.data.errors import CampaignError
+from cosim.gap.data.errors import CampaignError, ColumnMissing
 from cosim.gap.data.track_file import fields_of, read_track, separator_of
 
 TEXTS, EXCEL = (".csv", ".tsv", ".txt", ".dat"), (".xlsx", ".xlsm")
@@ -230,9 +230,7 @@ def _found(file: Path, said: Reading) -> Found:
     reading = Reading(columns, units)
     try:
         track, _, _ = read_track(file, reading)
-    except CampaignError as error:
-        if ": missing" not in str(error):
-            raise
+    except ColumnMissing as error:
         first = "which is then written first, with nothing but [columns] and [units]"
         raise CampaignError(f"{error}, {first}") from None
     stem = file.name.removesuffix(MADE).removesuffix(file.suffix)

@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from cosim.gap.data.errors import CampaignError
+from cosim.gap.data.errors import CampaignError, ColumnMissing
 from cosim.names import nearest
 
 #: Channel -> what it is in inside.
@@ -147,7 +147,7 @@ def find_columns(cells: Sequence[str], reading: Reading) -> dict[str, Column]:
             none = f"columns.{channel}: {name} is no column of this file"
             raise CampaignError(f"{none}, allowed is one of {there}{hint}")
         elif channel in ("t", "x"):
-            raise CampaignError(_missing(channel, cells))
+            raise ColumnMissing(_missing(channel, cells))
     return found
 
 
