@@ -147,23 +147,25 @@ class Fitting:
             return across, named
         finding, rung = Finding(AGEING, offered[1], 0.0), named.system.rung(offered[1])
         aged = replace(named, findings=(*named.findings, finding), rung=rung)
-        gained = self._gained(self.part(aged, finding), without, aged, judge.MUCH_MORE)
-        if not judge.much_more(gained):
+        part = self.part(aged, finding)
+        forms = [part, *(self.part(aged, finding, law) for law in part.rivals(self.campaign)
+                         if law.effect == part.effect)]  # fmt: skip
+        gains = ((without.gained(form), without.nearer(form)) for form in forms)
+        gained = next((gain for gain, nearer in gains if judge.is_ageing(gain, nearer)), None)
+        if gained is None:
             return across, named
         finding = replace(finding, gain=gained)
         aged = replace(aged, findings=(*named.findings, finding))
         return [*across, self.part(aged, finding)], aged
 
-    def _gained(
-        self, part: Part, without: Models, named: Named, enough: float = LEAST_GAIN
-    ) -> float:
+    def _gained(self, part: Part, without: Models, named: Named) -> float:
         """ln of how much more probable simulated runs are with a finding.
 
         Laws that follow a curve alike move the block differently: where the first brings neither
         enough nor as much less, another form of it counts with which they are much more so.
         """
         first = without.gained(part)
-        if abs(first) <= enough + price_of(part.finding.name):
+        if abs(first) <= LEAST_GAIN + price_of(part.finding.name):
             for law in part.rivals(self.campaign):
                 if law.effect == part.effect:
                     gained = without.gained(self.part(named, part.finding, law))

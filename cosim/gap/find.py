@@ -9,7 +9,7 @@ from cosim.gap.agreement import Agreed, Fitting, confirmed_findings
 from cosim.gap.checks import blocking, digits_evidence, doubts_of, with_rounding
 from cosim.gap.data import Campaign
 from cosim.gap.extended import ROUNDING, Part, rounding_of
-from cosim.gap.judge import explains, judge, with_steps
+from cosim.gap.judge import explains, is_strained, judge, with_steps
 from cosim.gap.naming import Named, Naming
 from cosim.gap.plan.next_run import next_experiment
 from cosim.gap.rates import by_direction, rates_of
@@ -22,7 +22,7 @@ from cosim.gap.report_of_findings import (
     where_of,
 )
 from cosim.gap.result import Doubt, Gap, Ranked, Rung
-from cosim.gap.scatter import Scatter
+from cosim.gap.scatter import Interval, Scatter, scatter_text
 from cosim.gap.weak_form.camera_faults import FAULTS
 from cosim.gap.weak_form.constants import ALIKE
 from cosim.gap.weak_form.ladder import Ladder
@@ -72,9 +72,14 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
     rates = rates_of(ladder, named.unknowns) if named.unknowns else None
     answered = _unanswered(doubts, models.ladder, [part.effect for part in parts])
     names = [part.effect for part in parts]
+    stated = campaign.errors.friction
+    strained = is_strained(models.ladder, models.scatter, stated)
     verdict = judge(
-        named.findings, names, models.ladder, _physics(campaign), rates, agreed.left_without
-    )
+        named.findings, names, models.ladder, _physics(campaign), rates, agreed.left_without,
+        strained,
+    )  # fmt: skip
+    if strained and models.scatter is not None:
+        answered += (_too_much(models.scatter, stated),)
     # coarse steps are read off the digits, and stand in no other finding's place
     rounding = [part for part in [rounding_of(campaign)] if part]
     steps = [rung for rung in models.ladder if rung.name == ROUNDING]
@@ -116,6 +121,14 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
         rejected=agreed.rejected,
     )  # fmt: skip
     return replace(gap, sentence=sentence_of(gap, [*rounding, *parts], _hints(gap, parts)))
+
+
+def _too_much(scatter: Interval, stated: float) -> Doubt:
+    """Of a scatter that stands for something else."""
+    text = (
+        f"{scatter_text(scatter)}, where {100.0 * stated:.2g} % is stated; something else differs"
+    )
+    return Doubt("scatter", f"{text} between the runs that the model does not have", (), False)
 
 
 def _hints(gap: Gap, parts: Sequence[Part]) -> list[str]:

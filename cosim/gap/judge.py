@@ -26,12 +26,14 @@
     a trend from run to run beside a greater one), it takes neither all nor half of what they miss
     without it, at last or before friction may scatter, or a greater one explains them before that.
     So for four rounds; then rows are asked for one finding alone, and then for none. Static
-    friction over the hold time, which rows do not tell from a contact that lets go by 30 ms sooner,
-    is found where simulated runs are e^30 times as probable with it. `none` is no finding left, and
+    friction over the hold time, which rows do not tell from a contact that lets go by 10 ms sooner,
+    is found where simulated runs are e^30 times as probable with it, and e^6 times also without
+    what a scatter of friction may be worth. `none` is no finding left, and
     every run at 1.1 at most; without any held out nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them, and fitted
     ones, too, or most of their misfit gone; `partial` where held-out runs are better but stay above
-    that, and most of the misfit is gone, half by findings.
+    that, and most of the misfit is gone, half by findings. `named`, and `none`, also want friction
+    to scatter by less than twice what is stated where it is scatter that explains the runs.
 10. Everything else is `unknown`.
 """
 
@@ -42,7 +44,14 @@ from dataclasses import dataclass, replace
 
 from cosim.gap.rates import confirmed
 from cosim.gap.result import Rates, Rung, Score
-from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN, MOST_FINDINGS, NEARLY_ALIKE, UNDECIDED
+from cosim.gap.weak_form.constants import (
+    ALIKE,
+    CONTACT_DELAY,
+    LEAST_GAIN,
+    MOST_FINDINGS,
+    NEARLY_ALIKE,
+    UNDECIDED,
+)
 from cosim.gap.weak_form.ladder import TRENDS, Finding
 
 #: Gap up to which nothing is missing: noise of a window's rows, whose states are free, and what
@@ -63,11 +72,15 @@ TURNED, TURNED_PART, RIVALS = 200.0, 5e-3, 3
 #: Rounds in which rows are asked for what simulated runs do not confirm: after three no second one
 #: of two findings has ever been confirmed, in 164 campaigns with known answers.
 ROUNDS = 4
-#: A contact that lets go by more than this sooner, s, is asked for ageing.
-SOONER = 0.03
+#: A contact that lets go by more than this sooner, s, is asked for ageing: half of what contacts do
+#: (`constants.CONTACT_DELAY`).
+SOONER = 0.5 * CONTACT_DELAY
 #: ln of a Bayes factor of simulated runs that need not be asked for by rows, or are by another form
 #: of a law. Of ageing they have pretended up to e^14, and were sure of it by e^66 and more.
 MUCH_MORE = 30.0
+#: Scatter of friction from run to run, the least that is probable in what is stated of it, beyond
+#: which it stands for something that is missing.
+STRAINED = 2.0
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5
 #: Part of the misfit that a finding must take to be named as a part of what is missing, or where
@@ -86,17 +99,18 @@ class Verdict:
 
 def judge(
     findings: Sequence[Finding], names: Sequence[str], ladder: Sequence[Rung], physics: set[str],
-    rates: Rates | None = None, without: Score | None = None,
+    rates: Rates | None = None, without: Score | None = None, strained: bool = False,
 ) -> Verdict:  # fmt: skip
     """names : of the findings, by the laws that follow them; physics : what has a name at all.
 
     rates : what this design would answer, were something else true
     without : what contact and scatter leave without any finding, where that is asked
+    strained : whether only a scatter far beyond what is stated explains the runs
     """
     before, after = ladder[0].gap.of_verdict, ladder[-1].gap.of_verdict
     if not findings:
         told = not leaves(ladder[-1].gap) and ladder[-1].gap.held_out is not None
-        return Verdict("none" if told else "unknown", (), ())
+        return Verdict("none" if told and not strained else "unknown", (), ())
     classes = tuple(
         group for finding, name in zip(findings, names, strict=True)
         if len(group := _alike(finding, name, rates)) > 1
@@ -104,11 +118,13 @@ def judge(
     if not set(names) <= physics or len(findings) >= MOST_FINDINGS:
         return Verdict("unknown", (), classes)
     improves, takes_most = after < before, ladder[-1].share >= MOST
-    if improves and after <= EXPLAINED and (ladder[-1].gap.fit <= EXPLAINED or takes_most):
+    explained = after <= EXPLAINED and (ladder[-1].gap.fit <= EXPLAINED or takes_most)
+    if improves and explained and not strained:
         if classes:  # two names for one thing: what cannot be told apart is one answer
             return Verdict("class", _members(names, classes, physics), classes)
         return Verdict("named", tuple(names), classes)
     own = without is None or halves(ladder[-1].gap, without)
+    own = own and (not strained or ladder[-2].share >= TAKEN)
     if improves and own and takes_most:
         return Verdict("partial", tuple(names), classes)
     return Verdict("unknown", (), classes)
@@ -132,6 +148,18 @@ def with_steps(verdict: Verdict, name: str) -> Verdict:
         return verdict
     named = "named" if verdict.verdict == "none" else verdict.verdict
     return replace(verdict, verdict=named, effects=(name, *verdict.effects))
+
+
+def is_strained(
+    ladder: Sequence[Rung], scatter: tuple[float, float, float] | None, stated: float
+) -> bool:
+    """Whether only a scatter of friction far beyond what is stated explains the runs.
+
+    Something that differs between the runs is then missing. scatter : value and 90 % interval
+    """
+    if scatter is None or ladder[-1].name != "scatter":
+        return False
+    return scatter[1] > STRAINED * stated and ladder[-2].gap.of_verdict > EXPLAINED
 
 
 def is_beyond_all(findings: Sequence[Finding], left: float) -> bool:
@@ -171,6 +199,15 @@ def runs_ask(gained: float) -> bool:
 def is_asked_for_ageing(sooner: float) -> bool:
     """Whether a contact follows the loading rate far. sooner : by which time it lets go, s"""
     return sooner > SOONER
+
+
+def is_ageing(gained: float, nearer: float) -> bool:
+    """Whether a contact that lets go soon is static friction that grows at rest.
+
+    What a smaller scatter alone makes probable may be a matter of where a fit ended: of contacts
+    with nothing hidden up to e^35, with distances of e^2. nearer : of `Models.nearer`
+    """
+    return much_more(gained) and runs_ask(nearer)
 
 
 def much_more(gained: float) -> bool:

@@ -208,6 +208,10 @@ class Models:
         less, more = (averaged_over(each, scatter, expected) for each in (near, found))
         return found.gain_over(near) - len(near.runs) * (wider - before) + more - less
 
+    def nearer(self, part: Part) -> float:
+        """The same by the runs' distances and what is stated alone: no scatter is averaged over."""
+        return self._beside(part)[0].gain_over(self.fits[-1])
+
     def _beside(self, part: Part) -> tuple[Fitted, float]:
         """With one more finding, from where the ladder ended; and ln of how much less probable
         every run is beforehand, where a number of it is less known with the finding."""

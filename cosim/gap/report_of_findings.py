@@ -12,7 +12,7 @@ from scipy.stats import norm
 
 from cosim.gap.data import Campaign
 from cosim.gap.extended import ROUNDING, Part
-from cosim.gap.judge import NOTHING_MISSING
+from cosim.gap.judge import NOTHING_MISSING, is_asked_for_ageing
 from cosim.gap.quantities import WORDS, digits, percent, quantity, with_digits
 from cosim.gap.result import NINETY, Exponent, Gap, Law, Ranked, RigNumber, Score, Where
 from cosim.gap.weak_form.added import Added
@@ -22,7 +22,7 @@ from cosim.gap.weak_form.rows import BREAK_AWAY, SLIP, STICK
 from cosim.gap.weak_form.system import Rung, System
 from cosim.gap.weak_form.unknowns import Curve, Unknown
 from cosim.gap.windows import Fitted
-from cosim.gap.windows.run_model import HEIGHT
+from cosim.gap.windows.run_model import HEIGHT, LOADING
 
 #: Whether a piece of a finding's setting is a figure.
 _FIGURE = re.compile(r"\d").search
@@ -50,6 +50,12 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
         beside = f" once {counted}" if extra else ""
         said = f"the regression hints at {', '.join(hints)}, which simulated runs do not confirm"
         more = f"; {said}" if hints else ""
+        sooner = gap.extended.values.get(LOADING, 0.0)
+        if is_asked_for_ageing(sooner):
+            more += (
+                f"; it breaks away {1e3 * sooner:.0f} ms sooner than an ideal contact, nearly as "
+                "static friction that grows at rest would"
+            )
         return f"No effect is missing: the stated model describes the runs{beside}{more}."
     severe = [doubt.text for doubt in gap.doubts if doubt.severe]
     if severe:

@@ -128,9 +128,10 @@ def assumptions(gap: Gap) -> list[str]:
 def closing_lines(gap: Gap) -> list[str]:
     """What a terminal says at the end."""
     lines = [f"{gap.campaign.name}: {gap.verdict}", f"  {gap.sentence}"]
+    other = "runner-up" if gap.effects or gap.verdict == "none" else "nearest"
     said = {
         "gap": f"{gap_line(gap)} (1 is noise)",
-        "runner-up": runner_up(gap),
+        other: runner_up(gap),
         "next": gap.next_experiment["text"] if gap.next_experiment else "",
     }
     lines += [f"  {word:<10} {text}" for word, text in said.items() if text]

@@ -1,6 +1,6 @@
 """The decision: every threshold where it is, and parts of an answer that cannot contradict."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import chain
 from types import SimpleNamespace
 
@@ -14,7 +14,15 @@ from stickslip.effects.effect import Scales
 
 from cosim.gap import models
 from cosim.gap.extended import Part
-from cosim.gap.judge import Verdict, halves, judge, may_be_spurious, rivals_of, with_steps
+from cosim.gap.judge import (
+    Verdict,
+    halves,
+    is_strained,
+    judge,
+    may_be_spurious,
+    rivals_of,
+    with_steps,
+)
 from cosim.gap.laws import Context, FreeCurve, laws_of
 from cosim.gap.models import Models
 from cosim.gap.plan.next_run import NextRun
@@ -109,6 +117,30 @@ def test_what_the_design_confuses_is_told_apart_by_four_hundred_to_one(less, ver
     ladder = [rung(9.0, 5.0), rung(9.0, 1.0, 1.0)]
     found = judge([finding("run_in", film_drag=-less)], ["run_in"], ladder, PHYSICS, rates)
     assert (found.verdict, found.effects) == verdict
+
+
+@pytest.mark.parametrize(
+    ("low", "before", "strained"),
+    [(0.045, 1.4, True), (0.035, 1.4, False), (0.045, 1.2, False)],
+)
+def test_a_scatter_far_beyond_what_is_stated_stands_for_something_else(low, before, strained):
+    """2 % are stated; where runs are explained without it nothing rests on it."""
+    ladder = [
+        rung(9.0, 9.0),
+        rung(before, before, 0.6),
+        replace(rung(1.0, 1.0, 1.0), name="scatter"),
+    ]
+    assert is_strained(ladder, (0.07, low, 0.1), 0.02) == strained
+    assert not is_strained(ladder[:2], (0.07, low, 0.1), 0.02)
+
+
+@pytest.mark.parametrize(("share", "verdict"), [(0.55, "partial"), (0.45, "unknown")])
+def test_what_scatter_alone_explains_is_not_named(share, verdict):
+    ladder = [rung(9.0, 9.0), rung(4.0, 4.0, share), rung(1.0, 1.0, 1.0)]
+    found = [finding("run_in")]
+    assert judge(found, ["run_in"], ladder, PHYSICS).verdict == "named"
+    assert judge(found, ["run_in"], ladder, PHYSICS, strained=True).verdict == verdict
+    assert judge([], [], ladder, PHYSICS, strained=True).verdict == "unknown"
 
 
 def test_fitted_runs_judge_where_none_is_held_out():
