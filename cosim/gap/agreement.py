@@ -273,7 +273,10 @@ class Fitting:
             return judge.leaves(
                 without.ladder[-1].gap, judge.EXPLAINED if is_lesser else judge.NOTHING_MISSING
             )
-        return judge.runs_ask(gained - price_of(part.finding.name))
+        name = part.finding.name
+        return judge.runs_ask(gained - price_of(name)) and judge.not_by_scatter_alone(
+            name, gained, without.nearer(part)
+        )
 
     def _makes_up(self, part: Part, parts: Sequence[Part], named: Named) -> bool:
         """Whether it takes what is missing without it, or half of that; or half before scatter.

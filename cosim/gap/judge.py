@@ -22,13 +22,13 @@
     windows of runs that no fit has seen; 1 is noise.
  8. A finding below e^500, or beside a greater one, or that does not explain the runs or takes
     nothing of the gap by itself, goes, and the rows are not asked for it again, where the simulated
-    runs are not e^6 times as probable with it, e^30 by another of its laws, or, below e^500 (e^12:
-    a trend from run to run beside a greater one), it takes neither all nor half of what they miss
-    without it, at last or before friction may scatter, or a greater one explains them before that.
-    So for four rounds; then rows are asked for one finding alone, and then for none. Static
-    friction over the hold time, which rows do not tell from a contact that lets go by 10 ms sooner,
-    is found where simulated runs are e^30 times as probable with it, and e^6 times also without
-    what a scatter of friction may be worth. `none` is no finding left, and
+    runs are not e^6 times as probable with it, and e^3 times without what a scatter may be worth,
+    e^30 by another of its laws, or, below e^500 (e^12: a trend from run to run beside a greater
+    one), it takes neither all nor half of what they miss without it, at last or before friction may
+    scatter, or a greater one explains them before that. So for four rounds; then rows are asked for
+    one finding alone, and then for none. Static friction over the hold time, which rows do not tell
+    from a contact that lets go by 10 ms sooner, is found where simulated runs are e^30 times as
+    probable with it, e^6 times without what a scatter may be worth. `none` is no finding left, and
     every run at 1.1 at most; without any held out nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them, and fitted
     ones, too, or most of their misfit gone; `partial` where held-out runs are better but stay above
@@ -202,12 +202,18 @@ def is_asked_for_ageing(sooner: float) -> bool:
 
 
 def is_ageing(gained: float, nearer: float) -> bool:
-    """Whether a contact that lets go soon is static friction that grows at rest.
-
-    What a smaller scatter alone makes probable may be a matter of where a fit ended: of contacts
-    with nothing hidden up to e^35, with distances of e^2. nearer : of `Models.nearer`
-    """
+    """Whether a contact that lets go soon is static friction that grows at rest."""
     return much_more(gained) and runs_ask(nearer)
+
+
+def not_by_scatter_alone(name: str, gained: float, nearer: float) -> bool:
+    """Whether simulated runs ask for a finding by their distances, too.
+
+    What only a smaller scatter makes probable may be a matter of where a fit ended: of contacts
+    with nothing hidden up to e^35, with distances of e^2. A trend over the runs is what scatter
+    takes up. nearer : of `Models.nearer`
+    """
+    return name in TRENDS or much_more(gained) or nearer > ALIKE
 
 
 def much_more(gained: float) -> bool:

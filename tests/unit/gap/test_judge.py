@@ -20,6 +20,7 @@ from cosim.gap.judge import (
     is_strained,
     judge,
     may_be_spurious,
+    not_by_scatter_alone,
     rivals_of,
     with_steps,
 )
@@ -132,6 +133,20 @@ def test_a_scatter_far_beyond_what_is_stated_stands_for_something_else(low, befo
     ]
     assert is_strained(ladder, (0.07, low, 0.1), 0.02) == strained
     assert not is_strained(ladder[:2], (0.07, low, 0.1), 0.02)
+
+
+@pytest.mark.parametrize(
+    ("name", "gained", "nearer", "asked"),
+    [
+        ("surface_pattern", 29.0, 3.1, True),
+        ("surface_pattern", 29.0, 2.9, False),
+        ("surface_pattern", 31.0, 0.0, True),
+        ("load_dependence", 7.0, 0.0, True),
+    ],
+)
+def test_what_scatter_alone_makes_probable_is_not_asked_for(name, gained, nearer, asked):
+    """But for a trend over the runs, which scatter takes up."""
+    assert not_by_scatter_alone(name, gained, nearer) == asked
 
 
 @pytest.mark.parametrize(("share", "verdict"), [(0.55, "partial"), (0.45, "unknown")])
