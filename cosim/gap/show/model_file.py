@@ -11,12 +11,13 @@ from typing import Any
 
 import tomli_w
 from stickslip.catalogue import Catalogue
+from stickslip.packing import GRAVITY
 from stickslip.plugins.load import file_of
 
 from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.quantities import Quantity, fitted_quantities, unit_and_meaning
 from cosim.gap.result import Gap
-from cosim.gap.windows.run_model import parameters_of
+from cosim.gap.windows.run_model import LOADING, parameters_of
 from cosim.gap.windows.windows import moves_across
 from cosim.scenario import Scenario
 from thermal import Ice
@@ -143,9 +144,13 @@ def _header(gap: Gap, run: MeasuredRun, quantities: Sequence[Quantity]) -> list[
         f"Gap (1 is the tracker's noise): {gap_line(gap)}.",
     ]
     run_values, faults = gap.extended.run(run.name).values, ", ".join(faults_of(gap))
+    rate = 0.1 * run.total_stiffness / (run.mass * GRAVITY)  # of the load, for each 0.1 m/s
+    less = rate * run_values.get(LOADING, 0.0)
     beside = {
         "Of the class it has the member that fits best.": gap.verdict == "class",
         f"Friction is that of {run.name}, other runs differ.": run_values.get("offset.friction"),
+        f"friction.mu_s is that at the speed of {run.name}: for each 0.1 m/s that the surface is "
+        f"faster it {'falls' if less > 0.0 else 'rises'} by {abs(less):.2g}.": abs(less) > 1e-3,
         "Friction over the sliding speed is a table: no law of the catalogue follows it.": any(
             law.in_model for law in gap.laws
         ),
