@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from gap_campaigns import NOISE
 from stickslip import simulate
+from stickslip.packing import GRAVITY
 
 from cosim import read_scenario
 from cosim.gap import read_campaign
@@ -22,6 +23,7 @@ from cosim.gap.show.model_file import model_text, safe_name, scenario_of, shown_
 from cosim.gap.show.numbers import DIGITS, as_data, as_json
 from cosim.gap.show.tracks import residuals, starts
 from cosim.gap.windows import camera
+from cosim.gap.windows.run_model import LOADING
 
 PROMISED = {
     "verdict", "effects", "classes", "where", "ranking", "gap", "next_experiment", "model",
@@ -164,6 +166,17 @@ def test_corrected_data_are_a_campaign(gap, tmp_path):
     assert "not part of the model: measurement.scale" in text
     assert "measurement" not in tomllib.loads(text)
     assert write_corrected(answers.with_a_fault(gap, smoothing=0.01), tmp_path) == []
+
+
+@pytest.mark.parametrize(("sooner", "says"), [(0.02, "falls"), (-0.02, "rises"), (0.0, "")])
+def test_a_contact_that_lets_go_sooner_holds_less_on_a_faster_surface(gap, sooner, says):
+    """Of which a scenario has one coefficient: that of the run's own speed."""
+    run = shown_run(gap)
+    values = {**gap.extended.run(run.name).values, LOADING: sooner}
+    said = model_text(with_run(gap, run, values=values)).replace("\n# ", " ")
+    less = 0.1 * abs(sooner) * run.total_stiffness / (run.mass * GRAVITY)
+    line = f"for each 0.1 m/s that the surface is faster it {says} by {less:.2g}"
+    assert (line in said) == bool(says)
 
 
 # --- numbers in words ---
