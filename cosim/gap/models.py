@@ -55,6 +55,7 @@ class Models:
     last : ln evidence of the last rung's rows
     is_scattered : whether friction has been let scatter, if it is to
     known : what was fitted to these windows before, by its numbers, settings and scatter
+    set_out_from : the model from next to which that has been fitted, too
     """
 
     campaign: Campaign
@@ -69,6 +70,7 @@ class Models:
     last: float | None = None
     is_scattered: bool = False
     known: dict[frozenset[object], Fitted] = field(default_factory=dict)
+    set_out_from: dict[frozenset[object], Fitted] = field(default_factory=dict)
 
     @classmethod
     def fitted(
@@ -249,10 +251,12 @@ class Models:
     ) -> Fitted:  # fmt: skip
         """A fit that came out worse than the last model, though it holds that, or from next to it:
         the better of the two."""
-        near = self.fits[-1]
-        again = fit(self.campaign, self.windows, *free, scatter, [inside], near, self.jobs)
-        better = self.known[_same(*free, scatter)] = min(found, again, key=measure)
-        return better
+        near, same = self.fits[-1], _same(*free, scatter)
+        if self.set_out_from.get(same) is not near:  # asked again, it has been done
+            again = fit(self.campaign, self.windows, *free, scatter, [inside], near, self.jobs)
+            self.known[same] = min(found, again, key=measure)
+            self.set_out_from[same] = near
+        return self.known[same]
 
     def _by_rows(self, rows: Rows, *more: Part) -> dict[str, float]:
         """label -> value of the rig's numbers as the rows have them beside the laws."""
