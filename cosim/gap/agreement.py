@@ -12,12 +12,11 @@ from cosim.gap.laws import LawFit
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
 from cosim.gap.result import Rejected, Score
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.camera_faults import SMOOTHING, likeliest_filters
 from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
 from cosim.gap.weak_form.ladder import Finding, price_of
 from cosim.gap.windows.run_model import LOADING
-
-AGEING = "static_strengthening"
 
 #: Name -> what it would put into the model, and ln of how much more probable simulated runs are
 #: with it than with the finding that it is a rival of.
@@ -66,11 +65,13 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
             continue
         doubted = fitting.lost(parts, named, faint) or fitting.rejected(parts, named, faint)
         if doubted is None:
-            if not any(part.finding.added for part in parts):
-                parts, named = fitting.aged(parts, named)
+            along = {part.finding.name for part in parts if part.finding.added}
+            before, (parts, named) = len(parts), fitting.further(parts, named)
+            if len(parts) > before:  # beside it another may be needless
+                doubted = fitting.rejected(parts, named, along)
+        if doubted is None:
             found, models = fitting.best_of(parts, named)
             if not (judge.explains(models.ladder) and models.is_felt):
-                along = {part.finding.name for part in parts if part.finding.added}
                 doubted = fitting.rejected(parts, named, along - faint)
         if doubted is None:
             rivals = fitting.rivals(parts, named, models)
@@ -134,29 +135,41 @@ class Fitting:
         return [Rejected(one.name, one.gain, None)
                 for one in named.findings if one.added and one.gain < judge.SURE]  # fmt: skip
 
-    def aged(self, across: list[Part], named: Named) -> tuple[list[Part], Named]:
-        """Static friction over the hold time, where a contact would have to let go very soon.
+    def further(self, parts: list[Part], named: Named) -> tuple[list[Part], Named]:
+        """With one more finding along x that simulated runs are much more probable with.
 
-        Rows hardly tell the one from the other. across : what moves the block so, the only findings
+        The contact's numbers and scatter may leave rows next to nothing of it; of static friction
+        over the hold time, where the contact lets go very soon, nothing at all.
         """
-        without = self.fitted(named, across)
-        offered = named.ladder.first_offers.get(AGEING)
-        if offered is None or not judge.is_asked_for_ageing(
-            without.fits[-1].values.get(LOADING, 0.0)
-        ):
-            return across, named
-        finding, rung = Finding(AGEING, offered[1], 0.0), named.system.rung(offered[1])
-        aged = replace(named, findings=(*named.findings, finding), rung=rung)
-        part = self.part(aged, finding)
-        forms = [part, *(self.part(aged, finding, law) for law in part.rivals(self.campaign)
-                         if law.effect == part.effect)]  # fmt: skip
-        gains = ((without.gained(form), without.nearer(form)) for form in forms)
-        gained = next((gain for gain, nearer in gains if judge.is_ageing(gain, nearer)), None)
-        if gained is None:
-            return across, named
-        finding = replace(finding, gain=gained)
-        aged = replace(aged, findings=(*named.findings, finding))
-        return [*across, self.part(aged, finding)], aged
+        without = self.fitted(named, parts)
+        sooner = without.fits[-1].values.get(LOADING, 0.0)
+        tried = [self._beside(name, added, parts, named, without)
+                 for name, added in judge.hinted(named.ladder, sooner)]  # fmt: skip
+        found = [one for one in tried if one is not None]
+        if not found:
+            return parts, named
+        part = max(found, key=lambda one: one.finding.gain)
+        others = {one.finding.name: one.finding.gain - part.finding.gain
+                  for one in found if one is not part}  # fmt: skip
+        finding = replace(part.finding, others=others)
+        return [*parts, replace(part, finding=finding)], _with_more(named, finding)
+
+    def _beside(
+        self, name: str, added: tuple[Added, ...], parts: Sequence[Part], named: Named,
+        without: Models,
+    ) -> Part | None:  # fmt: skip
+        """That finding beside the others, where simulated runs are so much more probable with it;
+        its gain is theirs."""
+        finding = Finding(name, added, 0.0)
+        more = _with_more(named, finding)
+        first = self.part(more, finding)
+        forms = [first, *(self.part(more, finding, law) for law in first.rivals(self.campaign)
+                          if law.effect == first.effect)]  # fmt: skip
+        for form in forms if first.in_kernel else ():
+            gained = without.gained(form) - price_of(name)
+            if judge.is_hidden(gained, without.nearer(form)):
+                return self.part(more, replace(finding, gain=gained))
+        return None
 
     def _gained(self, part: Part, without: Models, named: Named) -> float:
         """ln of how much more probable simulated runs are with a finding.
@@ -395,6 +408,13 @@ class Fitting:
         if scatters:
             models.let_scatter()
         return models
+
+
+def _with_more(named: Named, finding: Finding) -> Named:
+    """The same rows with this finding beside all others."""
+    findings = (*named.findings, finding)
+    added = [one for each in findings for one in each.added]
+    return replace(named, findings=findings, rung=named.system.rung(added))
 
 
 def _with_alone(named: Named, finding: Finding) -> Named:

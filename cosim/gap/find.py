@@ -60,7 +60,7 @@ def _unsearched(campaign: Campaign, fitting: Fitting) -> Agreed:
     """The user's model, contact and scatter, without a search for effects."""
     system = Naming.of(campaign).system
     rung = system.rung()
-    named = Named(Ladder(system, (), rung, {}), (), system, rung, {})
+    named = Named(Ladder(system, (), rung, {}, {}), (), system, rung, {})
     fitting.step()
     return Agreed(named, *fitting.best_of([], named))
 

@@ -44,6 +44,7 @@ from dataclasses import dataclass, replace
 
 from cosim.gap.rates import confirmed
 from cosim.gap.result import Rates, Rung, Score
+from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import (
     ALIKE,
     CONTACT_DELAY,
@@ -52,7 +53,7 @@ from cosim.gap.weak_form.constants import (
     NEARLY_ALIKE,
     UNDECIDED,
 )
-from cosim.gap.weak_form.ladder import TRENDS, Finding
+from cosim.gap.weak_form.ladder import TRENDS, Finding, Ladder
 
 #: Gap up to which nothing is missing: noise of a window's rows, whose states are free, and what
 #: windows of three cycles add up of a scatter that was not foreseen.
@@ -75,9 +76,12 @@ ROUNDS = 4
 #: A contact that lets go by more than this sooner, s, is asked for ageing: half of what contacts do
 #: (`constants.CONTACT_DELAY`).
 SOONER = 0.5 * CONTACT_DELAY
-#: ln of a Bayes factor of simulated runs that need not be asked for by rows, or are by another form
-#: of a law. Of ageing they have pretended up to e^14, and were sure of it by e^66 and more.
-MUCH_MORE = 30.0
+AGEING = "static_strengthening"
+#: Most findings that rows hint at and simulated runs are asked for.
+HINTS = 3
+#: ln of a Bayes factor of simulated runs for another form of a law than rows ask for; and for what
+#: these do not miss: ageing they have pretended up to e^33, and were sure of it by e^66 and more.
+MUCH_MORE, HIDDEN = 30.0, 50.0
 #: Scatter of friction from run to run, the least that is probable in what is stated of it, beyond
 #: which it stands for something that is missing.
 STRAINED = 2.0
@@ -201,9 +205,24 @@ def is_asked_for_ageing(sooner: float) -> bool:
     return sooner > SOONER
 
 
-def is_ageing(gained: float, nearer: float) -> bool:
-    """Whether a contact that lets go soon is static friction that grows at rest."""
-    return much_more(gained) and runs_ask(nearer)
+def hinted(ladder: Ladder, sooner: float) -> list[tuple[str, tuple[Added, ...]]]:
+    """What simulated runs are asked for beside the findings, though rows do not miss it.
+
+    sooner : by which time the contact lets go, s
+    """
+    if sum(bool(finding.added) for finding in ladder.findings) + 1 >= MOST_FINDINGS:
+        return []
+    gains = {name: gain - ladder.rung.evidence for name, (gain, _) in ladder.further_offers.items()}
+    names = sorted((name for name in gains if gains[name] > LEAST_GAIN
+                    and not name.startswith("other.")), key=lambda name: -gains[name])  # fmt: skip
+    if is_asked_for_ageing(sooner) and AGEING in gains and not ladder.findings:
+        names = [AGEING, *(name for name in names if name != AGEING)]
+    return [(name, ladder.further_offers[name][1]) for name in names[:HINTS]]
+
+
+def is_hidden(gained: float, nearer: float) -> bool:
+    """Whether simulated runs find what rows do not miss: contact or scatter have taken it up."""
+    return gained > HIDDEN and runs_ask(nearer)
 
 
 def not_by_scatter_alone(name: str, gained: float, nearer: float) -> bool:

@@ -26,6 +26,7 @@ from cosim.gap.weak_form.constants import STICK_SCATTER
 from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
 from cosim.gap.windows import Fitted, Number, fit, user_model, windows_of_campaign
+from cosim.gap.windows.problem import IN_STEP
 from cosim.gap.windows.run_model import BREAK_AWAY
 from cosim.gap.windows.windows import Windows
 
@@ -227,8 +228,9 @@ class Models:
             math.log(number.prior / before) for number in part.numbers
             if number.prior and (before := known.get(number.key))
         )  # fmt: skip
-        found = self._fitted_once(free, scatter, [as_rows], near)
-        if found.cost > near.cost:
+        is_in_step = max(near.gap) < IN_STEP
+        found = self._fitted_once(free, scatter, [inside if is_in_step else as_rows], near)
+        if found.cost > near.cost and not is_in_step:
             found = self._from_inside(found, free, scatter, inside, lambda fitted: fitted.cost)
         return found, wider
 

@@ -74,12 +74,14 @@ class Finding:
 
 @dataclass(frozen=True)
 class Ladder:
-    """Findings in their order, the rows with all of them, and what was offered first of all."""
+    """Findings in their order, the rows with all of them, what was offered first of all, and what
+    is offered beside them."""
 
     system: System
     findings: tuple[Finding, ...]
     rung: Rung
     first_offers: Mapping[str, Offer]
+    further_offers: Mapping[str, Offer]
 
 
 class Search:
@@ -235,7 +237,8 @@ class Search:
                 other: offer[0] - reference for other, offer in offers.items() if other != name
             }
             findings.append(Finding(name, added, rung.evidence - without.evidence, others))
-        return Ladder(self.system, tuple(findings), rung, first)
+        further = self.offers(rung, [name for name, _ in found]) if found else first
+        return Ladder(self.system, tuple(findings), rung, first, further)
 
 
 def price_of(name: str) -> float:

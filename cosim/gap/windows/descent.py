@@ -7,9 +7,11 @@ from typing import Protocol
 import numpy as np
 
 #: A fit ends where a step changes the sum of squares by less than this part of it, and by as many
-#: times more as the mean square exceeds that of the noise, up to the second: there the model is not
-#: yet what it will be. Or by less than the third, a quarter of one number's standard deviation.
-SETTLED, COARSER, CLOSE = 1e-5, 10.0, 0.06
+#: times more as the mean square exceeds that of the noise, squared, up to the second: there the
+#: model is not yet what it will be. Or by less than the third, a quarter of one number's standard
+#: deviation. It also ends where a step on fresh derivatives promises no more than so many times
+#: that, half of a Bayes factor's e, and gains nothing: what is left is the integrator's error.
+SETTLED, COARSER, CLOSE, IDLE = 1e-5, 100.0, 0.06, 16.0
 #: Damping at first, least and most, in parts of the normal matrix's diagonal; factors by which it
 #: falls after a step that gains and grows after one that does not.
 DAMPING, LEAST, MOST, EASIER, HARDER = 1e-3, 1e-7, 1e5, 0.2, 6.0
@@ -40,7 +42,7 @@ def descend(
         normal, slope = columns.T @ columns, columns.T @ off
         step = _step(normal, slope, at, (low, high), damping)
         gain = -float(2.0 * slope @ step + step @ normal @ step)
-        enough = max(SETTLED * min(max(cost / off.size, 1.0), COARSER) * cost, CLOSE)
+        enough = max(SETTLED * min(max(cost / off.size, 1.0) ** 2, COARSER) * cost, CLOSE)
         moved = rows.residuals(at + step) if gain >= enough else off
         taken = cost - float(moved @ moved)
         if not (is_exact or taken >= max(FOLLOWED * gain, enough)):
@@ -50,7 +52,7 @@ def descend(
             break
         if not taken > 0.0:
             damping *= HARDER
-            if damping > MOST:
+            if damping > MOST or gain < IDLE * enough:
                 break
             continue
         change = moved - off

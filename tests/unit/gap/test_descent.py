@@ -46,3 +46,22 @@ def test_derivatives_are_followed_and_not_taken_at_every_step():
     swing, wide = Decay(), np.full(4, np.inf)
     descend(swing, np.array([1.5, 0.5, 2.9, 0.3]), -wide, wide, 50)
     assert swing.jacobians <= swing.evaluations / 2
+
+
+@pytest.mark.parametrize(("promised", "evaluations"), [(0.7, 2), (1.3, 3)])
+def test_a_small_step_that_is_refused_ends_a_fit(promised, evaluations):
+    """What is left of it is the integrator's error; a greater one is tried again, shorter."""
+
+    class Refused:
+        asked = 0
+
+        def residuals(self, at):
+            self.asked += 1
+            return np.array([at[0] - np.sqrt(promised), 2.0 * bool(at[0])])
+
+        def derivatives(self, at):
+            return np.array([[1.0], [0.0]])
+
+    refused, wide = Refused(), np.array([np.inf])
+    assert descend(refused, np.zeros(1), -wide, wide, 2) == 0.0
+    assert refused.asked == evaluations
