@@ -50,39 +50,10 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
     rounds = iter(judge.findings_by_rounds())
     while True:
         named = naming.named([one.effect for one in rejected], next(rounds, 0))
-        if unsure := fitting.unsure(named):
-            rejected += unsure
-            continue
-        named = fitting.with_likeliest_filter(named)
-        parts = [fitting.part(named, finding) for finding in named.findings]
-        if fitting.is_beyond_all(named):
-            return Agreed(named, parts, fitting.fitted(named, parts), tuple(rejected))
-        most = max((part.finding.gain for part in parts), default=0.0)
-        faint = {part.finding.name for part in parts
-                 if judge.may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
-        if outdone := fitting.outdone(parts, named, faint):
-            rejected += outdone
-            continue
-        doubted = fitting.lost(parts, named, faint) or fitting.rejected(parts, named, faint)
-        if doubted is None:
-            along = {part.finding.name for part in parts if part.finding.added}
-            before, (parts, named) = len(parts), fitting.further(parts, named)
-            if len(parts) > before:  # beside it another may be needless
-                doubted = fitting.rejected(parts, named, along)
-        if doubted is None:
-            found, models = fitting.best_of(parts, named)
-            if not (judge.explains(models.ladder) and models.is_felt):
-                doubted = fitting.rejected(parts, named, along - faint)
-        if doubted is None:
-            rivals = fitting.rivals(parts, named, models)
-            doubted = fitting.overruled(parts, named, rivals)
-        if doubted is None:
-            named = fitting.told_apart(named, rivals)
-            found = [replace(part, finding=finding)
-                     for part, finding in zip(found, named.findings, strict=True)]  # fmt: skip
-            left = fitting.left_without(found, models, named)
-            return Agreed(named, found, models, tuple(rejected), left)
-        rejected.append(doubted)
+        agreed = fitting.agreed(named)
+        if isinstance(agreed, Agreed):
+            return replace(agreed, rejected=tuple(rejected))
+        rejected += agreed
 
 
 @dataclass
@@ -96,6 +67,37 @@ class Fitting:
     step: Callable[[], None]
     jobs: int
     known: list[tuple[Models, bool]] = field(default_factory=list)
+
+    def agreed(self, named: Named) -> Agreed | Sequence[Rejected]:
+        """Findings that the simulated runs ask for, too, or those that they do without."""
+        if unsure := self.unsure(named):
+            return unsure
+        named = self.with_likeliest_filter(named)
+        parts = [self.part(named, finding) for finding in named.findings]
+        if self.is_beyond_all(named):
+            return Agreed(named, parts, self.fitted(named, parts))
+        most = max((part.finding.gain for part in parts), default=0.0)
+        faint = {part.finding.name for part in parts
+                 if judge.may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
+        if outdone := self.outdone(parts, named, faint):
+            return outdone
+        if doubted := self.lost(parts, named, faint) or self.rejected(parts, named, faint):
+            return [doubted]
+        along = {part.finding.name for part in parts if part.finding.added}
+        before, (parts, named) = len(parts), self.further(parts, named)
+        if len(parts) > before and (doubted := self.rejected(parts, named, along)):
+            return [doubted]  # beside the new one it is needless
+        found, models = self.best_of(parts, named)
+        is_near = judge.explains(models.ladder) and models.is_felt
+        if not is_near and (doubted := self.rejected(parts, named, along - faint)):
+            return [doubted]
+        rivals = self.rivals(parts, named, models)
+        if doubted := self.overruled(parts, named, rivals):
+            return [doubted]
+        named = self.told_apart(named, rivals)
+        found = [replace(part, finding=finding)
+                 for part, finding in zip(found, named.findings, strict=True)]  # fmt: skip
+        return Agreed(named, found, models, left_without=self.left_without(found, models, named))
 
     def part(self, named: Named, finding: Finding, law: LawFit | None = None) -> Part:
         """What a finding puts into the model."""
@@ -169,6 +171,8 @@ class Fitting:
             gained = without.gained(form) - price_of(name)
             if judge.is_hidden(gained, without.nearer(form)):
                 return self.part(more, replace(finding, gain=gained))
+            if not judge.runs_ask(gained):  # nor would they for another law of its curve
+                break
         return None
 
     def _gained(self, part: Part, without: Models, named: Named) -> float:
