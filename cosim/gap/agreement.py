@@ -84,9 +84,12 @@ class Fitting:
         if doubted := self.lost(parts, named, faint) or self.rejected(parts, named, faint):
             return [doubted]
         along = {part.finding.name for part in parts if part.finding.added}
-        before, (parts, named) = len(parts), self.further(parts, named)
-        if len(parts) > before and (doubted := self.rejected(parts, named, along)):
-            return [doubted]  # beside the new one it is needless
+        before, (parts, named) = parts, self.further(parts, named)
+        if len(parts) > len(before):  # beside it a lesser one may be needless
+            new = parts[-1].finding.gain
+            lesser = {part.finding.name for part in before if part.finding.gain < new}
+            if doubted := self.rejected(parts, named, lesser & along):
+                return [doubted]
         found, models = self.best_of(parts, named)
         is_near = judge.explains(models.ladder) and models.is_felt
         if not is_near and (doubted := self.rejected(parts, named, along - faint)):
