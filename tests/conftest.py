@@ -6,7 +6,6 @@ import sys
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
 
 # Every worker computes on its own core: the matrices here are too small to be shared out. BLAS
 # would start a thread for each core of the machine in each worker of a parallel run, and they would
@@ -18,6 +17,9 @@ for library in ("OPENBLAS", "MKL", "OMP"):
 # environment says that nothing is: half of what a worker does before its first test is compiling.
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
 sys.dont_write_bytecode = False
+
+# After that: pytest rewrites the assertions of hypothesis, in each process if it may not write.
+from hypothesis import settings  # noqa: E402
 
 # The same examples each time, and as long as a busy machine takes over them.
 settings.register_profile("suite", deadline=None, derandomize=True)

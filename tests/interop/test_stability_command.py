@@ -82,7 +82,7 @@ def test_a_run_beside_which_another_regime_exists_says_so(tmp_path):
     ],
 )
 def test_odd_rigs_are_mapped_too(tmp_path, text):
-    (tmp_path / "odd.toml").write_text(PLAIN + text)
+    (tmp_path / "odd.toml").write_text(PLAIN + "[run]\nduration = 12.0\n" + text)
     done = stickslip_here(tmp_path, "stability", "odd.toml", "--grid", "2", "-o", "out")
     assert (done.returncode, done.stderr) == (0, "") or "exceeds friction.mu_s" in done.stderr
     assert json.loads((tmp_path / "out" / "stability.json").read_text())["regimes"]["own"]["name"]

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from command_line import stickslip, stickslip_here
+from command_line import stickslip_here
 from stickslip import Parameters
 
 from cosim.studies.sweep import SweepError, sweep
@@ -106,7 +106,7 @@ def test_workers_elsewhere_have_a_custom_effect(cluster, tmp_path):
     # two scenarios, so that whole ones travel
     vary = ("--vary", "flash_heating.fall=0,0.4", "--vary", "rig.mass=0.5,0.7,0.9")
     words = ("sweep", user / "flash.toml", *vary, "--json", "-o")
-    far = stickslip(tmp_path, *words, "far", "--dask", cluster[0])
+    far = stickslip_here(tmp_path, *words, "far", "--dask", cluster[0])
     near = stickslip_here(tmp_path, *words, "near", "--jobs", "1")
     assert (far.returncode, near.returncode) == (0, 0), far.stderr + near.stderr
     rows = [json.loads(one.stdout)["runs"] for one in (far, near)]

@@ -98,6 +98,15 @@ def test_a_step_that_one_ends_early_ends_for_all(order, scheme):
     assert result.statistics.events == 2
 
 
+def test_a_step_that_an_event_cuts_short_says_nothing_of_the_next_size():
+    """Behind 1 ms of 0.1 s the steps are what they were, and do not grow anew from there."""
+    links = [Connection("bouncer.count", "decay.u"), Connection("decay.x", "bouncer.seen")]
+    system = CoupledSystem([Bouncer([0.401]), decay()], links)
+    control = AdaptiveStep(Doubling(Tolerance(1e-3)), 0.1, 1e-6, 0.1)
+    result = run(system, Jacobi(("bouncer", "decay")), stop=0.701, control=control)
+    np.testing.assert_allclose(result.time, [0, 0.1, 0.2, 0.3, 0.4, 0.401, 0.501, 0.601, 0.701])
+
+
 def test_who_may_end_a_step_that_others_made_is_refused_where_those_cannot_go_back():
     plain = Plain()
     system = CoupledSystem([plain, Bouncer([0.1])], [])

@@ -9,7 +9,9 @@ from cosim.coupling import (
     Connection,
     CoupledSystem,
     Defect,
+    Iterated,
     Jacobi,
+    Relaxation,
     Tolerance,
     Waveform,
     run,
@@ -29,15 +31,18 @@ def stove(unit):
     )  # fmt: skip
 
 
-def steps_of(unit, allowed):
-    """Sizes (s) of the steps that a control by the defect takes, of so much of it a step."""
+def heated(unit):
     source = heater(unit)
     source.u = [Waveform((1.0,), 0.0)]
     link = Connection("heater.heat", "stove.heat", taken="taken" if unit == "J" else None)
+    return CoupledSystem([source, stove(unit)], [link])
+
+
+def steps_of(unit, allowed):
+    """Sizes (s) of the steps that a control by the defect takes, of so much of it a step."""
     control = AdaptiveStep(Defect(Tolerance(1e-12, {"heater.heat": allowed})), 1e-3, 1e-6, 10.0)
-    system = CoupledSystem([source, stove(unit)], [link])
     scheme = Jacobi(("heater", "stove"), "linear")
-    return np.diff(run(system, scheme, stop=2.0, control=control).time)
+    return np.diff(run(heated(unit), scheme, stop=2.0, control=control).time)
 
 
 def test_joules_are_held_by_the_estimate_as_they_are_by_the_scheme():
@@ -49,3 +54,15 @@ def test_joules_are_held_by_the_estimate_as_they_are_by_the_scheme():
     # the control settles where its proportional and integral parts hold each other, at 0.59
     assert steps_of("J", allowed=0.3).max() == pytest.approx(0.059, rel=0.05)
     assert steps_of("m", allowed=0.3).max() > 0.5
+
+
+@pytest.mark.parametrize(
+    ("unit", "waveform", "more"), [("m", "linear", 1), ("m", "held", 10), ("J", "linear", 10)]
+)
+def test_an_iteration_sets_out_from_what_the_waveform_extrapolates(unit, waveform, more):
+    """A length that grows evenly is guessed from the second step on; joules, and what is held, are
+    guessed as they were, and each of ten steps is made once more."""
+    scheme = Iterated(("stove", "heater"), waveform, acceleration=Relaxation())
+    result = run(heated(unit), scheme, stop=1.0, macro_step=0.1)
+    assert result.status == "complete", result.reason
+    assert result.statistics.iterations == result.steps + more == 10 + more

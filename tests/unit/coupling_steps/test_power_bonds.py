@@ -1,6 +1,7 @@
 """What is taken for a power bond, by what the units of its ports are made of."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -94,6 +95,19 @@ def test_a_bond_is_between_two_that_feed_each_other():
     cut = CoupledSystem(list(system.participants.values()), [system.connections[0], nothing])
     with pytest.raises(CouplingError, match=r"mass.v -> spring.v has the factor 0"):
         BOND.check(cut)
+
+
+def test_both_ends_of_a_bond_are_as_the_source_counts():
+    """A force that is turned round and halved on its way, a velocity that is given from another."""
+    links = [
+        Connection("spring.F", "mass.F", transformation=Affine(-0.5)),
+        Connection("mass.v", "spring.v", transformation=Affine(2.0, 3.0)),
+    ]
+    system = CoupledSystem(list(pair("N", "m/s").participants.values()), links)
+    outputs = {"spring": {"F": 4.0}, "mass": {"v": 5.0}}
+    inputs = {"mass": {"F": -0.5 * 6.0}, "spring": {"v": 2.0 * 7.0 + 3.0}}
+    exchange = SimpleNamespace(system=system, outputs=outputs, inputs=inputs)
+    assert BOND.values(exchange) == (4.0, 6.0, 5.0, 7.0)
 
 
 def test_units_that_nobody_defines_are_told():

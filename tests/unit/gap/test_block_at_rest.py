@@ -1,5 +1,7 @@
 """A block that comes to rest on its springs: its noise is neither motion nor the cause of any."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 from gap_campaigns import KNOWN, RIG, campaign_with, noisy
@@ -37,10 +39,22 @@ def campaign_of(folder, of_film, **how):
     return campaign_with(folder, runs, noise={"x": NOISE})
 
 
+@pytest.fixture(scope="module")
+def named(tmp_path_factory):
+    """Whether the damping is of a film -> the campaign and what is named of it, searched once."""
+
+    @cache
+    def look_up(of_film):
+        campaign = campaign_of(tmp_path_factory.mktemp("campaign"), of_film)
+        return campaign, Naming.of(campaign).named()
+
+    return look_up
+
+
 @pytest.mark.parametrize("of_film", [True, False])
-def test_a_film_and_a_damper_are_told_by_where_the_block_rests(of_film, tmp_path):
+def test_a_film_and_a_damper_are_told_by_where_the_block_rests(of_film, named):
     """Before, the noise of speeds made shutters, resonators and hardening springs of both."""
-    named = Naming.of(campaign_of(tmp_path, of_film)).named()
+    _, named = named(of_film)
     finding = named.findings[0]
     assert [each.name for each in named.findings] == [
         "film_drag" if of_film else "structural_damping"
@@ -76,10 +90,9 @@ def test_a_block_rests_whose_swings_are_no_more_than_noise(swing, at_rest, tmp_p
     assert np.std(track.cause[track.at_rest]) < 0.5 * NOISE or at_rest == 0.0
 
 
-def test_the_power_of_a_force_counts_all_forms_of_its_curve(tmp_path):
+def test_the_power_of_a_force_counts_all_forms_of_its_curve(named):
     """Smooth over the speed or over its root: the rows hardly tell."""
-    campaign = campaign_of(tmp_path, True)
-    named = Naming.of(campaign).named()
+    campaign, named = named(True)
     finding = named.findings[0]
     part = part_of(campaign, named.system, named.rung, finding)
     (found,) = exponents_of(part, named.rung, named.unknowns)

@@ -277,8 +277,10 @@ def test_next_runs_stay_within_the_limits(plan):
     )
 
 
-def test_the_command_leaves_its_files(tmp_path, capsys):
-    """Every effect of the catalogue has a size, or is not tried and why."""
+def test_the_command_leaves_its_files(tmp_path, capsys, monkeypatch):
+    """Every effect of the catalogue has a size, here a rough one, or is not tried and why."""
+    monkeypatch.setattr("cosim.gap.plan.sizes.HALVINGS", 2)
+    monkeypatch.setattr("cosim.gap.plan.plan.ROUNDS", 1)
     folder = written(tmp_path, [{"duration": 4.0}])
     given = ["-o", str(tmp_path / "out"), "--json", str(tmp_path / "copy.json")]
     assert main(["plan", str(folder), *given]) == 0

@@ -7,12 +7,13 @@ import pytest
 from gap_campaigns import RIG, campaign_with, motion, noisy
 from scipy.special import logsumexp
 
-from cosim.gap.data import read_campaign
+from cosim.gap.data import Track, read_campaign
 from cosim.gap.find import find_gap
 from cosim.gap.naming import Naming
 from cosim.gap.show.files import write_corrected
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.camera_faults import (
+    COURSES,
     FILTERS,
     GAUSSIAN,
     PAST,
@@ -176,15 +177,20 @@ def test_a_scale_is_named_where_no_contact_creeps(tmp_path):
     assert found["scale"][0] == max(gain for gain, _ in found.values()) > FOUND
 
 
-@pytest.mark.parametrize(("fault", "size"), [("clock", 0.03), ("drift", 2e-3), ("latency", 0.02)])
+@pytest.mark.parametrize(
+    ("fault", "size"), [("clock", 0.03), ("drift", 2e-3), ("latency", 0.02), ("scale", 0.08)]
+)
 def test_the_runs_with_the_fault_are_told(tmp_path, fault, size):
-    found = offers(system(tmp_path, fault, size, among=(0, 3)).rung())
+    found = offers(system(tmp_path, fault, size, among=(0, 3), **KNOWN_WELL).rung())
     gain, added = found[fault]
     assert gain == max(each for each, _ in found.values())
     assert added.unknown.variant.endswith("in run01, run04")
 
 
-@pytest.mark.parametrize(("fault", "size"), [("drift", 4e-3), ("latency", 0.03), ("scale", 0.08)])
+@pytest.mark.parametrize(
+    ("fault", "size"),
+    [("drift", 4e-3), ("latency", 0.03), pytest.param("scale", 0.08, marks=pytest.mark.slow)],
+)
 def test_a_fault_is_fitted_and_what_it_took_goes(tmp_path, fault, size):
     """The model that is shown writes as such a camera does: the gap goes down to the noise."""
     key = f"measurement.{fault}"
@@ -196,6 +202,23 @@ def test_a_fault_is_fitted_and_what_it_took_goes(tmp_path, fault, size):
     for run, freed in zip(gap.campaign.runs, read_campaign(files[0]).runs, strict=True):
         there = np.allclose(run.motion.x, freed.motion.x, rtol=0.0, atol=1e-9, equal_nan=True)
         assert there == (run.name in ("run02", "run03"))
+
+
+@pytest.mark.parametrize("size", [0.02, -0.02])
+@pytest.mark.parametrize("fault", ["scale", "drift", "latency"])
+def test_a_simulated_camera_writes_as_one_with_the_fault_does(fault, size):
+    """What the fit compares with the track, and what a finding is freed of."""
+    t, x = path(0.1, 0.87)
+    values = {f"measurement.{fault}": size, "measurement.drift_course": [*COURSES].index("root")}
+    places = np.column_stack([x, 0.5 * x, 0.0 * x])
+    found = camera.seen(places, t, values)
+    _, expected = written(fault, size, t, x)
+    inside = slice(100, -100)  # of what comes later a late camera knows nothing at the end
+    np.testing.assert_allclose(found[inside, 0], expected[inside], rtol=0.0, atol=1e-5)
+    aside = (1.0 + size) * 0.5 * x if fault == "scale" else 0.5 * x
+    np.testing.assert_allclose(found[:, 1], aside, rtol=0.0, atol=1e-12)
+    freed = camera.undone(Track(t, found[:, 0], None), values)
+    np.testing.assert_allclose(freed.x[inside], x[inside], rtol=0.0, atol=1e-5)
 
 
 def test_zeros_beyond_what_is_stated(tmp_path):

@@ -129,7 +129,7 @@ def test_a_turned_frame_and_a_diagonal_that_is_off_are_told_from_turned_springs(
     assert found == pytest.approx(numbers, rel=0.05)  # springs are off by some percent
 
 
-@pytest.mark.parametrize("turned", [(1, 1, 1), (0, 1, 0), (1, 0, 1)])
+@pytest.mark.parametrize("turned", [(1, 1, 1), (1, 0, 1)])
 def test_a_turned_camera_is_named_and_the_runs_in_which_it_is(turned, tmp_path):
     planar = planar_of(tmp_path, rotation=[0.03 * each for each in turned])
     assert planar.answer == "measurement.rotation"
@@ -198,6 +198,7 @@ def test_friction_of_a_disc_at_its_limits():
     np.testing.assert_allclose(moment, [0.0025, 2.0 / 3.0], rtol=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not SHARED.is_dir(), reason="campaigns of other laboratories are not here")
 @pytest.mark.parametrize("name", FOREIGN)
 def test_campaigns_of_another_laboratory(name):

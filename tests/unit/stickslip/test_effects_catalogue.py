@@ -35,12 +35,6 @@ def test_a_parameter_has_unit_words_default_and_range(effect):
             effect.table(**{name: low}), effect.table(**{name: high})  # typical is allowed
 
 
-@EACH
-def test_a_parameter_has_a_unit_that_the_fmu_can_state(effect):
-    for name, field in effect.table.model_fields.items():
-        assert field.json_schema_extra["unit"] in units.UNITS, f"{effect.id}.{name}"
-
-
 def test_a_unit_that_the_fmu_cannot_state_is_named(monkeypatch):
     known = {name: base for name, base in units.UNITS.items() if name != "N/m3"}
     monkeypatch.setattr(variables, "UNITS", known)

@@ -54,9 +54,11 @@ LIMIT = 0.05
 
 @pytest.fixture(scope="module", autouse=True)
 def coarse():
-    """Four times the study's steps: a third of its time, and rises that differ by a hundredth."""
+    """Four times the study's steps and half its waves: rises that differ by some hundredths."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("cosim.studies.belt_length.case.COARSENESS", 8.0)
+        patch.setattr("cosim.studies.belt_length.case.WAVES_PER_METRE", 75)
+        patch.setattr("cosim.studies.belt_length.case.WAVES_PER_CONTACT", 4.0)
         yield
 
 

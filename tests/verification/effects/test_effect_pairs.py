@@ -15,7 +15,7 @@ def check(effects, seed, rigs=1):
     draw = random.Random(seed)
     for _ in range(rigs):
         parameters = draw_parameters(effects, draw, initial={})
-        run = simulate(parameters, 3.0)
+        run = simulate(parameters, 1.5)
         if not run.complete:
             # carried into an anchor; the contact's age followed on a belt far too fast for it; or
             # creep on the flank of a bell that rises steeply from rest

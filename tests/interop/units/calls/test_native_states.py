@@ -5,7 +5,7 @@ from ctypes import byref, c_void_p
 
 from c_unit import CInstance
 
-SETS, TIMES, AHEAD = 20, 50, 3  # 1000 states in all
+SETS, TIMES, AHEAD = 20, 20, 3  # 400 states in all
 #: Blocks of which each run has some at random, with the least and the largest of each parameter.
 BLOCKS = [
     {"lateral_friction.ratio": (0.1, 1.0), "initial.phi": (-0.1, 0.1), "initial.y": (-0.01, 0.01)},
@@ -52,7 +52,7 @@ def goes_on_alike(block: CInstance, sizes: list[float], rows, n: int) -> None:
         block.done("DoStep", rows[k][0], sizes[k], 1)
 
 
-def test_a_run_goes_on_to_the_last_bit_from_any_of_a_thousand_states(unit):
+def test_a_run_goes_on_to_the_last_bit_from_any_of_its_states(unit):
     modes = []
     for seed in range(SETS):
         numbers = random.Random(seed)
@@ -73,7 +73,7 @@ def test_a_run_goes_on_to_the_last_bit_from_any_of_a_thousand_states(unit):
                 assert other.as_bytes(loaded) == content
                 other.forget(loaded)
                 block.forget(state)
-    assert len(modes) == SETS * TIMES and min(modes.count(0), modes.count(1)) > 100
+    assert len(modes) == SETS * TIMES and min(modes.count(0), modes.count(1)) > 40
 
 
 def test_a_state_that_is_overwritten_is_the_later_one(unit):
