@@ -56,6 +56,7 @@ class Models:
     last : ln evidence of the last rung's rows
     is_scattered : whether friction has been let scatter, if it is to
     known : what was fitted to these windows before, by its numbers, settings and scatter
+    alike : the last of these by what does not tell of scatter
     set_out_from : the model from next to which that has been fitted, too
     """
 
@@ -71,6 +72,7 @@ class Models:
     last: float | None = None
     is_scattered: bool = False
     known: dict[frozenset[object], Fitted] = field(default_factory=dict)
+    alike: dict[frozenset[object], Fitted] = field(default_factory=dict)
     set_out_from: dict[frozenset[object], Fitted] = field(default_factory=dict)
 
     @classmethod
@@ -84,7 +86,9 @@ class Models:
         each finding by itself; else all of them and a contact in one rung
         """
         windows = others.windows if others else windows_of_campaign(campaign)
-        models = cls(campaign, system, windows, parts, jobs, known=others.known if others else {})
+        models = cls(campaign, system, windows, parts, jobs)
+        if others:
+            models.known, models.alike = others.known, others.alike
         models._add_plain()
         step()
         if is_shown:
@@ -271,10 +275,17 @@ class Models:
     def _fitted_once(
         self, free: _Free, scatter: float, starts: Sequence[dict[str, float]], near: Fitted | None
     ) -> Fitted:
-        """The same numbers are fitted once, wherever the rows would have them set out from."""
-        same = _same(*free, scatter)
+        """The same numbers are fitted once, wherever the rows would have them set out from; of
+        another scatter, from where they were found with that."""
+        numbers, settings = free
+        same, alike = (
+            _same(*free, scatter),
+            frozenset([*(n.key for n in numbers), *settings.items()]),
+        )
         if same not in self.known:
-            self.known[same] = fit(
+            if found := self.alike.get(alike):
+                starts, near = [found.values, *starts], found
+            self.known[same] = self.alike[alike] = fit(
                 self.campaign, self.windows, *free, scatter, starts, near, self.jobs
             )
         return self.known[same]
