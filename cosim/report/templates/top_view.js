@@ -1,7 +1,7 @@
 // The rig from above in motion, on the belt with its temperature.
 "use strict";
 live.each("top_view", (stage, data) => {
-  const RED = "#a34700", ICE = "rgba(207,227,241,.82)";
+  const WORDS = 26, RED = "#a34700", ICE = "rgba(207,227,241,.82)";
   const [times, travel, mode, x, y, phi] = ["time", "travel", "mode", "x", "y", "phi"].map((name) => live.numbers(data[name]));
   const [left, right, low, high] = data.box;
   const known = data.map && live.dataOf(data.map), map = known && known.panels[0].map;
@@ -69,7 +69,7 @@ live.each("top_view", (stage, data) => {
   live.player(stage, times, data.start, draw);
   stage.append(said);
   live.onWidth(stage, (width) => {
-    const scale = width / (right - left), height = (high - low) * scale;
+    const scale = width / (right - left), height = (high - low) * scale + WORDS;
     view = { scale, width, height, x: (metres) => (metres - left) * scale, y: (metres) => (high - metres) * scale };
     context = live.sized(canvas, width, height);
     // on paper what is cleared is white, and covers what is below
