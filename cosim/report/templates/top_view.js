@@ -33,8 +33,7 @@ live.each("top_view", (stage, data) => {
   function drawWords() {
     const y0 = view.height - 12, forwards = data.speed < 0 ? -1 : 1;
     const from = 14 + (forwards < 0 ? 40 : 0), to = from + 40 * forwards;
-    context.fillStyle = "#fff";
-    context.fillRect(0, y0 - 10, view.width, 30);
+    for (const each of new Set([context, ground])) each.clearRect(0, y0 - 10, view.width, 30);
     if (!data.speed) return;
     context.strokeStyle = context.fillStyle = RED;
     context.lineWidth = 2.5;

@@ -91,7 +91,7 @@ def sentence(numbers: Mapping[str, Any]) -> str:
     ended = "" if numbers["status"] == "complete" else ", then the run ended before its time"
     handed, transits = _energies(numbers)
     if transits and not ended and sum(map(abs, transits)) <= TAKEN_UP * abs(handed):
-        ended = f", and all of the {number(handed, 3)} J handed over was taken up"
+        ended = f", and all of the {number(handed)} J handed over was taken up"
     return f"{told}{ended}."
 
 
@@ -103,7 +103,7 @@ def tiles(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
     third = ("connections", str(len(numbers["connections"])))
     if transits:
         missing = number(sum(transits), 2, largest=handed)
-        third = (f"of {number(handed, 3)} J handed over not taken up", f"{missing} J")
+        third = (f"of {number(handed)} J handed over not taken up", f"{missing} J")
     return [
         ("simulated", _seconds(numbers["time_reached"])),
         (steps, str(coupling["steps"])),
