@@ -69,7 +69,7 @@ def _lives(process: int) -> bool:
     except ProcessLookupError:
         return False
     except (PermissionError, OverflowError):
-        pass
+        pass  # somebody else's; or the number of another kind of machine, of which nothing is known
     return True
 
 

@@ -6,6 +6,7 @@ from cosim.cli.console import note
 from cosim.scenario import Scenario, ScenarioError, read_scenario
 from cosim.scenario.changes import changes_of
 from cosim.scenario.keys import taken_line
+from cosim.scenario.scenario import scenario_of
 
 
 def given_scenario(source: str, settings: Iterable[str] = ()) -> Scenario:
@@ -22,5 +23,8 @@ def given_scenario(source: str, settings: Iterable[str] = ()) -> Scenario:
 
 def note_taken(scenario: Scenario) -> None:
     """Say what a file left to the defaults, once all that was given is known to be good."""
-    if line := taken_line(scenario.taken):
+    line = taken_line(scenario.taken)
+    if line and scenario == scenario_of({"name": scenario.name}, ""):
+        line = f"{scenario.name} sets nothing beside the defaults; {line}"
+    if line:
         note(line)

@@ -97,7 +97,7 @@ def restores_exactly(participant: Any, time: float, size: float) -> bool:
     try:
         first = _stepped(participant, time, size)
     except Exception:
-        with suppress(Exception):
+        with suppress(Exception):  # what has failed in the step is what its user has to know
             participant.free_state(state)
         raise
     try:

@@ -65,10 +65,10 @@ def run(
     control.begin(start, stop, scheme)
     scheme.check(system)
     remarks = (*control.check(system), *remarks_of(system, scheme, control, stop - start))
-    marks = check_restore(system, scheme, control, on_divergence)
     exchange = Exchange(system)
     for remark in remarks:
         exchange.remark(remark, None)
+    marks = check_restore(system, scheme, control, on_divergence)
     sweeps = initialise(exchange, scheme.order, start, stop)
     if scheme.needs_restore or control.needs_restore or marks:
         try_restore(exchange, start, min(control.first_size, stop - start))
@@ -79,9 +79,20 @@ def run(
     stepper = Stepper(
         exchange, scheme, on_divergence=on_divergence, smallest=smallest_step, marks=marks
     )
-    status, error, reached = _march(
-        stepper, control, goals, keeper, observe or _unheard, progress or _unheard
-    )
+    ended = _march(stepper, control, goals, keeper, observe or _unheard, progress or _unheard)
+    return _result(exchange, keeper, sweeps, remarks, *ended)
+
+
+def _result(
+    exchange: Exchange,
+    keeper: Keeper,
+    sweeps: int,
+    remarks: tuple[str, ...],
+    status: Status,
+    error: Exception | None,
+    reached: float,
+) -> CoupledResult:
+    """What is recorded of a run that has ended as `_march` says."""
     reason = "" if error is None else str(error)
     if status == "interrupted":
         reason = f"interrupted at t = {reached:.9g} s"
@@ -91,7 +102,7 @@ def run(
         time=keeper.recording.time,
         values=values,
         units=keeper.recording.units,
-        ledger=ledger_of(system, values),
+        ledger=ledger_of(exchange.system, values),
         status=status,
         reason=reason,
         error=error,

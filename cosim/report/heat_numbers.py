@@ -25,6 +25,7 @@ from cosim.report.columns import Array, Data
 from .contents import SLIP, mechanics_of, ramp_end, still_air_film, thermal_of, value_of
 from .quantities import ratio
 
+TINY = float(np.finfo(float).tiny)
 TEMPERATURES = ("interface", "belt_entry", "belt_exit", "ice_face")
 SINKS = {
     "belt": "belt_heat",
@@ -219,7 +220,8 @@ def film_of(dataset: Data) -> Film:
     sheared, roughness = p[P_MIXED_LUBRICATION_COUETTE], p[P_MIXED_LUBRICATION_ROUGHNESS]
     couette = pressure * sheared * dataset["sliding_speed"].values / thickness
     flooded = p[P_MIXED_LUBRICATION_SHARE] * thickness / (thickness + roughness)
-    at_most = np.minimum(1.0, np.sqrt(friction / couette))
+    # of a film that is not sheared the whole contact
+    at_most = np.sqrt(friction / np.maximum(np.maximum(friction, couette), TINY))
     return Film(thickness, _fed(dataset), friction, couette, at_most, flooded, flooded**2 * couette)
 
 

@@ -44,7 +44,7 @@ def macros() -> Any:
 
 
 def headline(numbers: Numbers) -> str:
-    """Whether the block sticks and slips, and how warm its contact gets."""
+    """Whether the block sticks and slips, and how warm its interface gets."""
     return in_a_line(macros().headline(numbers))
 
 

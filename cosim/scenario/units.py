@@ -1,20 +1,31 @@
 """Numbers that no rig has, and that another unit would make usual: grams, millimetres."""
 
+from math import log
+
 from stickslip import Parameters
 
 from cosim.scenario.validation import WORDS
 
 
 def doubted(parameters: Parameters) -> str:
-    """A sentence on the numbers that are likely in another unit; "" where none is."""
+    """A sentence on the numbers that are likely in another unit; "" where none is.
+
+    That one is named which makes the number most like the default.
+    """
     found = []
-    for key, ((least, most), unit, factor) in WORDS["usual"].items():
-        table, _, name = key.partition(".")
-        value = float(getattr(getattr(parameters, table), name))
+    for key, ((least, most), units) in WORDS["usual"].items():
+        value, default = _number(parameters, key), _number(Parameters(), key)
         size = abs(value)
-        if not least <= size <= most and least <= size * factor <= most:
-            found.append((f"{key} = {value:g}", unit))
-    if not found:
-        return ""
-    numbers, units = (list(dict.fromkeys(each)) for each in zip(*found, strict=True))
-    return f"{', '.join(numbers)}: no rig has that in SI units; are these {', '.join(units)}?"
+        off = {
+            unit: abs(log(size * factor / default))
+            for unit, factor in units.items()
+            if not least <= size <= most and least <= size * factor <= most
+        }
+        if off:
+            found.append(f"{key} = {value:g} ({min(off, key=off.__getitem__)}?)")
+    return f"{', '.join(found)}: no rig has that in SI units" if found else ""
+
+
+def _number(parameters: Parameters, key: str) -> float:
+    table, _, name = key.partition(".")
+    return float(getattr(getattr(parameters, table), name))

@@ -129,7 +129,7 @@ class SystemRun(RunResult):
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
         page, numbers = import_module(f"{SHOW}.page"), self.summary()
-        return page.sentence(numbers), page.tiles(numbers)
+        return page.headline(numbers), page.tiles(numbers)
 
     def _page(self) -> str:
         pictures = import_module(f"{SHOW}.figures").pictures(self, self._columns)

@@ -72,6 +72,8 @@ class Executed:
                 coalesce_streams=True,
                 # times would be in what notebooks are known by
                 record_timing=False,
+                # a kernel warns of TCP, by which it is spoken to
+                extra_arguments=["--log-level=ERROR"],
             )
             client.execute(env=self.environment)
         return notebook

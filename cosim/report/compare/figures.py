@@ -119,7 +119,10 @@ def overlay(both: Comparison) -> Picture:
 
 def _described(both: Comparison) -> tuple[Array, list[Panel]]:
     """All times of both, and a panel for each channel that moves."""
-    labels = (f"A: {both.a.label}", f"B: {both.b.label}")
+    labels = [
+        one.label if one.label.endswith(f"({side})") else f"{side}: {one.label}"
+        for side, one in (("A", both.a), ("B", both.b))
+    ]
     shown = []
     for channel, both_values in moving(both):
         there = [one for one in both_values if one is not None]

@@ -68,6 +68,7 @@ def draw_friction_table(dataset: Data) -> Figure:
 #: Of a spring that is drawn: turns, and its width, m.
 TURNS, COIL = 9, 0.006
 SHEET_WIDTH, SHEET_HEIGHT = 9.5, 6.0  # of all panels, inches at most
+WORDS = 0.025  # m, for what stands below the rig
 ARROW = 0.06  # m, length of the arrow for the surface's direction
 #: Opacity of the beginning and the end of what fades in.
 FAINT, FULL = 0.15, 0.9
@@ -78,7 +79,8 @@ def draw_top_view(dataset: Data) -> Figure:
     """Block, springs and surface; a panel for each position, all to the same scale."""
     parameters = mechanics_of(dataset)
     poses = top_view.extreme_poses(dataset)
-    box = top_view.box_of(parameters, [pose for _, pose in poses])
+    left, right, low, high = top_view.box_of(parameters, [pose for _, pose in poses])
+    box = left, right, low - WORDS, high
     width, height = box[1] - box[0], box[3] - box[2]
     across, down = (1, len(poses)) if width > 1.6 * height else (len(poses), 1)
     # beside panels of equal scale there is room for labels, for titles of two lines, for the title

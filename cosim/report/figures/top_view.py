@@ -38,8 +38,7 @@ def attachments(parameters: Parameters, pose: Pose) -> Array:
     return np.asarray(np.array([pose.x, pose.y]) + turned)
 
 
-MARGIN = 0.03  # m around everything drawn
-WORDS = 0.015  # m, for what stands below the rig
+MARGINS = 0.03, 0.008  # m, around everything drawn, along and across
 
 Box = tuple[float, float, float, float]
 
@@ -71,13 +70,13 @@ def centre_of(parameters: Parameters) -> tuple[float, float] | None:
 
 def box_of(parameters: Parameters, poses: list[Pose]) -> Box:
     """x from, to and y from, to of block and springs, m; a slab's far centre is not part of it."""
-    reach = max(parameters.rig.attachment_radius, parameters.rig.contact_radius)
+    radius = parameters.rig.contact_radius
     points = [*anchors(parameters)]
     for pose in poses:
-        points += [(pose.x - reach, pose.y - reach), (pose.x + reach, pose.y + reach)]
-    low, high = np.min(points, axis=0) - MARGIN, np.max(points, axis=0) + MARGIN
-    # room for the words on the surface below the rig
-    return low[0], high[0], low[1] - WORDS, high[1]
+        points += [(pose.x - radius, pose.y - radius), (pose.x + radius, pose.y + radius)]
+        points += [*attachments(parameters, pose)]
+    low, high = np.min(points, axis=0) - MARGINS, np.max(points, axis=0) + MARGINS
+    return low[0], high[0], low[1], high[1]
 
 
 def belt_width(dataset: Data) -> float | None:

@@ -1,7 +1,7 @@
 // The rig from above in motion, on the belt with its temperature.
 "use strict";
 live.each("top_view", (stage, data) => {
-  const RED = "#a34700", ICE = "rgba(207,227,241,.82)";
+  const WORDS = 26, RED = "#a34700", ICE = "rgba(207,227,241,.82)";
   const [times, travel, mode, x, y, phi] = ["time", "travel", "mode", "x", "y", "phi"].map((name) => live.numbers(data[name]));
   const [left, right, low, high] = data.box;
   const known = data.map && live.dataOf(data.map), map = known && known.panels[0].map;
@@ -33,8 +33,7 @@ live.each("top_view", (stage, data) => {
   function drawWords() {
     const y0 = view.height - 12, forwards = data.speed < 0 ? -1 : 1;
     const from = 14 + (forwards < 0 ? 40 : 0), to = from + 40 * forwards;
-    context.fillStyle = "#fff";
-    context.fillRect(0, y0 - 10, view.width, 30);
+    for (const each of new Set([context, ground])) each.clearRect(0, y0 - 10, view.width, 30);
     if (!data.speed) return;
     context.strokeStyle = context.fillStyle = RED;
     context.lineWidth = 2.5;
@@ -69,7 +68,7 @@ live.each("top_view", (stage, data) => {
   live.player(stage, times, data.start, draw);
   stage.append(said);
   live.onWidth(stage, (width) => {
-    const scale = width / (right - left), height = (high - low) * scale;
+    const scale = width / (right - left), height = (high - low) * scale + WORDS;
     view = { scale, width, height, x: (metres) => (metres - left) * scale, y: (metres) => (high - metres) * scale };
     context = live.sized(canvas, width, height);
     // on paper what is cleared is white, and covers what is below

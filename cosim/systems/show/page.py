@@ -8,11 +8,15 @@ from cosim.coupling import Affine
 from cosim.coupling.conversion import NO_UNIT
 from cosim.report.coupling import doubts, step_rows
 from cosim.report.page import Picture, number, render, unit_text
+from cosim.systems.show.summary import column
 
 #: In the order of the page.
 PICTURES = ("signals", "system", "more_signals", "energy", "steps")
 #: Part of the energy handed over that may be missing where all of it was taken up.
 TAKEN_UP = 1e-9
+#: Signals of the headline; change of one that stays, of its size; and by how much of its range one
+#: that swings leaves what is between its start and its end.
+MOST_SIGNALS, STAYS, SWINGS = 3, 1e-6, 0.01
 OWN_FILES = {
     "result.nc": "everything, with units: netCDF 4, for xarray, ParaView, Matlab",
     "result.csv": "all time series as a table with a header, digits in full",
@@ -33,6 +37,7 @@ def page(
         "cosim.systems.show",
         numbers=numbers,
         created=datetime.fromisoformat(numbers["created"]).strftime("%d %B %Y, %H:%M %Z"),
+        headline=headline(numbers),
         sentence=sentence(numbers),
         tiles=tiles(numbers),
         doubts=[f"{each}." for each in doubts(numbers["coupling"])],
@@ -45,8 +50,38 @@ def page(
     )
 
 
+def headline(numbers: Mapping[str, Any]) -> str:
+    """What the system did: how the first signals went that are handed over, or any that change."""
+    ways = {name: way for name, each in numbers["outputs"].items() if (way := _way(name, each))}
+    crossing = dict.fromkeys(column(each["from"]) for each in numbers["connections"])
+    told = ([ways[name] for name in crossing if name in ways] or [*ways.values()])[:MOST_SIGNALS]
+    went = " and ".join([*filter(None, [", ".join(told[:-1])]), *told[-1:]])
+    left = "; ".join(
+        f"from {_seconds(each['since'])} on, {each['unit']} moves as no rig does: {each['says']}"
+        for each in numbers["beyond_rig"]
+    )
+    return (
+        f"In {_seconds(numbers['time_reached'])} {went or 'no output changes'}"
+        f"{f'; but {left}' if left else ''}."
+    )
+
+
+def _way(name: str, output: Mapping[str, Any]) -> str:
+    """From where an output went to where, or between what it swung; "" for one that stays."""
+    start, end, low, high = (output[key] for key in ("start", "end", "lowest", "highest"))
+    if None in (start, end, low, high) or output["rounding"]:
+        return ""
+    if high - low <= STAYS * max(abs(low), abs(high)):
+        return ""
+    unit = "" if output["unit"] == NO_UNIT else f" {unit_text(output['unit'])}"
+    beyond = max(high - max(start, end), min(start, end) - low)
+    if beyond > SWINGS * (high - low):
+        return f"{name} is between {number(low)} and {number(high)}{unit}"
+    return f"{name} goes from {number(start)} to {number(end)}{unit}"
+
+
 def sentence(numbers: Mapping[str, Any]) -> str:
-    """What came of the run, in one sentence."""
+    """How the run went, in one sentence."""
     units = len(numbers["participants"])
     steps = numbers["coupling"]["steps"]
     told = (
@@ -56,12 +91,8 @@ def sentence(numbers: Mapping[str, Any]) -> str:
     ended = "" if numbers["status"] == "complete" else ", then the run ended before its time"
     handed, transits = _energies(numbers)
     if transits and not ended and sum(map(abs, transits)) <= TAKEN_UP * abs(handed):
-        ended = f", and all of the {number(handed, 3)} J handed over was taken up"
-    left = "; ".join(
-        f"from {_seconds(each['since'])} on, {each['unit']} moves as no rig does: {each['says']}"
-        for each in numbers["beyond_rig"]
-    )
-    return f"{told}{ended}{f'; but {left}' if left else ''}."
+        ended = f", and all of the {number(handed)} J handed over was taken up"
+    return f"{told}{ended}."
 
 
 def tiles(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
@@ -72,7 +103,7 @@ def tiles(numbers: Mapping[str, Any]) -> list[tuple[str, str]]:
     third = ("connections", str(len(numbers["connections"])))
     if transits:
         missing = number(sum(transits), 2, largest=handed)
-        third = (f"of {number(handed, 3)} J handed over not taken up", f"{missing} J")
+        third = (f"of {number(handed)} J handed over not taken up", f"{missing} J")
     return [
         ("simulated", _seconds(numbers["time_reached"])),
         (steps, str(coupling["steps"])),

@@ -303,6 +303,7 @@ bool model_complete_step(Model *model, const double values[], bool *event, char 
 {
     double w[W_SIZE] = {0.0};
     follow_inputs(model, values, false);
+    model->g[G_ACCEPTED] = model_time(model);
     int status = (int)stickslip_complete_step(model->p, model->u, model->z, w);
     double seen[WATCHED_COUNT];
     *event = look(model, values, seen) || status == MODE_CHANGED;

@@ -23,7 +23,7 @@ LEFT = {
     "own_fmu": {"pair/report.html": ("mechanics", "thermal")},
     "rig_coupled": {
         "results/soft_springs/report.html": (
-            *("soft_springs", "stick-slip frequency", "warmest contact, over the air", "Energy"),
+            *("soft_springs", "stick-slip frequency", "warmest interface, over the air", "Energy"),
         )
     },
 }

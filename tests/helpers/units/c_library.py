@@ -16,8 +16,9 @@ from stickslip.generation.platforms import this_machine
 
 from cosim.fmu.native import native_folder
 
-#: A program that runs instances of a unit in threads, see its own heading.
-HOST = Path(__file__).parents[2] / "interop" / "units" / "c_host" / "host.c"
+_HOSTS = Path(__file__).parents[2] / "interop" / "units" / "c_host"
+#: Programs that run instances of a unit in threads, and one in model exchange: see their headings.
+HOST, EXCHANGE = _HOSTS / "host.c", _HOSTS / "exchange.c"
 SANITIZERS = ("-g", "-O1", "-fsanitize=address,undefined", "-fno-sanitize-recover=all")
 WARNINGS = "-std=c99 -O2 -Wall -Wextra -Wpedantic -Wconversion -fsyntax-only"
 
@@ -37,10 +38,10 @@ def compiled(*arguments, folder: Path | None = None) -> None:
     assert done.returncode == 0 and done.stderr == "", done.stderr
 
 
-def host_in(folder: Path, *options: str) -> Path:
-    """The host, compiled into a folder."""
-    program, headers = folder / "host", f"-I{native_folder() / 'headers'}"
-    compiled("-O1", "-g", *options, headers, HOST, "-o", program, "-ldl", "-lpthread")
+def host_in(folder: Path, *options: str, host: Path = HOST) -> Path:
+    """A host, compiled into a folder."""
+    program, headers = folder / host.stem, f"-I{native_folder() / 'headers'}"
+    compiled("-O1", "-g", *options, headers, host, "-o", program, "-ldl", "-lpthread", "-lm")
     return program
 
 

@@ -17,6 +17,8 @@ from cosim.cli import main
 from cosim.cli.arguments import parser
 from cosim.cli.bar import Bar
 from cosim.cli.console import note, saying
+from cosim.cli.scenarios import note_taken
+from cosim.scenario import read_scenario
 
 SHORT = "[run]\nduration = 0.5\n"
 
@@ -43,6 +45,16 @@ def test_verbose_names_the_files_as_they_are_written(case, capsys):
     assert [line for line in said if line.startswith("note: left to the defaults")]
     for name in ("result.nc", "summary.json", "report.html"):
         assert f"writing out/{name}" in said
+
+
+@pytest.mark.parametrize(("text", "named"), [("", True), (SHORT, False)])
+def test_a_file_that_sets_nothing_is_named(tmp_path, capsys, text, named):
+    file = tmp_path / "case.toml"
+    file.write_text(text)
+    note_taken(read_scenario(file))
+    err = capsys.readouterr().err
+    assert err.startswith("note: case sets nothing beside the defaults; left to") is named
+    assert "left to the defaults: rig.spring_natural_length" in err
 
 
 def test_how_much_is_said_ends_with_the_command(capsys):

@@ -11,7 +11,7 @@ from test_report_dataset import coupled_dataset, mechanics_dataset, scenario
 
 from cosim.report.figures import PLATES, plates_of
 from cosim.report.figures.over_time import zoom_of
-from cosim.report.figures.top_view import Pose, anchors, attachments, extreme_poses
+from cosim.report.figures.top_view import Pose, anchors, attachments, box_of, extreme_poses
 from cosim.report.palette import readable
 
 SMALLEST_TYPE = 9.0
@@ -172,3 +172,10 @@ def test_extreme_positions_are_those_of_the_run():
     poses = [pose for _, pose in extreme_poses(dataset)]
     assert abs(poses[1].x) == pytest.approx(float(np.abs(dataset["x"]).max()))
     assert abs(poses[-1].phi) == pytest.approx(float(np.abs(dataset["phi"]).max()))
+
+
+def test_the_rig_from_above_fills_its_picture():
+    """There was as much blank above and below the belt as it is wide."""
+    parameters = scenario().mechanics
+    *_, low, high = box_of(parameters, [Pose(0.0, 0.0, 0.0)])
+    assert high - low < 2.5 * parameters.rig.contact_radius

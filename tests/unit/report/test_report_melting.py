@@ -93,6 +93,13 @@ def test_a_film_too_thin_for_its_friction_covers_a_part_of_the_contact():
     assert part * ETA * 0.5 / (6.5e-7 / part) == pytest.approx(found["friction_stress"])
 
 
+@pytest.mark.filterwarnings("error")
+def test_water_that_is_not_sheared_covers_all():
+    still = melted()
+    still["sliding_speed"][300:] = 0.0
+    assert film_of(still).largest_flooded_share[-1] == 1.0
+
+
 def test_no_film_in_stick_and_none_without_water():
     dataset = melted()
     dataset["mode"][300:] = 0

@@ -226,7 +226,7 @@ RISE = {"temperatures": {"interface": {"end_rise": 0.0631, "max_rise": 0.0636}}}
 @pytest.mark.parametrize(
     ("moves", "further", "said"),
     [
-        ({}, RISE, "sticks and slips 1.73 times a second, and its contact is 63 mK above the air "
+        ({}, RISE, "sticks and slips 1.73 times a second, and its interface is 63 mK above the air "
                    "after 30 s."),
         ({}, {"status": "interrupted"},
          "sticks and slips 1.73 times a second; the run ended early, at 30 s."),

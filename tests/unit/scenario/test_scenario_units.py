@@ -18,10 +18,15 @@ def said(**numbers):
 
 def test_numbers_that_no_rig_has_are_named_with_the_unit_that_they_may_be_in():
     assert said(rig__mass=670.0, rig__spring_length=170.0, surface__speed=-150.0) == (
-        "rig.mass = 670, rig.spring_length = 170, surface.speed = -150: no rig has that in SI "
-        "units; are these g, mm, cm/s or mm/s?"
+        "rig.mass = 670 (g?), rig.spring_length = 170 (mm?), surface.speed = -150 (mm/s?): no rig "
+        "has that in SI units"
     )
-    assert said(springs__stiffness=0.02017).endswith("are these N/mm?")
+    assert said(rig__spring_length=19.0, rig__spring_natural_length=17.0) == (
+        "rig.spring_length = 19 (cm?), rig.spring_natural_length = 17 (cm?): no rig has that in SI "
+        "units"
+    )
+    assert said(rig__contact_radius=4.0).startswith("rig.contact_radius = 4 (cm?)")
+    assert "springs.stiffness = 0.02017 (N/mm?)" in said(springs__stiffness=0.02017)
 
 
 @pytest.mark.parametrize("name", packaged_scenarios())
@@ -33,7 +38,7 @@ def test_a_small_or_large_rig_is_not_doubted():
     assert said(rig__mass=0.002, surface__speed=0.0) == ""
     assert said(rig__mass=95.0, rig__spring_length=3.0, surface__speed=-2.9) == ""
     assert said(surface__speed=5e-7) == ""
-    assert said(surface__speed=8.0).endswith("are these cm/s or mm/s?")
+    assert said(surface__speed=8.0).startswith("surface.speed = 8 (cm/s?): ")
 
 
 def test_it_is_said_in_one_line(tmp_path, capsys):
@@ -41,8 +46,7 @@ def test_it_is_said_in_one_line(tmp_path, capsys):
     settings = [word for change in changes for word in ("--set", change)]
     main(["simulate", "reference", "-q", *settings, "-o", str(tmp_path / "out")])
     (line,) = [line for line in capsys.readouterr().err.splitlines() if "SI units" in line]
-    assert line.startswith("warning: surface.speed = 150: ")
-    assert line.endswith("are these cm/s or mm/s?")
+    assert line == "warning: surface.speed = 150 (mm/s?): no rig has that in SI units"
 
 
 @pytest.mark.parametrize(

@@ -147,7 +147,8 @@ def test_files_and_words(coarse, tmp_path, capsys):
     assert len(pd.read_csv(tmp_path / "changes.csv")) == sum(
         len(case["changes"]) for case in numbers["cases"]
     )
-    assert {path.name for path in tmp_path.glob("*.png")} == {"drift_over_length.png"}
+    drawn = {path.name for path in tmp_path.glob("*.png")}
+    assert drawn == {"drift_over_length.png", "interface_over_length.png"}
 
 
 @pytest.mark.parametrize(

@@ -149,12 +149,12 @@ def test_the_page_says_the_answer_first_and_fetches_nothing(results, numbers):
     places = [text.index(each) for each in ("<h1>A belt of", "<img", 'class="tiles"', *said)]
     assert sorted(places[:3]) == places[:3] and max(places[:3]) < min(places[3:])
     assert text.count("<div><b>") <= 4
-    assert re.findall(r'<img[^>]* src="(.{5})', text) == ["data:"] * 3
+    assert re.findall(r'<img[^>]* src="(.{5})', text) == ["data:"] * 4
     assert not re.findall(r'<(?:link|script)[^>]* (?:src|href)="(?!data:)', text)
     for word in ("What would help", "How sure that is", "7850", "45", "roller_conductance"):
         assert word in text
     drawn = {one.stem for one in results.glob("*.png")}
-    assert drawn == {"drift_over_length", "doubt", "map"}
+    assert drawn == {"drift_over_length", "interface_over_length", "doubt", "map"}
     assert len(pd.read_csv(results / "doubt.csv")) == 15
     assert numbers["cases"][0]["uncertainty"]["evaluations"] == 32 + 8 + 2 * 15
     assert np.shape(numbers["map"]["drift"]) == (2, 2)

@@ -105,7 +105,9 @@ def test_a_run_that_left_its_rig_is_not_simply_complete(pair, port, says):
 
 
 def test_a_sentence_a_picture_and_four_figures_come_first(pair):
-    _, page = pair()
+    numbers, page = pair()
+    end = numbers["outputs"]["rig.y"]["end"]
+    assert f"<h1>In 1 s rig.y goes from 0 to {end:.4g} and rig.taken" in page
     places = [page.index(each) for each in ("<h1>", "<figure", 'class="tiles"', "<h2")]
     assert places == sorted(places)
     assert "2 coupled units ran for 1 s in 10 steps." in page

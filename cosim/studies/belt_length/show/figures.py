@@ -1,7 +1,7 @@
 """Figures of the study: drift over length, what the doubt is made of, map."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -39,66 +39,105 @@ def _title(cases: list[Case]) -> str:
     stack = first.thermal().belt.stack
     belt = f"{stack[0].conductivity:g} W/(m K)" if len(stack) == 1 else f"of {len(stack)} layers"
     said = (
-        f"friction {first.force:.3g} N, h {film} W/(m² K){where}, belt {belt},"
-        f" air {first.ambient_degC:g} °C\n{first.protocol.in_words()}"
+        f"friction {first.force:.3g} N, air {first.ambient_degC:g} °C, belt {belt}\n"
+        f"h {film} W/(m² K){where}\n{first.protocol.in_words()}"
     )
     return said.replace("-", "−")
 
 
-@picture("drift_over_length", **FIGURES["drift_over_length"])
-def draw_drift(study: Study) -> Figure:
-    """Two panels side by side for the first choice of everything but length and speed."""
+class Curves(NamedTuple):
+    """Of one speed over lengths (m) of the belt, each (n,), K.
+
+    entry: rise where the belt meets the contact, after the runs; steady: for ever; interface: what
+    the interface warms by at constant speed; passed: the source study's single pass, or None.
+    """
+
+    case: Case
+    lengths: Array
+    entry: Array
+    steady: Array
+    interface: Array
+    passed: Array | None
+
+
+def curves_of(study: Study) -> list[Curves]:
+    """For the first choice of everything but length and speed."""
     speeds = sorted({row.case.speed for row in study.rows})
-    lengths = sorted({row.case.length for row in study.rows})
+    lengths = [row.case.length for row in study.rows]
     firsts = [next(row.case for row in study.rows if row.case.speed == one) for one in speeds]
     low = max(0.5 * min(lengths), 1.2 * max(case.shortest for case in firsts))
     high = 4.0 * max(lengths)
     for answer in study.answers:
         low, high = min([low, *answer.lengths[:1]]), max([high, *answer.lengths[-1:]])
-    figure, axes = panels(1, 2, height=5.0, width=10.0)
-    entry, interface = axes[0]
-    for i, case in enumerate(firsts):
-        colour = SERIES[i % len(SERIES)]
-        _curves(axes[0], case, np.geomspace(low, high, _CURVE), colour, study)
-        _doubt(axes[0], study, case, colour, _ASIDE ** (i - 0.5 * (len(firsts) - 1)))
-    limit = study.options.limit
-    for ax in axes[0]:
-        ax.axhline(limit, color=INK, linewidth=1.0)
-        ax.text(1.01, limit, f"limit\n{limit:g} K", va="center", transform=ax.get_yaxis_transform())
-        ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", xlim=(low, high))
-        _plain_ticks(ax.xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50), low, high)
-        for length in lengths if study.answers else ():
-            ax.axvline(length, color=GREY, linestyle="-.", linewidth=1.0)
-    entry.set(ylabel="belt's rise at entry [K]", title=_title(firsts))
-    entry.set_ylim(bottom=_FLOOR)
-    interface.set(ylabel="interface's rise at constant speed [K]")
-    interface.set_ylim(bottom=max(_FLOOR, interface.get_ylim()[0]))
-    _plain_ticks(entry.yaxis, (1e-3, 1e-2, 0.1, 1, 10), _FLOOR, 100.0)
-    _plain_ticks(interface.yaxis, (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2), *interface.get_ylim())
-    figure.legend(handles=_key(speeds, study), ncols=4, loc="outside upper center")
-    return figure
+    return [_curves(case, np.geomspace(low, high, _CURVE), study) for case in firsts]
 
 
-def _curves(axes: Sequence[Axes], case: Case, lengths: Array, colour: str, study: Study) -> None:
-    """Entry and interface of one speed over the lengths; one pass of the source study's rig."""
-    entry, interface = axes
+def _curves(case: Case, lengths: Array, study: Study) -> Curves:
     travel = case.travel
     if lengths[0] < travel < lengths[-1]:
         # so that the curve falls where the last place comes round, not somewhere beyond
         lengths = np.sort([*lengths, 0.98 * travel, travel, 1.03 * travel])
-        if never_comes_round(endless_belt(case)):
-            _mark_end(entry, travel, colour)
     belts = [case.with_length(float(length)) for length in lengths]
-    entries, warming, _ = np.transpose([followed(one)[0] for one in belts])
-    # far below the axis where there is no rise, so that a curve leaves it instead of ending
-    least = 1e-3 * _FLOOR
-    entry.plot(lengths, np.maximum(entries, least), color=colour)
-    steady = [steady_drift(one) for one in belts]
-    entry.plot(lengths, np.maximum(steady, least), "--", color=colour)
-    if not study.answers:
-        passed = [one.as_the_study().temperature_degC(one.length) for one in belts]
-        entry.plot(lengths, np.array(passed) - case.ambient_degC, ":", color=colour)
-    interface.plot(lengths, warming, color=colour)
+    entry, warming, _ = np.transpose([followed(one)[0] for one in belts])
+    steady = np.array([steady_drift(one) for one in belts])
+    if study.answers:
+        return Curves(case, lengths, entry, steady, warming, None)
+    passed = [one.as_the_study().temperature_degC(one.length) for one in belts]
+    return Curves(case, lengths, entry, steady, warming, np.array(passed) - case.ambient_degC)
+
+
+@picture("drift_over_length", **FIGURES["drift_over_length"])
+def draw_drift(study: Study, curves: Sequence[Curves]) -> Figure:
+    """Rise of the belt at entry."""
+    figure, ax = _over_length(study, curves)
+    for i, each in enumerate(curves):
+        colour, lengths = SERIES[i % len(SERIES)], each.lengths
+        if lengths[0] < each.case.travel < lengths[-1] and never_comes_round(
+            endless_belt(each.case)
+        ):
+            _mark_end(ax, each.case.travel, colour)
+        # far below the axis where there is no rise, so that a curve leaves it instead of ending
+        ax.plot(lengths, np.maximum(each.entry, 1e-3 * _FLOOR), color=colour)
+        ax.plot(lengths, np.maximum(each.steady, 1e-3 * _FLOOR), "--", color=colour)
+        if each.passed is not None:
+            ax.plot(lengths, each.passed, ":", color=colour)
+        _band(ax, 0, study, each.case, colour)
+        _bars(ax, study, each.case, colour, _ASIDE ** (i - 0.5 * (len(curves) - 1)))
+    ax.set(ylabel="belt's rise at entry [K]")
+    ax.set_ylim(bottom=_FLOOR)
+    _plain_ticks(ax.yaxis, (1e-3, 1e-2, 0.1, 1, 10), _FLOOR, 100.0)
+    figure.legend(handles=_key(curves, study), ncols=3, loc="outside lower center")
+    return figure
+
+
+@picture("interface_over_length", **FIGURES["interface_over_length"])
+def draw_interface(study: Study, curves: Sequence[Curves]) -> Figure:
+    """Rise of the interface at constant speed."""
+    figure, ax = _over_length(study, curves)
+    for i, each in enumerate(curves):
+        colour = SERIES[i % len(SERIES)]
+        ax.plot(each.lengths, each.interface, color=colour, label=f"{each.case.speed:g} m/s")
+        _band(ax, 1, study, each.case, colour)
+    ax.set(ylabel="interface's rise at constant speed [K]")
+    ax.set_ylim(bottom=max(_FLOOR, ax.get_ylim()[0]))
+    _plain_ticks(ax.yaxis, (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2), *ax.get_ylim())
+    figure.legend(ncols=len(curves), loc="outside lower center")
+    return figure
+
+
+def _over_length(study: Study, curves: Sequence[Curves]) -> tuple[Figure, Axes]:
+    """An empty panel with the limit, and the belts that are asked about."""
+    figure, axes = panels(1, 1, height=4.6, width=5.4)  # as wide as a phone's screen bears
+    ax, limit = axes[0, 0], study.options.limit
+    low, high = curves[0].lengths[[0, -1]]
+    ax.axhline(limit, color=INK, linewidth=1.0)
+    ax.text(1.01, limit, f"limit\n{limit:g} K", va="center", transform=ax.get_yaxis_transform())
+    ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", xlim=(low, high))
+    ax.set(title=_title([each.case for each in curves]))
+    _plain_ticks(ax.xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50), low, high)
+    for length in sorted({row.case.length for row in study.rows}) if study.answers else ():
+        ax.axvline(length, color=GREY, linestyle="-.", linewidth=1.0)
+    return figure, ax
 
 
 def _mark_end(ax: Axes, length: float, colour: str) -> None:
@@ -110,28 +149,31 @@ def _mark_end(ax: Axes, length: float, colour: str) -> None:
     ax.annotate(words, place, fontsize=8.0, color=colour, **beside)
 
 
-def _doubt(axes: Sequence[Axes], study: Study, case: Case, colour: str, aside: float) -> None:
-    """5 to 95 % of the rigs of a speed: bands over the lengths of an own rig, and bars at those
-    asked for, or a little aside of them where several speeds have one."""
-    style: Any = {"color": colour, "linewidth": 0.0, "alpha": 0.18}
+def _band(ax: Axes, which: int, study: Study, case: Case, colour: str) -> None:
+    """5 to 95 % of the rigs of a speed over the lengths of an own rig, of one of its rises."""
     for answer in study.answers:
         if answer.case.with_length(1.0) == case.with_length(1.0) and answer.lengths.size:
-            for ax, (low, _, high) in zip(axes, answer.levels, strict=True):
-                ax.fill_between(answer.lengths, np.maximum(low, 1e-2 * _FLOOR), high, **style)
-    style |= {"linewidth": 5.0, "alpha": 0.35, "solid_capstyle": "butt"}
+            low, _, high = answer.levels[which]
+            style: Any = {"color": colour, "linewidth": 0.0, "alpha": 0.18}
+            ax.fill_between(answer.lengths, np.maximum(low, 1e-2 * _FLOOR), high, **style)
+
+
+def _bars(ax: Axes, study: Study, case: Case, colour: str, aside: float) -> None:
+    """The same at the lengths asked for, or a little aside where several speeds have one."""
+    style: Any = {"color": colour, "linewidth": 5.0, "alpha": 0.35, "solid_capstyle": "butt"}
     for row in study.rows:
         if row.uncertainty is not None and row.case == case.with_length(row.case.length):
             ends = [max(row.uncertainty.low, _FLOOR), row.uncertainty.high]
-            axes[0].plot([aside * row.case.length] * 2, ends, **style)
+            ax.plot([aside * row.case.length] * 2, ends, **style)
 
 
-def _key(speeds: list[float], study: Study) -> list[Artist]:
+def _key(curves: Sequence[Curves], study: Study) -> list[Artist]:
     """Colours say the speed, strokes the model."""
     last = ("-.", GREY, "belt asked about") if study.answers else (":", INK, "study, one pass")
     strokes: Any = [("-", INK, "after the runs"), ("--", INK, "for ever"), last]
     handles: list[Artist] = [
-        Line2D([], [], color=SERIES[i % len(SERIES)], label=f"{speed:g} m/s")
-        for i, speed in enumerate(speeds)
+        Line2D([], [], color=SERIES[i % len(SERIES)], label=f"{each.case.speed:g} m/s")
+        for i, each in enumerate(curves)
     ]
     handles += [Line2D([], [], color=ink, linestyle=one, label=says) for one, ink, says in strokes]
     if study.most_doubted:

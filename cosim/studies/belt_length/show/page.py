@@ -17,7 +17,7 @@ from cosim.report.page import Picture, render
 from ..result import Study
 from ..unknowns import unknowns_of
 from . import text
-from .figures import draw_doubt, draw_drift, draw_map
+from .figures import curves_of, draw_doubt, draw_drift, draw_interface, draw_map
 from .text import headline as headline
 from .text import tiles as tiles
 
@@ -39,7 +39,8 @@ def write_numbers(study: Study, folder: Path) -> None:
 def page(study: Study, command: str = "") -> tuple[str, list[Picture]]:
     """HTML of a study with rows; its pictures."""
     doubted = study.most_doubted
-    pictures = [draw_drift(study)]
+    curves = curves_of(study)
+    pictures = [draw_drift(study, curves), draw_interface(study, curves)]
     if doubted is not None and doubted.uncertainty is not None:
         pictures.append(draw_doubt(doubted, doubted.uncertainty))
     if study.grid is not None:

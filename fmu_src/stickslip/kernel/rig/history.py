@@ -35,6 +35,7 @@ AT_ITS_END = 0.01  # what an indicator may have left in its event
 def move_moment(g: Floats, j: int, to: int) -> None:
     """Put the remembered moment ``j`` into the place ``to``."""
     g[G_MOMENT_TIME + to] = g[G_MOMENT_TIME + j]
+    g[G_MOMENT_ASKED + to] = g[G_MOMENT_ASKED + j]
     for i in range(GIVEN_INPUTS):
         at = G_MOMENT_VALUE + i
         g[at + GIVEN_INPUTS * to] = g[at + GIVEN_INPUTS * j]
@@ -63,25 +64,17 @@ def forget_close(p: Floats, g: Floats, t: float) -> None:
     g[G_COUNT] = kept
 
 
-def latest_moment(g: Floats) -> float:
-    """Latest of the remembered times, s."""
-    latest = g[G_MOMENT_TIME]
-    for j in range(int(g[G_COUNT])):
-        latest = max(latest, g[G_MOMENT_TIME + j])
-    return latest
-
-
 def counts_for_rates(g: Floats, j: int) -> bool:
-    """Is the remembered moment ``j`` one of those by which the last rates were told?
+    """Is the remembered moment ``j`` one of those by which rates are told?
 
     A host that looks for a kink asks for the inputs at many times: `course_reserve` needs these all
     the while.
     """
     later = 0
     for k in range(int(g[G_COUNT])):
-        if g[G_MOMENT_TIME + j] < g[G_MOMENT_TIME + k] <= g[G_ASKED_BY]:
+        if g[G_MOMENT_TIME + j] < g[G_MOMENT_TIME + k] <= g[G_ACCEPTED]:
             later += 1
-    return g[G_MOMENT_TIME + j] <= g[G_ASKED_BY] and later < DEGREES + 2
+    return g[G_MOMENT_TIME + j] <= g[G_ACCEPTED] and later < DEGREES + 2
 
 
 def furthest_moment(g: Floats, t: float) -> int:
@@ -96,8 +89,8 @@ def furthest_moment(g: Floats, t: float) -> int:
     return furthest
 
 
-def note_inputs(p: Floats, g: Floats, t: float) -> None:
-    """Remember the inputs as given for the time t.
+def note_inputs(p: Floats, g: Floats, t: float, asked: float) -> None:
+    """Remember the inputs as given for the time t; ``asked``: 1 where rates are asked for there.
 
     One that is close to another says nothing new, but where it is of the very same time.
     """
@@ -106,12 +99,14 @@ def note_inputs(p: Floats, g: Floats, t: float) -> None:
         apart = abs(g[G_MOMENT_TIME + j] - t)
         if apart == 0.0:
             slot = j
+            asked = max(asked, g[G_MOMENT_ASKED + j])
         elif apart < CLOSE / p[P_RATE]:
             return
     if slot == MOMENTS:
         slot = furthest_moment(g, t)
     g[G_COUNT] = max(g[G_COUNT], slot + 1.0)
     g[G_MOMENT_TIME + slot] = t
+    g[G_MOMENT_ASKED + slot] = asked
     for i in range(GIVEN_INPUTS):
         g[G_MOMENT_VALUE + GIVEN_INPUTS * slot + i] = g[G_VALUE + i]
 
@@ -193,9 +188,9 @@ def set_course(g: Floats, i: int, count: int, t: float) -> None:
     g[G_COURSE + 1] = rate
 
 
-def follow_memory(g: Floats, t: float) -> None:
-    """Inputs and their rates at the time t by what is remembered."""
-    count = find_nearest(g, t, LATEST)
+def follow_memory(g: Floats, t: float, until: float) -> None:
+    """Inputs and their rates at the time t by what is remembered up to ``until``, s."""
+    count = find_nearest(g, t, until)
     for i in range(GIVEN_INPUTS):
         set_course(g, i, count, t)
         g[G_FOLLOWED + i] = g[G_COURSE]
@@ -214,20 +209,12 @@ def input_size(p: Floats, u: Floats, i: int) -> float:
     return 0.0
 
 
-def course_reserve(p: Floats, u: Floats, g: Floats, t: float, sticks: bool) -> float:
-    """Event indicator: is the input as given at t the one that the last rates were told for?
-
-    1 for all of it, below 0 beyond `ASTRAY` times the tolerance: it controls the error of their
-    course, and finds kinks. A slip, which does not depend on an input's rate, needs that only where
-    the host does not give inputs with every rate.
-    """
-    if g[G_SET_TIME] != t or t <= g[G_EVENT_TIME]:
+def reserve_by(p: Floats, u: Floats, g: Floats, t: float, until: float) -> float:
+    """1 where the inputs as given at t keep to their course by what is remembered up to ``until``,
+    s; below 0 where one is off by more than `ASTRAY` times the tolerance."""
+    if t - until < CLOSE / p[P_RATE]:
         return 1.0
-    if g[G_GIVES_ALWAYS] == 1.0 and not sticks:
-        return 1.0
-    if t - g[G_ASKED_BY] < CLOSE / p[P_RATE]:
-        return 1.0
-    count = find_nearest(g, t, g[G_ASKED_BY])
+    count = find_nearest(g, t, until)
     allowed = ASTRAY * max(p[P_TOLERANCE], FINEST)
     reserve = 1.0
     for i in range(GIVEN_INPUTS):
@@ -237,6 +224,35 @@ def course_reserve(p: Floats, u: Floats, g: Floats, t: float, sticks: bool) -> f
             off = abs(g[G_VALUE + i] - g[G_COURSE]) / size
             reserve = min(reserve, 1.0 - off / allowed)
     return reserve
+
+
+def course_reserve(p: Floats, u: Floats, g: Floats, t: float, sticks: bool) -> float:
+    """Event indicator: is the input as given at t the one that the last rates were told for?
+
+    It controls the error of their course, and finds kinks. A slip, which does not depend on an
+    input's rate, needs that only where the host does not give inputs with every rate.
+    """
+    if g[G_SET_TIME] != t or t <= g[G_EVENT_TIME]:
+        return 1.0
+    if g[G_GIVES_ALWAYS] == 1.0 and not sticks:
+        return 1.0
+    return reserve_by(p, u, g, t, g[G_ACCEPTED])
+
+
+def has_kink(p: Floats, u: Floats, g: Floats, t: float, sticks: bool) -> bool:
+    """Has the event at the time t been found where an input has a kink?
+
+    It has not where the input keeps to its course by what a host has given with the rates that it
+    has asked for within the step, as Runge-Kutta methods do: the step was only too long.
+    """
+    if course_reserve(p, u, g, t, sticks) > AT_ITS_END:
+        return False
+    latest = g[G_ACCEPTED]
+    for j in range(int(g[G_COUNT])):
+        then = g[G_MOMENT_TIME + j]
+        if g[G_MOMENT_ASKED + j] == 1.0 and t - then >= CLOSE / p[P_RATE]:
+            latest = max(latest, then)
+    return reserve_by(p, u, g, t, latest) <= AT_ITS_END
 
 
 def hear_input(g: Floats, t: float, in_event: bool) -> None:
@@ -261,20 +277,24 @@ def put_followed(g: Floats, u: Floats, t: float) -> None:
 def follow_inputs(p: Floats, g: Floats, u: Floats, t: float, for_rates: bool) -> None:
     """Inputs at the time t, for which a host asks for something, into ``u``.
 
-    ``for_rates``: it asks for rates, which it does in steps that it has accepted, up to there.
+    ``for_rates``: it asks for rates, which are told by what is known of the steps that it has
+    accepted: what it may yet take back would make them others at each trial.
     """
     given = g[G_SET_TIME] == t
+    until = LATEST
+    asked = 0.0
     if for_rates:
         forget_later(g, t)
+        until = g[G_ACCEPTED]
         if given and g[G_IS_NEW] == 1.0 and t != g[G_EVENT_TIME]:
             g[G_GIVES_ALWAYS] = 1.0
-        g[G_ASKED_BY] = latest_moment(g)
+        asked = g[G_GIVES_ALWAYS]
     g[G_IS_NEW] = 0.0
     at_event = t == g[G_EVENT_TIME]  # a host may fall back behind a jump
     known = (given or g[G_GIVES_ALWAYS] == 1.0) and not at_event
-    if known and g[G_IN_EVENT] == 0.0 and not for_rates:
-        note_inputs(p, g, t)
-    follow_memory(g, t)
+    if known and g[G_IN_EVENT] == 0.0:
+        note_inputs(p, g, t, asked)
+    follow_memory(g, t, until)
     if known:
         for i in range(GIVEN_INPUTS):
             g[G_FOLLOWED + i] = g[G_VALUE + i]
@@ -317,7 +337,7 @@ def begin_course(p: Floats, g: Floats, t: float) -> None:
             change = g[G_MOMENT_VALUE + GIVEN_INPUTS * beside + i] - g[G_VALUE + i]
             g[G_FIRST_RATE + i] = change / (g[G_MOMENT_TIME + beside] - t)
     g[G_COUNT] = 0.0
-    note_inputs(p, g, t)
+    note_inputs(p, g, t, 0.0)
 
 
 def take_given(p: Floats, g: Floats, u: Floats, t: float, sticks: bool) -> bool:
@@ -326,7 +346,7 @@ def take_given(p: Floats, g: Floats, u: Floats, t: float, sticks: bool) -> bool:
     One that has, has no past and no known rate.
     """
     jumped = False
-    follow_memory(g, t)
+    follow_memory(g, t, LATEST)
     if g[G_IN_EVENT] == 1.0:
         for i in range(GIVEN_INPUTS):
             g[G_FIRST_RATE + i] = g[G_TREND + i]
@@ -335,16 +355,17 @@ def take_given(p: Floats, g: Floats, u: Floats, t: float, sticks: bool) -> bool:
                 g[G_FIRST_RATE + i] = 0.0
     if jumped:
         g[G_COUNT] = 0.0
-        note_inputs(p, g, t)
-    elif course_reserve(p, u, g, t, sticks) <= AT_ITS_END:
+        note_inputs(p, g, t, 0.0)
+    elif has_kink(p, u, g, t, sticks):
         begin_course(p, g, t)
     elif g[G_SET_TIME] == t:
         forget_close(p, g, t)
-        note_inputs(p, g, t)
-    follow_memory(g, t)  # as the host has found the event: by what lies behind it, too
+        note_inputs(p, g, t, 0.0)
+    follow_memory(g, t, LATEST)  # as the host has found the event: by what lies behind it, too
     forget_later(g, t)
     g[G_IN_EVENT] = 0.0
     g[G_EVENT_TIME] = t
+    g[G_ACCEPTED] = t
     put_followed(g, u, t)
     return jumped
 
@@ -354,6 +375,7 @@ def begin_memory(g: Floats, u: Floats, t: float) -> None:
     g[G_COUNT] = 1.0
     g[G_MOMENT_TIME] = t
     g[G_EVENT_TIME] = t
+    g[G_ACCEPTED] = t
     for i in range(GIVEN_INPUTS):
         g[G_MOMENT_VALUE + i] = input_at(u, i, t)
         g[G_FIRST_RATE + i] = u[U_RATE + i]

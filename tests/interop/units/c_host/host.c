@@ -8,11 +8,6 @@
    microseconds of the processor in a step. The environment's RESOURCES is the location of the unit's
    resources. */
 #define _POSIX_C_SOURCE 200809L
-#ifdef _WIN32
-#include <windows.h>
-#else
-#include <dlfcn.h>
-#endif
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -21,6 +16,7 @@
 #include <time.h>
 
 #include "fmi2FunctionTypes.h"
+#include "library.h"
 
 #define FUNCTION(name) static fmi2##name##TYPE *name
 FUNCTION(Instantiate);
@@ -45,60 +41,6 @@ static size_t settings;
 static fmi2ValueReference references[MOST_SETTINGS];
 static fmi2Real values[MOST_SETTINGS];
 
-#ifdef _WIN32
-static void *opened(const char *file)
-{
-    return LoadLibraryA(file);
-}
-
-static void *symbol(void *library, const char *name)
-{
-    return (void *)GetProcAddress(library, name);
-}
-
-static void let_go(void *library)
-{
-    FreeLibrary(library);
-}
-
-static const char *reason(void)
-{
-    static char said[64];
-    snprintf(said, sizeof said, "error %lu of Windows", GetLastError());
-    return said;
-}
-#else
-static void *opened(const char *file)
-{
-    return dlopen(file, RTLD_NOW | RTLD_LOCAL);
-}
-
-static void *symbol(void *library, const char *name)
-{
-    return dlsym(library, name);
-}
-
-static void let_go(void *library)
-{
-    dlclose(library);
-}
-
-static const char *reason(void)
-{
-    return dlerror();
-}
-#endif
-
-static void *function(void *library, const char *name)
-{
-    void *found = symbol(library, name);
-    if (found == NULL) {
-        fprintf(stderr, "%s: not in the library\n", name);
-        exit(1);
-    }
-    return found;
-}
-
 static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status,
                 fmi2String category, fmi2String message, ...)
 {
@@ -109,13 +51,6 @@ static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Statu
     vfprintf(stderr, message, arguments);
     va_end(arguments);
     fputc('\n', stderr);
-}
-
-static void check(fmi2Status status)
-{
-    if (status != fmi2OK) {
-        exit(3);
-    }
 }
 
 static fmi2Component begun(void)
@@ -207,10 +142,6 @@ int main(int count, char *arguments[])
         return 2;
     }
     void *library = opened(arguments[1]);
-    if (library == NULL) {
-        fprintf(stderr, "%s: %s\n", arguments[1], reason());
-        return 1;
-    }
 #define LOAD(name) *(void **)&name = function(library, "fmi2" #name)
     LOAD(Instantiate);
     LOAD(FreeInstance);
