@@ -148,9 +148,13 @@ class Fitting:
         """
         without = self.fitted(named, parts)
         sooner = without.fits[-1].values.get(LOADING, 0.0)
-        tried = [self._beside(name, added, parts, named, without)
-                 for name, added in judge.hinted(named.ladder, sooner)]  # fmt: skip
-        found = [one for one in tried if one is not None]
+        found = []
+        for name, added in judge.hinted(named.ladder, sooner):
+            finding = Finding(name, added, 0.0)
+            part = self.part(_with_more(named, finding), finding)
+            gained = without.gained(part) - price_of(name) if part.in_kernel else 0.0
+            if judge.is_hidden(gained) and judge.runs_ask(without.nearer(part)):
+                found.append(replace(part, finding=replace(finding, gain=gained)))
         if not found:
             return parts, named
         part = max(found, key=lambda one: one.finding.gain)
@@ -158,25 +162,6 @@ class Fitting:
                   for one in found if one is not part}  # fmt: skip
         finding = replace(part.finding, others=others)
         return [*parts, replace(part, finding=finding)], _with_more(named, finding)
-
-    def _beside(
-        self, name: str, added: tuple[Added, ...], parts: Sequence[Part], named: Named,
-        without: Models,
-    ) -> Part | None:  # fmt: skip
-        """That finding beside the others, where simulated runs are so much more probable with it;
-        its gain is theirs."""
-        finding = Finding(name, added, 0.0)
-        more = _with_more(named, finding)
-        first = self.part(more, finding)
-        forms = [first, *(self.part(more, finding, law) for law in first.rivals(self.campaign)
-                          if law.effect == first.effect)]  # fmt: skip
-        for form in forms if first.in_kernel else ():
-            gained = without.gained(form) - price_of(name)
-            if judge.is_hidden(gained, without.nearer(form)):
-                return self.part(more, replace(finding, gain=gained))
-            if not judge.runs_ask(gained):  # nor would they for another law of its curve
-                break
-        return None
 
     def _gained(self, part: Part, without: Models, named: Named) -> float:
         """ln of how much more probable simulated runs are with a finding.

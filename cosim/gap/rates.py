@@ -14,7 +14,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import block_diag
-from scipy.special import logsumexp
 
 from cosim.gap.result import Rates
 from cosim.gap.scatter import Scatter
@@ -121,15 +120,15 @@ class Decision:
         first, *others = projected
         w = self.whitens @ first
         base = 0.5 * np.sum(w**2, axis=1) + self.weights[:, None]
-        without, rights = logsumexp(base, axis=0), iter(others)
+        without, rights = np.logaddexp.reduce(base, axis=0), iter(others)
         evidence, gain = [], []
         for options in self.options.values():
             values = [option.offered(next(rights), w, base) for option, _ in options]
-            sums = np.array([logsumexp(each, axis=0) for each in values])
+            sums = np.array([np.logaddexp.reduce(each, axis=0) for each in values])
             most = np.array([each.max(axis=0) for each in values])
             prices = np.array([price for _, price in options])[:, None]
             best = np.argmax(sums - prices, axis=0)
-            evidence.append(logsumexp(sums - prices, axis=0) - without)
+            evidence.append(np.logaddexp.reduce(sums - prices, axis=0) - without)
             gain.append(np.take_along_axis(most, best[None], axis=0)[0] - without)
         return Offers(tuple(self.options), np.array(evidence), np.array(gain))
 

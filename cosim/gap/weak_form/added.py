@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.special import logsumexp
 
 from cosim.gap.weak_form.constants import BENDS_ASKED
 from cosim.gap.weak_form.unknowns import Unknown
@@ -68,5 +67,5 @@ class Beside:
             added = squares * g  # (s, h, q)
             more = np.einsum("shq,hqc->shc", squares / (1.0 + added), np.square(turn @ left))
             more -= np.log1p(added).sum(axis=2)[:, :, None]
-            values.append(logsumexp(base + 0.5 * more, axis=1))
+            values.append(np.logaddexp.reduce(base + 0.5 * more, axis=1))
         return np.concatenate(values)
