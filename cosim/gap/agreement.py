@@ -12,7 +12,6 @@ from cosim.gap.laws import LawFit
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
 from cosim.gap.result import Rejected, Score
-from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.camera_faults import SMOOTHING, likeliest_filters
 from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
 from cosim.gap.weak_form.ladder import Finding, price_of

@@ -81,8 +81,8 @@ AGEING = "static_strengthening"
 #: Most findings that rows hint at and simulated runs are asked for.
 HINTS = 3
 #: ln of a Bayes factor of simulated runs for another form of a law than rows ask for; and for what
-#: these do not miss: ageing they have pretended up to e^33, and were sure of it by e^66 and more; of
-#: one effect beside another by e^216 and e^815, where fits from elsewhere differ by up to e^70.
+#: these do not miss: ageing they have pretended up to e^33, and were sure of it by e^66 and more,
+#: of one effect beside another by e^216 and more.
 MUCH_MORE, HIDDEN = 30.0, 50.0
 #: Scatter of friction from run to run, the least that is probable in what is stated of it, beyond
 #: which it stands for something that is missing.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
@@ -224,6 +225,10 @@ class UnitNames(ColumnNames):
         return self
 
 
+#: What every run states.
+SETTINGS = ("mass", "stiffness", "surface_speed")
+
+
 class RunTable(Table):
     """One [[run]].
 
@@ -251,7 +256,7 @@ class RunTable(Table):
 
     @model_validator(mode="after")
     def _check_setting(self) -> Self:
-        for key in ("mass", "stiffness", "surface_speed"):
+        for key in SETTINGS:
             if key not in self.model_fields_set:
                 raise ValueError(f"{key} is missing, allowed is a number")
         if abs(self.surface_speed) < SLOWEST_SURFACE:
@@ -300,6 +305,17 @@ class CampaignTable(Table):
 FILE_NAME = "campaign.toml"
 
 
+def _refuse_settings_of_runs(tables: Mapping[str, Any]) -> None:
+    """A mass that stands under [rig]: the rig is what all runs share."""
+    for name, table in tables.items():
+        field = CampaignTable.model_fields.get(name)
+        known = getattr(field.annotation, "model_fields", {}) if field else {}
+        for key in SETTINGS if isinstance(table, dict) else ():
+            if key in table and key not in known:
+                own = f"may differ from run to run, allowed is {key} in each [[run]]"
+                raise CampaignError(f"{name}.{key} = {table[key]}: {own}")
+
+
 def read_tables(
     path: Path, kind: type[RunTable] = MeasuredRunTable
 ) -> tuple[CampaignTable, list[RunTable], Catalogue]:
@@ -323,6 +339,7 @@ def read_tables(
         raise CampaignError(f"{path}: run: no runs{hint}, allowed is a table [[run]] for each run")
     read = []
     with within(path):
+        _refuse_settings_of_runs(tables)
         named = {"name": path.resolve().parent.name or "unnamed"} | tables
         campaign = checked(CampaignTable, named)
     try:
