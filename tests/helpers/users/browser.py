@@ -55,8 +55,9 @@ class Browser:
         return self.driver.find_element("css selector", selector)
 
     def errors(self) -> list[str]:
-        """What the page complained of since the last time."""
-        return [entry["message"] for entry in self.driver.get_log("browser")]
+        """What the page complained of since the last time; advice on speed is none of it."""
+        messages = [entry["message"] for entry in self.driver.get_log("browser")]
+        return [message for message in messages if "willReadFrequently" not in message]
 
     def outside(self) -> list[str]:
         """What the page asked for beside itself."""
