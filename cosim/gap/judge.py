@@ -22,8 +22,8 @@
     windows of runs that no fit has seen; 1 is noise.
  8. A finding below e^500, or beside a greater one, or that does not explain the runs or takes
     nothing of the gap by itself, goes, and the rows are not asked for it again, where the simulated
-    runs are not e^6 times as probable with it, and e^3 times without what a scatter may be worth,
-    e^30 by another of its laws, or, below e^500 (e^12: a trend from run to run beside a greater
+    runs are not e^6 times as probable with it, and e^3 times without what a scatter may be worth
+    or e^50 with it, e^30 by another of its laws, or, below e^500 (e^12: a trend from run to run beside a greater
     one), it takes neither all nor half of what they miss without it, at last or before friction may
     scatter, or a greater one explains them before that. So for four rounds; then rows are asked for
     one finding alone, and then for none. What rows hint at, by e^6, beside fewer than two findings,
@@ -231,10 +231,10 @@ def not_by_scatter_alone(name: str, gained: float, nearer: float) -> bool:
     """Whether simulated runs ask for a finding by their distances, too.
 
     What only a smaller scatter makes probable may be a matter of where a fit ended: of contacts
-    with nothing hidden up to e^35, with distances of e^2. A trend over the runs is what scatter
+    with nothing hidden up to e^36, with distances of e^2. A trend over the runs is what scatter
     takes up. nearer : of `Models.nearer`
     """
-    return name in TRENDS or much_more(gained) or nearer > ALIKE
+    return name in TRENDS or is_hidden(gained) or nearer > ALIKE
 
 
 def much_more(gained: float) -> bool:

@@ -232,9 +232,12 @@ class Models:
             math.log(number.prior / before) for number in part.numbers
             if number.prior and (before := known.get(number.key))
         )  # fmt: skip
-        is_in_step = max(near.gap) < IN_STEP
-        found = self._fitted_once(free, scatter, [inside if is_in_step else as_rows], near)
-        if found.cost > near.cost and not is_in_step:
+        # near noise there is no other minimum than the one nearby
+        same = _same(*free, scatter)
+        if is_enough := max(near.gap) < IN_STEP and same not in self.known:
+            self.set_out_from[same] = near
+        found = self._fitted_once(free, scatter, [inside if is_enough else as_rows], near)
+        if found.cost > near.cost:
             found = self._from_inside(found, free, scatter, inside, lambda fitted: fitted.cost)
         return found, wider
 

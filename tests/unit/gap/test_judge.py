@@ -140,7 +140,8 @@ def test_a_scatter_far_beyond_what_is_stated_stands_for_something_else(low, befo
     [
         ("surface_pattern", 29.0, 3.1, True),
         ("surface_pattern", 29.0, 2.9, False),
-        ("surface_pattern", 31.0, 0.0, True),
+        ("surface_pattern", 49.0, 2.9, False),
+        ("surface_pattern", 51.0, 0.0, True),
         ("load_dependence", 7.0, 0.0, True),
     ],
 )
