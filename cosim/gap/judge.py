@@ -22,15 +22,15 @@
     windows of runs that no fit has seen; 1 is noise.
  8. A finding below e^500, or beside a greater one, or that does not explain the runs or takes
     nothing of the gap by itself, goes, and the rows are not asked for it again, where the simulated
-    runs are not e^6 times as probable with it, and e^3 times without what a scatter may be worth
-    or e^50 with it, e^30 by another of its laws, or, below e^500 (e^12: a trend from run to run beside a greater
-    one), it takes neither all nor half of what they miss without it, at last or before friction may
-    scatter, or a greater one explains them before that. So for four rounds; then rows are asked for
-    one finding alone, and then for none. What rows hint at, by e^6, beside fewer than two findings,
-    and static friction over the hold time, which they do not tell from a contact that lets go by
-    10 ms sooner, is found where simulated runs are e^50 times as probable with it, e^6 times
-    without what a scatter may be worth. `none` is no finding left, and every run at 1.1 at most;
-    without any held out nothing tells.
+    runs are not e^6 times as probable with it, and e^3 times without what a scatter may be worth or
+    e^50 with it, e^30 by another of its laws, or, below e^500 (e^12: a trend from run to run beside
+    a greater one), it takes neither all nor half of what they miss without it, at last or before
+    friction may scatter, or a greater one explains them before that. So for four rounds; then rows
+    are asked for one finding alone, and then for none. What rows hint at, by e^6, beside fewer than
+    two findings, and static friction over the hold time, which they do not tell from a contact that
+    lets go by 10 ms sooner, is found where simulated runs are e^50 times as probable with it, e^6
+    times without what a scatter may be worth. `none` is no finding left, and every run at 1.1 at
+    most; without any held out nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them, and fitted
     ones, too, or most of their misfit gone; `partial` where held-out runs are better but stay above
     that, and most of the misfit is gone, half by findings. `named`, and `none`, also want friction
