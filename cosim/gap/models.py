@@ -26,7 +26,6 @@ from cosim.gap.weak_form.constants import STICK_SCATTER
 from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
 from cosim.gap.windows import Fitted, Number, fit, user_model, windows_of_campaign
-from cosim.gap.windows.problem import IN_STEP
 from cosim.gap.windows.run_model import BREAK_AWAY
 from cosim.gap.windows.windows import Windows
 
@@ -56,7 +55,6 @@ class Models:
     last : ln evidence of the last rung's rows
     is_scattered : whether friction has been let scatter, if it is to
     known : what was fitted to these windows before, by its numbers, settings and scatter
-    alike : the last of these by what does not tell of scatter
     set_out_from : the model from next to which that has been fitted, too
     """
 
@@ -72,7 +70,6 @@ class Models:
     last: float | None = None
     is_scattered: bool = False
     known: dict[frozenset[object], Fitted] = field(default_factory=dict)
-    alike: dict[frozenset[object], Fitted] = field(default_factory=dict)
     set_out_from: dict[frozenset[object], Fitted] = field(default_factory=dict)
 
     @classmethod
@@ -86,9 +83,7 @@ class Models:
         each finding by itself; else all of them and a contact in one rung
         """
         windows = others.windows if others else windows_of_campaign(campaign)
-        models = cls(campaign, system, windows, parts, jobs)
-        if others:
-            models.known, models.alike = others.known, others.alike
+        models = cls(campaign, system, windows, parts, jobs, known=others.known if others else {})
         models._add_plain()
         step()
         if is_shown:
@@ -232,11 +227,7 @@ class Models:
             math.log(number.prior / before) for number in part.numbers
             if number.prior and (before := known.get(number.key))
         )  # fmt: skip
-        # near noise there is no other minimum than the one nearby
-        same = _same(*free, scatter)
-        if is_enough := max(near.gap) < IN_STEP and same not in self.known:
-            self.set_out_from[same] = near
-        found = self._fitted_once(free, scatter, [inside if is_enough else as_rows], near)
+        found = self._fitted_once(free, scatter, [as_rows], near)
         if found.cost > near.cost:
             found = self._from_inside(found, free, scatter, inside, lambda fitted: fitted.cost)
         return found, wider
@@ -278,17 +269,10 @@ class Models:
     def _fitted_once(
         self, free: _Free, scatter: float, starts: Sequence[dict[str, float]], near: Fitted | None
     ) -> Fitted:
-        """The same numbers are fitted once, wherever the rows would have them set out from; of
-        another scatter, from where they were found with that."""
-        numbers, settings = free
-        same, alike = (
-            _same(*free, scatter),
-            frozenset([*(n.key for n in numbers), *settings.items()]),
-        )
+        """The same numbers are fitted once, wherever the rows would have them set out from."""
+        same = _same(*free, scatter)
         if same not in self.known:
-            if found := self.alike.get(alike):
-                starts, near = [found.values, *starts], found
-            self.known[same] = self.alike[alike] = fit(
+            self.known[same] = fit(
                 self.campaign, self.windows, *free, scatter, starts, near, self.jobs
             )
         return self.known[same]
