@@ -72,7 +72,7 @@ def serve(handle: int, parent: int, scratch: str) -> None:
     except (EOFError, OSError):
         status = 1
         shutil.rmtree(scratch, ignore_errors=True)
-    with suppress(OSError, ValueError):  # the other end is gone, or they are closed
+    with suppress(OSError, ValueError, AttributeError):  # the other end is gone; closed, or none
         sys.stdout.flush()
         sys.stderr.flush()
     os._exit(status)  # a library that is still loaded may crash where all ends in good order

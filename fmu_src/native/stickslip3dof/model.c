@@ -31,10 +31,10 @@ static void take_values(Model *model, const double values[])
 }
 
 /* Inputs and their rates at the time for which a host of model exchange asks for something. */
-static void follow_inputs(Model *model, const double values[], bool for_rates)
+static void follow_inputs(Model *model, const double values[], bool for_rates, bool for_events)
 {
     take_values(model, values);
-    stickslip_follow_inputs(model->p, model->g, model->u, model_time(model), for_rates);
+    stickslip_follow_inputs(model->p, model->g, model->u, model_time(model), for_rates, for_events);
 }
 
 void model_hear_input(Model *model, bool in_event)
@@ -255,14 +255,14 @@ void model_nominals(const Model *model, const double values[], double nominals[]
 void model_rates(Model *model, const double values[], double rates[])
 {
     double w[W_SIZE] = {0.0};
-    follow_inputs(model, values, true);
+    follow_inputs(model, values, true, false);
     stickslip_set_exchanged_rates(model->p, model->u, model->z, w, rates);
 }
 
 void model_indicators(Model *model, const double values[], double indicators[])
 {
     double w[W_SIZE] = {0.0};
-    follow_inputs(model, values, false);
+    follow_inputs(model, values, false, true);
     stickslip_set_indicators(model->p, model->u, model->z, w, indicators);
     bool sticks = model->z[SHOWN + MODE] == STICK;
     double now = model_time(model);
@@ -273,7 +273,7 @@ void model_indicators(Model *model, const double values[], double indicators[])
 void model_show_moment(Model *model, double values[])
 {
     double w[W_SIZE] = {0.0}, o[O_SIZE], rates[EXCHANGED];
-    follow_inputs(model, values, false);
+    follow_inputs(model, values, false, false);
     stickslip_show_moment(model->p, model->u, model->z, w, rates, o);
     for (int i = 0; i < OUTPUT_COUNT - WATCHED_COUNT; i++) {
         values[FIRST_OUTPUT + i] = o[OUTPUT_SLOTS[i]];
@@ -302,7 +302,7 @@ double model_next_event(const Model *model)
 bool model_complete_step(Model *model, const double values[], bool *event, char message[])
 {
     double w[W_SIZE] = {0.0};
-    follow_inputs(model, values, false);
+    follow_inputs(model, values, false, true);
     model->g[G_ACCEPTED] = model_time(model);
     int status = (int)stickslip_complete_step(model->p, model->u, model->z, w);
     double seen[WATCHED_COUNT];

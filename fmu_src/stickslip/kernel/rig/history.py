@@ -274,18 +274,22 @@ def put_followed(g: Floats, u: Floats, t: float) -> None:
     u[U_SPEED_CURVE] = 0.0
 
 
-def follow_inputs(p: Floats, g: Floats, u: Floats, t: float, for_rates: bool) -> None:
+def follow_inputs(
+    p: Floats, g: Floats, u: Floats, t: float, for_rates: bool, for_events: bool
+) -> None:
     """Inputs at the time t, for which a host asks for something, into ``u``.
 
-    ``for_rates``: it asks for rates, which are told by what is known of the steps that it has
-    accepted: what it may yet take back would make them others at each trial.
+    ``for_rates``: it asks for rates. They, and the variables, among which they are too, are told by
+    what is known of the steps that the host has accepted: what it may yet take back would make them
+    others at each trial. ``for_events``: it looks for events, by all that is known.
     """
     given = g[G_SET_TIME] == t
-    until = LATEST
+    until = g[G_ACCEPTED]
+    if for_events:
+        until = LATEST
     asked = 0.0
     if for_rates:
         forget_later(g, t)
-        until = g[G_ACCEPTED]
         if given and g[G_IS_NEW] == 1.0 and t != g[G_EVENT_TIME]:
             g[G_GIVES_ALWAYS] = 1.0
         asked = g[G_GIVES_ALWAYS]

@@ -105,6 +105,20 @@ def test_rates_are_those_of_the_variables(running):
     assert get("heat_flow") == get("der(heat)")
 
 
+def test_within_a_step_too_rates_are_those_of_the_variables(host):
+    """A stick follows a surface whose speed the host changes, before any step is accepted."""
+    one = host(**{"surface_speed": 0.1, "initial.vx": 0.1})
+    one.update()
+    one.done("EnterContinuousTimeMode")
+    place = [each.name for each in states()].index("vx")
+    x = one.x()
+    for time in (1e-3, 2e-3, 1.5e-3):
+        one.done("SetTime", time)
+        one.block.set("surface_speed", 0.1 + 0.3 * time + 20.0 * time**2)
+        rate = one.rates(time, x)[place]
+        assert one.block.get("mode") == 0 and one.block.get("der(vx)") == rate
+
+
 def test_start_time_is_no_part_of_the_motion(host):
     told = []
     for start in (0.0, 100.0):
