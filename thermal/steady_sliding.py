@@ -35,10 +35,6 @@ _START = (1 / 32, 1 / 32, 1 / 16, 1 / 8, 1 / 4, 1 / 2)
 #: Usual steps in a loop, and the most in a transient: 0.03 % of the rise; half as many 0.2 %.
 _STEPS_IN_A_LOOP, _MOST_STEPS = 8, 240
 
-#: Usual steps on the way over a warm roller: what that gives to the belt in a step is smeared out
-#: over the way of the step. Without, the rise of the belt at entry was up to 2 % off, now 0.5 %.
-_STEPS_OVER_A_ROLLER = 3
-
 #: Fewest steps in a run, and in a ramp: a slow belt makes but a few loops.
 _FEWEST_STEPS, _FEWEST_RAMP_STEPS = 48, 40
 
@@ -211,11 +207,7 @@ class SteadySliding:
         return self.state()
 
     def _of_a_loop(self) -> float:
-        belt = self.parameters.belt
-        way = belt.length / _STEPS_IN_A_LOOP
-        if belt.rollers and belt.roller_rise:
-            way = min(way, belt.roller_arc / _STEPS_OVER_A_ROLLER)
-        return way / self.speed
+        return self.parameters.belt.length / (self.speed * _STEPS_IN_A_LOOP)
 
     def ramp(self, duration: float, coarseness: float = 1.0) -> SlidingState:
         """From standstill to the constant speed, evenly in a time (s); the state there."""

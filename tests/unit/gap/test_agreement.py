@@ -304,6 +304,13 @@ def test_a_contact_that_lets_go_soon_has_aged_less(
     assert found == ["turning_surface"] * across + ["static_strengthening"] * named
 
 
+def test_beside_coarse_steps_no_hint_is_asked(monkeypatch):
+    rows = Rows(finding("run_in", 2.0 * SURE), offers=[finding("film_drag", 90.0)])
+    gains = {"film_drag": 900.0}
+    assert agreed(monkeypatch, rows, gains, rounding="coarse")[0] == ["run_in"]
+    assert agreed(monkeypatch, rows, gains)[0] == ["run_in", "film_drag"]
+
+
 @pytest.mark.parametrize(
     ("name", "hint", "gained", "nearer", "named"),
     [

@@ -56,18 +56,6 @@ def test_ramp_and_run_against_small_steps(length, speed, h, published):
         assert state.entry == pytest.approx(published, rel=0.01)
 
 
-@pytest.mark.parametrize(("speed", "run"), [(0.15, 20.0), (0.3, 20.5), (0.5, 18.0)])
-def test_warm_rollers_are_resolved(speed, run):
-    """Where the belt enters at the end its last place beside a roller comes round."""
-    belt = Belt(cell_length=2e-3, rollers=1 if speed == 0.5 else 2, roller_rise=1.0)
-    entries = []
-    for coarseness in (1.0, 0.1):
-        sliding = SteadySliding(ThermalParameters(belt=belt), speed, FORCE, waves=250)
-        sliding.ramp(RAMP, coarseness)
-        entries.append(sliding.run(run, coarseness).entry)
-    assert entries[0] == pytest.approx(entries[1], rel=6e-3)
-
-
 def test_a_pause_with_the_ice_resting_against_small_steps():
     given, speed, pause = parameters(), 0.5, 30.0
     sliding, _ = long_steps(given, speed)
