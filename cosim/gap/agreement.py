@@ -115,7 +115,7 @@ class Fitting:
             return named
         (finding,), rows = named.findings, named.ladder.system.rung()
         offers = likeliest_filters(rows, named.unknowns[SMOOTHING])
-        forms = [_with_alone(named, replace(finding, gain=gain, added=(added,)))
+        forms = [_with(named, replace(finding, gain=gain, added=(added,)))
                  for gain, added in offers if gain > finding.gain - judge.TURNED]  # fmt: skip
 
         def missed(form: Named) -> float:
@@ -153,7 +153,7 @@ class Fitting:
         found = []
         for name, added in judge.hinted(named.ladder, sooner):
             finding = Finding(name, added, 0.0)
-            part = self.part(_with_more(named, finding), finding)
+            part = self.part(_with(named, *named.findings, finding), finding)
             gained = without.gained(part) - price_of(name) if part.in_kernel else 0.0
             if judge.is_hidden(gained) and judge.runs_ask(without.nearer(part)):
                 found.append(replace(part, finding=replace(finding, gain=gained)))
@@ -163,7 +163,7 @@ class Fitting:
         others = {one.finding.name: one.finding.gain - part.finding.gain
                   for one in found if one is not part}  # fmt: skip
         finding = replace(part.finding, others=others)
-        return [*parts, replace(part, finding=finding)], _with_more(named, finding)
+        return [*parts, replace(part, finding=finding)], _with(named, *named.findings, finding)
 
     def _gained(self, part: Part, without: Models, named: Named) -> float:
         """ln of how much more probable simulated runs are with a finding.
@@ -338,7 +338,7 @@ class Fitting:
         """
         finding, forms = lone.finding, [rival]
         if finding.others[rival.finding.name] > -ALIKE:
-            there = _with_alone(named, rival.finding)
+            there = _with(named, rival.finding)
             forms += [self.part(there, rival.finding, law) for law in rival.rivals(self.campaign)
                       if law.effect == rival.effect]  # fmt: skip
         over, price = (lone, price_of(finding.name)) if lone.in_kernel else (None, 0.0)
@@ -383,7 +383,7 @@ class Fitting:
     def _in_place(self, named: Named, name: str) -> Part:
         """What another explanation would put into the model."""
         finding = Finding(name, named.ladder.first_offers[name][1], 0.0)
-        return self.part(_with_alone(named, finding), finding)
+        return self.part(_with(named, finding), finding)
 
     def fitted(
         self, named: Named, parts: Sequence[Part], is_shown: bool = True, scatters: bool = True
@@ -404,16 +404,10 @@ class Fitting:
         return models
 
 
-def _with_more(named: Named, finding: Finding) -> Named:
-    """The same rows with this finding beside all others."""
-    findings = (*named.findings, finding)
-    added = [one for each in findings for one in each.added]
+def _with(named: Named, *findings: Finding) -> Named:
+    """The same rows with these findings in place of its own."""
+    added = [one for finding in findings for one in finding.added]
     return replace(named, findings=findings, rung=named.system.rung(added))
-
-
-def _with_alone(named: Named, finding: Finding) -> Named:
-    """The same rows with this finding in place of all others."""
-    return replace(named, findings=(finding,), rung=named.system.rung(finding.added))
 
 
 def _lone(parts: Sequence[Part]) -> Part | None:

@@ -212,7 +212,7 @@ def hinted(ladder: Ladder, sooner: float) -> list[tuple[str, tuple[Added, ...]]]
 
     sooner : by which time the contact lets go, s
     """
-    if sum(bool(finding.added) for finding in ladder.findings) + 1 >= MOST_FINDINGS:
+    if len(ladder.findings) + 1 >= MOST_FINDINGS:
         return []
     gains = {name: gain - ladder.rung.evidence for name, (gain, _) in ladder.further_offers.items()}
     names = sorted((name for name in gains if gains[name] > LEAST_GAIN

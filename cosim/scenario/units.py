@@ -12,9 +12,9 @@ def doubted(parameters: Parameters) -> str:
 
     That one is named which makes the number most like the default.
     """
-    found = []
+    found, usual = [], Parameters()
     for key, ((least, most), units) in WORDS["usual"].items():
-        value, default = _number(parameters, key), _number(Parameters(), key)
+        value, default = _number(parameters, key), _number(usual, key)
         size = abs(value)
         off = {
             unit: abs(log(size * factor / default))

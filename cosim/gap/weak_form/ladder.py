@@ -237,7 +237,10 @@ class Search:
                 other: offer[0] - reference for other, offer in offers.items() if other != name
             }
             findings.append(Finding(name, added, rung.evidence - without.evidence, others))
-        further = self.offers(rung, [name for name, _ in found]) if found else first
+        further = first
+        if found:  # beside the most that there may be nothing is asked
+            names = [name for name, _ in found]
+            further = self.offers(rung, names) if len(names) < MOST_FINDINGS else {}
         return Ladder(self.system, tuple(findings), rung, first, further)
 
 

@@ -15,7 +15,6 @@
    there, X, HEAT and COUNT (an integer); on stderr how many steps, rejected ones, events and calls
    for rates it took. */
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
 #include "fmi2FunctionTypes.h"
@@ -55,18 +54,6 @@ static void *loaded(const char *name)
 #define CALL2(name) (*(fmi2##name##TYPE *)loaded(#name))
 #define CALL3(name) (*(fmi3##name##TYPE *)loaded(#name))
 
-static void say2(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status,
-                 fmi2String category, fmi2String message, ...)
-{
-    va_list arguments;
-    (void)environment;
-    fprintf(stderr, "%s %d %s: ", name, (int)status, category);
-    va_start(arguments, message);
-    vfprintf(stderr, message, arguments);
-    va_end(arguments);
-    fputc('\n', stderr);
-}
-
 static void say3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3String category,
                  fmi3String message)
 {
@@ -78,7 +65,7 @@ static void say3(fmi3InstanceEnvironment environment, fmi3Status status, fmi3Str
 
 static void *instantiated(const char *token)
 {
-    static const fmi2CallbackFunctions callbacks = {say2, calloc, free, NULL, NULL};
+    static const fmi2CallbackFunctions callbacks = {say, calloc, free, NULL, NULL};
     if (version == 2) {
         return CALL2(Instantiate)("block", fmi2ModelExchange, token, "", &callbacks, 0, 0);
     }

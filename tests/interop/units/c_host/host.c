@@ -9,7 +9,6 @@
    resources. */
 #define _POSIX_C_SOURCE 200809L
 #include <pthread.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -40,18 +39,6 @@ static fmi2ValueReference output;
 static size_t settings;
 static fmi2ValueReference references[MOST_SETTINGS];
 static fmi2Real values[MOST_SETTINGS];
-
-static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status,
-                fmi2String category, fmi2String message, ...)
-{
-    va_list arguments;
-    (void)environment;
-    fprintf(stderr, "%s %d %s: ", name, (int)status, category);
-    va_start(arguments, message);
-    vfprintf(stderr, message, arguments);
-    va_end(arguments);
-    fputc('\n', stderr);
-}
 
 static fmi2Component begun(void)
 {

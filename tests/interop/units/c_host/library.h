@@ -7,8 +7,11 @@
 #else
 #include <dlfcn.h>
 #endif
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+#include "fmi2FunctionTypes.h"
 
 #ifdef _WIN32
 static void *symbol(void *library, const char *name)
@@ -60,6 +63,19 @@ static void *function(void *library, const char *name)
         exit(1);
     }
     return found;
+}
+
+/* What a unit of FMI 2 has to say. */
+static void say(fmi2ComponentEnvironment environment, fmi2String name, fmi2Status status,
+                fmi2String category, fmi2String message, ...)
+{
+    va_list arguments;
+    (void)environment;
+    fprintf(stderr, "%s %d %s: ", name, (int)status, category);
+    va_start(arguments, message);
+    vfprintf(stderr, message, arguments);
+    va_end(arguments);
+    fputc('\n', stderr);
 }
 
 /* The status that all calls return: 0 in FMI 2 and in FMI 3 where a call is carried out. */
