@@ -13,7 +13,7 @@ from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
 from cosim.gap.result import Rejected, Score
 from cosim.gap.weak_form.camera_faults import SMOOTHING, likeliest_filters
-from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN
+from cosim.gap.weak_form.constants import ALIKE, LEAST_GAIN, MOST_FINDINGS
 from cosim.gap.weak_form.ladder import Finding, price_of
 from cosim.gap.windows.run_model import LOADING
 
@@ -142,21 +142,17 @@ class Fitting:
     def further(self, parts: list[Part], named: Named) -> tuple[list[Part], Named]:
         """With one more finding along x that simulated runs are much more probable with.
 
-        The contact's numbers and scatter may leave rows next to nothing of it; of static friction
-        over the hold time, where the contact lets go very soon, nothing at all. Not beside coarse
+        The contact's numbers and scatter may leave rows next to nothing of it. Not beside coarse
         steps, whose errors go together (`unsure`).
         """
-        if rounding_of(self.campaign) is not None:
+        beside = len(named.ladder.findings) + 1
+        if rounding_of(self.campaign) is not None or beside >= MOST_FINDINGS:
             return parts, named
-        without = self.fitted(named, parts)
-        sooner = without.fits[-1].values.get(LOADING, 0.0)
-        found = []
-        for name, added in judge.hinted(named.ladder, sooner):
-            finding = Finding(name, added, 0.0)
-            part = self.part(_with(named, *named.findings, finding), finding)
-            gained = without.gained(part) - price_of(name) if part.in_kernel else 0.0
+        without, found = self.fitted(named, parts), []
+        for part in self._promising(named, without):
+            gained = without.gained(part) - price_of(part.finding.name)
             if judge.is_hidden(gained) and judge.runs_ask(without.nearer(part)):
-                found.append(replace(part, finding=replace(finding, gain=gained)))
+                found.append(replace(part, finding=replace(part.finding, gain=gained)))
         if not found:
             return parts, named
         part = max(found, key=lambda one: one.finding.gain)
@@ -164,6 +160,18 @@ class Fitting:
                   for one in found if one is not part}  # fmt: skip
         finding = replace(part.finding, others=others)
         return [*parts, replace(part, finding=finding)], _with(named, *named.findings, finding)
+
+    def _promising(self, named: Named, without: Models) -> list[Part]:
+        """What the simulated runs' derivatives promise to gain by, the most promising first."""
+        parts = {}
+        for name, (_, added) in named.ladder.further_offers.items():
+            finding = Finding(name, added, 0.0)
+            part = self.part(_with(named, *named.findings, finding), finding)
+            if part.in_kernel and not name.startswith("other."):
+                parts[name] = part
+        promised = dict(zip(parts, without.promised(list(parts.values())), strict=True))
+        sooner, is_lone = without.fits[-1].values.get(LOADING, 0.0), not named.ladder.findings
+        return [parts[name] for name in judge.promising(promised, is_lone, sooner)]
 
     def _gained(self, part: Part, without: Models, named: Named) -> float:
         """ln of how much more probable simulated runs are with a finding.

@@ -26,11 +26,11 @@
     e^50 with it, e^30 by another of its laws, or, below e^500 (e^12: a trend from run to run beside
     a greater one), it takes neither all nor half of what they miss without it, at last or before
     friction may scatter, or a greater one explains them before that. So for four rounds; then rows
-    are asked for one finding alone, and then for none. What rows hint at, by e^6, beside fewer than
-    two findings, and static friction over the hold time, which they do not tell from a contact that
-    lets go by 10 ms sooner, is found where simulated runs are e^50 times as probable with it, e^6
-    times without what a scatter may be worth. `none` is no finding left, and every run at 1.1 at
-    most; without any held out nothing tells.
+    are asked for one finding alone, and then for none. What the simulated runs' own derivatives
+    promise e^25 for, beside fewer than two findings, and static friction over the hold time, where
+    the contact lets go by 10 ms sooner, is found where the runs are e^50 times as probable with it,
+    e^6 times without what a scatter may be worth. `none` is no finding left, and every run at 1.1
+    at most; without any held out nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them, and fitted
     ones, too, or most of their misfit gone; `partial` where held-out runs are better but stay above
     that, and most of the misfit is gone, half by findings. `named`, and `none`, also want friction
@@ -40,12 +40,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from cosim.gap.rates import confirmed
 from cosim.gap.result import Rates, Rung, Score
-from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.constants import (
     ALIKE,
     CONTACT_DELAY,
@@ -54,7 +54,7 @@ from cosim.gap.weak_form.constants import (
     NEARLY_ALIKE,
     UNDECIDED,
 )
-from cosim.gap.weak_form.ladder import TRENDS, Finding, Ladder
+from cosim.gap.weak_form.ladder import TRENDS, Finding, price_of
 
 #: Gap up to which nothing is missing: noise of a window's rows, whose states are free, and what
 #: windows of three cycles add up of a scatter that was not foreseen.
@@ -78,12 +78,13 @@ ROUNDS = 4
 #: (`constants.CONTACT_DELAY`).
 SOONER = 0.5 * CONTACT_DELAY
 AGEING = "static_strengthening"
-#: Most findings that rows hint at and simulated runs are asked for.
-HINTS = 3
 #: ln of a Bayes factor of simulated runs for another form of a law than rows ask for; and for what
 #: these do not miss: ageing they have pretended up to e^33, and were sure of it by e^66 and more,
 #: of one effect beside another by e^216 and more.
 MUCH_MORE, HIDDEN = 30.0, 50.0
+#: What derivatives must promise of what a fit must find (`HIDDEN`): half, as they have promised
+#: e^401 of e^661. And so many effects are fitted, the most promising first.
+PROMISED, HINTS = 0.5 * HIDDEN, 3
 #: Scatter of friction from run to run, the least that is probable in what is stated of it, beyond
 #: which it stands for something that is missing.
 STRAINED = 2.0
@@ -207,19 +208,18 @@ def is_asked_for_ageing(sooner: float) -> bool:
     return sooner > SOONER
 
 
-def hinted(ladder: Ladder, sooner: float) -> list[tuple[str, tuple[Added, ...]]]:
-    """What simulated runs are asked for beside the findings, though rows do not miss it.
+def promising(promised: Mapping[str, float], is_lone: bool, sooner: float) -> list[str]:
+    """What simulated runs are asked for though rows do not miss it, the most promising first.
 
-    sooner : by which time the contact lets go, s
+    promised : name -> ln of how much more probable they would be with it, to first order; is_lone :
+    beside no finding; sooner : by which time the contact lets go, s: that is all that ageing does
+    to first order
     """
-    if len(ladder.findings) + 1 >= MOST_FINDINGS:
-        return []
-    gains = {name: gain - ladder.rung.evidence for name, (gain, _) in ladder.further_offers.items()}
-    names = sorted((name for name in gains if gains[name] > LEAST_GAIN
-                    and not name.startswith("other.")), key=lambda name: -gains[name])  # fmt: skip
-    if is_asked_for_ageing(sooner) and AGEING in gains and not ladder.findings:
-        names = [AGEING, *(name for name in names if name != AGEING)]
-    return [(name, ladder.further_offers[name][1]) for name in names[:HINTS]]
+    promised = {**promised}
+    if AGEING in promised and is_lone and is_asked_for_ageing(sooner):
+        promised[AGEING] = math.inf
+    names = [name for name in promised if promised[name] - price_of(name) > PROMISED]
+    return sorted(names, key=lambda name: -promised[name])[:HINTS]
 
 
 def is_hidden(gained: float) -> bool:

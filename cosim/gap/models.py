@@ -27,6 +27,7 @@ from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
 from cosim.gap.windows import Fitted, Number, fit, user_model, windows_of_campaign
 from cosim.gap.windows.run_model import BREAK_AWAY
+from cosim.gap.windows.score_test import ScoreTest
 from cosim.gap.windows.windows import Windows
 
 #: A nuisance is a finding where it takes this part of the fitted runs' misfit or more, or brings
@@ -213,6 +214,14 @@ class Models:
     def nearer(self, part: Part) -> float:
         """The same by the runs' distances and what is stated alone: no scatter is averaged over."""
         return self._beside(part)[0].gain_over(self.fits[-1])
+
+    def promised(self, parts: Sequence[Part]) -> list[float]:
+        """The same of several to first order, from derivatives at the last model (`ScoreTest`)."""
+        numbers, settings, _ = self.free[-1]
+        test = ScoreTest.at(
+            self.campaign, self.windows, numbers, settings, self.fits[-1], self.jobs
+        )  # fmt: skip
+        return [test.promised(part.numbers, part.settings, part.starts) for part in parts]
 
     def _beside(self, part: Part) -> tuple[Fitted, float]:
         """With one more finding, from where the ladder ended; and ln of how much less probable

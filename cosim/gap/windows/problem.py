@@ -78,6 +78,20 @@ class Problem:
         blocks = [part.derivatives(scaled, self.threads.map) for part in self.parts]
         return np.concatenate([*blocks, self._priors(scaled)[1]])
 
+    def changes(self, scaled: np.ndarray, more: Mapping[str, float]) -> np.ndarray:
+        """(rows,) of the residuals by other values beside the numbers, start states eliminated.
+
+        At the last point whose derivatives were taken.
+        """
+        rows = self.threads.map(lambda part: part.changes(scaled, more), self.parts)
+        return np.concatenate([*rows, np.zeros_like(self._priors(scaled)[0])])
+
+    @property
+    def rows(self) -> list[slice]:
+        """Where each run's residuals are among all."""
+        ends = np.cumsum([part.model.owner.size for part in self.parts]).tolist()
+        return [slice(begin, end) for begin, end in zip([0, *ends], ends, strict=False)]
+
     def _priors(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         rows, slopes = np.zeros(len(self.unknowns)), np.zeros(len(self.unknowns))
         known = () if self.leeway is None else self.leeway.labels
@@ -146,14 +160,15 @@ class Problem:
             for part in self.parts:
                 part.forget()
             tries = FIRST_TRIES if len(starts) > 1 else MOST_TRIES
-            points.append(self._descended(self._started_at(start), tries))
+            points.append(self._descended(self.scaled(start), tries))
             in_step = IN_STEP**2 * sum(part.model.size for part in self.parts)
             if points[-1].cost < in_step:
                 return points[-1:]
         best = min(point.cost for point in points)
         return [point for point in points if point.cost <= LEADS * best]
 
-    def _started_at(self, values: Mapping[str, float]) -> np.ndarray:
+    def scaled(self, values: Mapping[str, float]) -> np.ndarray:
+        """(k,) of labelled values, within their bounds; the others at their starts."""
         start = self._start
         for place, (label, (number, _)) in enumerate(zip(self.labels, self.unknowns, strict=True)):
             if label in values:

@@ -43,10 +43,12 @@ class RunFit:
         self.columns: np.ndarray | None = None
         self.response = np.empty(0)
 
-    def values(self, scaled: np.ndarray) -> dict[str, float]:
-        """key -> value of this run."""
+    def values(
+        self, scaled: np.ndarray, more: Mapping[str, float] | None = None
+    ) -> dict[str, float]:
+        """key -> value of this run. more : labels -> values of what is no number of the fit"""
         own = {self.unknowns[i].label: self.unknowns[i].number.value(scaled[i]) for i in self.felt}
-        return self.model.values({**self.settings, **own})
+        return self.model.values({**self.settings, **(more or {}), **own})
 
     def forget(self, scaled: np.ndarray | None = None, started: Started | None = None) -> None:
         """All states, but those of one point if given, from which others then follow."""
@@ -130,6 +132,13 @@ class RunFit:
                 of_zero = np.where(seen, number.slope(scaled[i]) / self.model.noise, 0.0)
                 slopes[: seen.size, place] = of_zero
         return slopes
+
+    def changes(self, scaled: np.ndarray, more: Mapping[str, float]) -> np.ndarray:
+        """(size,) of the residuals by other values, normal to their derivatives by start states."""
+        at = self.followed(scaled)
+        moved = self.model.residuals(self.values(scaled, more), at.states) - at.residuals
+        columns = self.known[id(at)][1]
+        return np.asarray(self.starts.normal_part(columns, moved[:, None])[:, 0])
 
     def retried(self, scaled: np.ndarray) -> bool:
         """Whether windows off course have found better states, which are then kept."""

@@ -34,7 +34,7 @@ def part(found):
 class Rows:
     """Ask for the first of some findings that is not barred, or for so many of them.
 
-    offers : what they ask for too little; left : gap that they leave
+    offers : what else there is, as simulated runs promise it; left : gap that rows leave
     """
 
     def __init__(self, *findings, most=1, offers=(), left=1.0):
@@ -87,6 +87,9 @@ def agreed(
 
         def nearer(self, part):
             return nearer
+
+        def promised(self, parts):
+            return [rows.offers[part.finding.name][0] for part in parts]
 
     fitting = agreement.Fitting(None, lambda: None, 1)
     monkeypatch.setattr(fitting, "fitted", lambda named, parts, **_: Models(parts))
@@ -304,7 +307,7 @@ def test_a_contact_that_lets_go_soon_has_aged_less(
     assert found == ["turning_surface"] * across + ["static_strengthening"] * named
 
 
-def test_beside_coarse_steps_no_hint_is_asked(monkeypatch):
+def test_beside_coarse_steps_no_promise_is_followed(monkeypatch):
     rows = Rows(finding("run_in", 2.0 * SURE), offers=[finding("film_drag", 90.0)])
     gains = {"film_drag": 900.0}
     assert agreed(monkeypatch, rows, gains, rounding="coarse")[0] == ["run_in"]
@@ -312,22 +315,23 @@ def test_beside_coarse_steps_no_hint_is_asked(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("name", "hint", "gained", "nearer", "named"),
+    ("name", "promised", "gained", "nearer", "named"),
     [
-        ("film_drag", 6.1, 50.1, 6.1, 1),
-        ("film_drag", 5.9, 50.1, 6.1, 0),
-        ("film_drag", 6.1, 49.9, 6.1, 0),
-        ("film_drag", 6.1, 50.1, 5.9, 0),
-        ("measurement.scale", 6.1, 52.9, 6.1, 0),
-        ("measurement.scale", 6.1, 53.1, 6.1, 1),
+        ("film_drag", 25.1, 50.1, 6.1, 1),
+        ("film_drag", 24.9, 50.1, 6.1, 0),
+        ("film_drag", 25.1, 49.9, 6.1, 0),
+        ("film_drag", 25.1, 50.1, 5.9, 0),
+        ("measurement.scale", 28.1, 52.9, 6.1, 0),
+        ("measurement.scale", 28.1, 53.1, 6.1, 1),
+        ("measurement.scale", 27.9, 53.1, 6.1, 0),
         ("other.hysteresis", 90.0, 900.0, 90.0, 0),
     ],
 )
-def test_what_rows_hint_at_is_found_where_simulated_runs_are_sure(
-    monkeypatch, name, hint, gained, nearer, named
+def test_what_simulated_runs_promise_is_found_where_they_are_then_sure(
+    monkeypatch, name, promised, gained, nearer, named
 ):
     """Contact and scatter may leave rows next to nothing of a second effect."""
-    rows = Rows(finding("run_in", 2.0 * SURE), offers=[finding(name, hint)])
+    rows = Rows(finding("run_in", 2.0 * SURE), offers=[finding(name, promised)])
     found, _ = agreed(monkeypatch, rows, {name: gained}, nearer=nearer)
     assert found == ["run_in", *[name] * named]
 
@@ -335,7 +339,7 @@ def test_what_rows_hint_at_is_found_where_simulated_runs_are_sure(
 @pytest.mark.parametrize(("gain", "asked"), [(60.1, False), (59.9, True)])
 def test_a_lesser_finding_is_asked_again_beside_what_is_found(monkeypatch, gain, asked):
     """That may be what the rows took it for: here simulated runs no longer miss it."""
-    rows = Rows(finding("run_in", gain), offers=[finding("film_drag", 10.0)])
+    rows = Rows(finding("run_in", gain), offers=[finding("film_drag", 40.0)])
     gains = iter([30.0, 30.0, 0.0])  # of run_in, alone and beside film_drag
     monkeypatch.setattr(
         agreement.Fitting, "_gained", lambda self, part, without, named: next(gains)
@@ -346,10 +350,10 @@ def test_a_lesser_finding_is_asked_again_beside_what_is_found(monkeypatch, gain,
     assert (found == ["run_in", "film_drag"]) is not asked
 
 
-def test_of_what_rows_hint_at_the_best_is_found_and_what_is_nearly_as_good_is_alike(monkeypatch):
+def test_of_what_is_promised_the_best_is_found_and_what_is_nearly_as_good_is_alike(monkeypatch):
     """Three are asked, not a fourth; none beside two findings: three explain nothing."""
     names = ["film_drag", "structural_damping", "spring_hardening", "fourth"]
-    offers = [finding(name, 10.0 - place) for place, name in enumerate(names)]
+    offers = [finding(name, 40.0 - place) for place, name in enumerate(names)]
     gains = {"film_drag": 90.0, "structural_damping": 92.0, "spring_hardening": 40.0}
     one, two = finding("run_in", 9.0 * SURE), finding("load_dependence", 2.0 * SURE)
     fitting = {"monkeypatch": monkeypatch, "nearer": 9.0}
