@@ -1,5 +1,5 @@
-"""A system as an N2 chart: units on the diagonal, and what one gives to another where the row of the
-one meets the column of the other."""
+"""A system as an N2 chart: units on the diagonal, and what one gives to another where the row of
+the one meets the column of the other."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
