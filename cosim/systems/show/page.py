@@ -38,9 +38,9 @@ def page(
     files: Mapping[str, str] | None = None,
 ) -> str:
     """HTML of a run: the numbers of `summary`, figures by their names, the files beside it."""
-    told = {"numbers": numbers, "files": files or {}, "command": command}
-    told |= {"figures": {**dict.fromkeys(PICTURES), **figures}}
-    told |= {"created": datetime.fromisoformat(numbers["created"])}
+    told: dict[str, Any] = {"numbers": numbers, "files": files or {}, "command": command}
+    told["figures"] = {**dict.fromkeys(PICTURES), **figures}
+    told["created"] = datetime.fromisoformat(numbers["created"])
     # the template calls what this module knows
     return render("couple.html.j2", __package__ or "", **globals() | told)
 
