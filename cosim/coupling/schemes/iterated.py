@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.participant import CouplingError, ParticipantError
-from cosim.coupling.schemes.scheme import EndedEarly, Forgetful, Scheme, StepDone, degree_of
+from cosim.coupling.schemes.scheme import EndedEarly, Remembers, Scheme, StepDone, degree_of
 from cosim.coupling.system import Address, CoupledSystem
 from cosim.coupling.tolerance import Tolerance, bounds, nominals
 from cosim.coupling.waveform import Waveform
@@ -25,7 +25,7 @@ SAME_DIRECTION = 1e-10
 
 
 @dataclass
-class Relaxation(Forgetful):
+class Relaxation(Remembers):
     """x + relaxation (h(x) - x): plain iteration for 1, damped below. The others are more of it."""
 
     relaxation: float = 1.0
@@ -105,7 +105,7 @@ class QuasiNewton(Relaxation):
         """The differences that the next step uses."""
         return [(c.tolist(), f.tolist()) for c, f in self._now or self._before]
 
-    def restore(self, state: list[Any]) -> None:
+    def restore(self, state: Any) -> None:
         """Go on with them."""
         self._now, self._last = [], None
         self._before = [(np.array(c), np.array(f)) for c, f in state]
@@ -207,11 +207,11 @@ class Iterated(Scheme):
                     guess = guess.clip(*within)
         return _done(size, self.most_iterations, changes, guessed, False)
 
-    def state(self) -> list[Any]:
-        """What is remembered from step to step, as nested lists of numbers."""
+    def state(self) -> Any:
+        """That of the acceleration."""
         return self.acceleration.state()
 
-    def restore(self, state: list[Any]) -> None:
+    def restore(self, state: Any) -> None:
         """Go on from what `state` gave."""
         self.acceleration.restore(state)
 
