@@ -35,17 +35,6 @@ def table_of(model: type[Model], entries: Any, place: str) -> Model:
         raise SystemFault(line if line.startswith(place) else f"{place}.{line}") from None
 
 
-def changed(tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """The tables of a file with other values; changes: `table.key` -> value."""
-    for key, value in changes.items():
-        table, _, entry = key.partition(".")
-        place = tables.setdefault(table, {})
-        if table not in TABLES or not isinstance(place, dict):
-            raise SystemFault(f"{key}: cannot be set here, allowed are keys of coupling and run")
-        place[entry] = value
-    return tables
-
-
 @contextmanager
 def naming(source: str, key: str = "") -> Iterator[None]:
     """Let a fault of a system say file and key, where it does not yet."""

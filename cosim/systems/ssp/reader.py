@@ -15,6 +15,7 @@ from xml.etree.ElementTree import tostring
 from cosim.coupling import UnitDefinition
 from cosim.coupling.fmu.variables import NUMERIC
 from cosim.names import unknown_name
+from cosim.scenario.changes import changed_tables
 from cosim.systems.specification import (
     Coupling,
     Hop,
@@ -24,7 +25,6 @@ from cosim.systems.specification import (
     SystemFault,
     SystemSpecification,
     UnitEntry,
-    changed,
     naming,
     table_of,
 )
@@ -237,7 +237,7 @@ def read_ssp(path: Path, changes: Mapping[str, Any]) -> SystemSpecification:
         with naming(package.structure):
             top, definitions, said = top_of(root), units_of(root, "ssd"), tables_of(root)
         flat = Flat(top, definitions, package)
-        tables = changed(said, changes)
+        tables = changed_tables(said, changes)
         coupling = table_of(Coupling, tables["coupling"], "coupling")
         run = table_of(Run, tables["run"], "run")
         units = flat.units()
