@@ -5,34 +5,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Self, TypeVar
+from typing import Self
 
-from pydantic import BaseModel, Field, model_validator
+from pydantic import Field, model_validator
 from stickslip.quantity import Table, quantity
 
 from cosim.coupling import Affine, CouplingError, Curve, FmuError, UnitDefinition
 from cosim.coupling.participant import Closing
 from cosim.scenario.method import Method
-from cosim.scenario.validation import ScenarioError, checked
-
-Model = TypeVar("Model", bound=BaseModel)
-#: Tables of a system's file of which keys can be set from outside.
-TABLES = ("coupling", "run")
+from cosim.scenario.validation import ScenarioError
 
 
 class SystemFault(ValueError):
     """A system cannot be read or makes no sense; one line: file, key, what, what is allowed."""
-
-
-def table_of(model: type[Model], entries: Any, place: str) -> Model:
-    """A table of a file, checked; SystemFault names its keys with their place."""
-    if not isinstance(entries, Mapping):
-        raise SystemFault(f"{place}: not a table, allowed is a table [{place}]")
-    try:
-        return checked(model, entries)
-    except ScenarioError as fault:
-        line = str(fault)
-        raise SystemFault(line if line.startswith(place) else f"{place}.{line}") from None
 
 
 @contextmanager
@@ -98,6 +83,13 @@ class Run(Table):
                 f"stop = {self.stop:g} s, allowed is a time after run.start = {self.start:g} s"
             )
         return self
+
+
+class Settings(Table):
+    """How a system is run: what an SSP leaves out, and what can be set from outside."""
+
+    coupling: Coupling = Coupling()
+    run: Run = Run()
 
 
 def unused(coupling: Coupling, run: Run) -> list[str]:
