@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Self
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 from stickslip.quantity import Table, quantity
 
 from cosim.coupling import Affine, CouplingError, Curve, FmuError, UnitDefinition
@@ -38,17 +38,16 @@ NOT_GIVEN = math.inf
 
 
 class Coupling(Method):
-    """How the units talk to each other."""
+    """How the units talk to each other.
 
-    power_bonds: tuple[tuple[str, str], ...] = Field(
-        (), description="for energy: outputs that feed each other and whose product is a power"
-    )
-    order: tuple[str, ...] = Field(
-        (), description="units, in the order in which they step; left out, as the file has them"
-    )
-    macro_step: float = quantity(
-        NOT_GIVEN, "s", "time between two exchanges; of a step control, the first step", gt=0
-    )
+    power_bonds : for energy: outputs that feed each other and whose product is a power
+    order : units, in the order in which they step; left out, as the file has them
+    macro_step : time between two exchanges; of a step control, the first step
+    """
+
+    power_bonds: tuple[tuple[str, str], ...] = quantity((), None)
+    order: tuple[str, ...] = quantity((), None)
+    macro_step: float = quantity(NOT_GIVEN, "s", gt=0)
 
 
 #: Keys of [coupling] that mean something to the iterated scheme alone, and to a step control alone.
