@@ -44,7 +44,7 @@ def chart(system: CoupledSystem, order: Sequence[str]) -> Figure:
         cells.setdefault(pair, []).append(each)
     in_words = len(order) <= MOST_IN_WORDS
     lines = {pair: _lines(system, some, in_words) for pair, some in cells.items()}
-    units = {(n, n): [name, *_free(system, name)] for name, n in place.items()} if in_words else {}
+    units = {(n, n): _unit(system, name) for name, n in place.items()} if in_words else {}
     widths, heights = _sizes(len(order), {**lines, **units} if in_words else {})
     names = MARGIN + (0.0 if in_words else NAME_LETTER * min(max(map(len, order)), LONGEST_NAME))
     size = np.array([widths.sum(), heights.sum()]) + names + MARGIN
@@ -79,15 +79,15 @@ def _lines(system: CoupledSystem, connections: Sequence[Connection], in_words: b
     return found
 
 
-def _free(system: CoupledSystem, name: str) -> list[str]:
-    """Ports of a unit that nothing is connected to, in words."""
+def _unit(system: CoupledSystem, name: str) -> list[str]:
+    """What stands in a unit's cell: its name, and ports that nothing is connected to, in words."""
     ends = {end for each in system.connections for end in (each.source, each.sink)}
     joined = {end.port for end in ends if end.participant == name}
     ports = system.participants[name].ports.values()
     free = [port.causality for port in ports if port.name not in joined]
     counts = {kind: free.count(kind) for kind in Causality}
     parts = [f"{count} {kind}{'s' * (count > 1)}" for kind, count in counts.items() if count]
-    return [f"also {' and '.join(parts)}"] if parts else []
+    return [clipped(name, LONGEST_NAME), *([f"also {' and '.join(parts)}"] if parts else [])]
 
 
 def _colour(system: CoupledSystem, connections: Sequence[Connection]) -> str:
