@@ -17,7 +17,7 @@ from .contact.footprint import Footprint
 from .grids import interpolated
 from .ice.block import StandingBlock, standing_block
 from .ice.cylinder import Cylinder
-from .ice.meltwater import Meltwater
+from .ice.melting import Meltwater
 from .ice.sample import Sample
 from .parameters import ThermalParameters
 

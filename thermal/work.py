@@ -6,8 +6,8 @@ a factor of two or so, which is what a decision on minutes or days needs.
 
 import math
 
-from .ice.ablation import LONGEST_RECESSION, melt_heat
 from .ice.body import TOLERANCE
+from .ice.melting import LONGEST_RECESSION, melt_heat
 from .model import MOVEMENT
 from .parameters import ThermalParameters
 

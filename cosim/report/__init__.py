@@ -1,6 +1,6 @@
 """Results of a run: dataset, files, summary, figures and page.
 
->>> from cosim.report import run_dataset, trajectory_dataset, write_results
+>>> from cosim.report import run_columns, trajectory_columns, write_results
 """
 
 from stickslip.lazy import lazy

@@ -1,4 +1,4 @@
-"""A run as columns, or as an xarray Dataset: what files, figures and summary are made of."""
+"""A run as columns: what files, figures and summary are made of."""
 
 from __future__ import annotations
 
@@ -39,8 +39,6 @@ def attributes(name: str, unit: str | None = None) -> dict[str, object]:
 
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from cosim.coupling import CoupledResult
 
 
@@ -65,18 +63,6 @@ class BeltSnapshots(Protocol):
     def contact(self) -> Array: ...
     @property
     def contact_length(self) -> float: ...
-
-
-def run_dataset(result: CoupledResult, scenario: BaseModel, toml: str, **how: Any) -> xr.Dataset:
-    """`run_columns`, whose arguments these are, as a dataset."""
-    return run_columns(result, scenario, toml, **how).to_xarray()
-
-
-def trajectory_dataset(
-    trajectory: Trajectory, scenario: BaseModel, toml: str, **how: Any
-) -> xr.Dataset:
-    """`trajectory_columns`, whose arguments these are, as a dataset."""
-    return trajectory_columns(trajectory, scenario, toml, **how).to_xarray()
 
 
 def run_columns(

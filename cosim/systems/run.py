@@ -20,7 +20,7 @@ from cosim.coupling.record import Keep, RunFolder
 from cosim.names import unknown_name
 from cosim.result import RunResult
 from cosim.systems.assembly import Assembly, assemble, record_every
-from cosim.systems.specification import TABLES, Start, SystemFault, SystemSpecification, naming
+from cosim.systems.specification import Settings, Start, SystemFault, SystemSpecification, naming
 from cosim.systems.ssp.reader import read_ssp
 from cosim.systems.toml_file import read_toml
 
@@ -155,7 +155,7 @@ def read_system(path: str | Path, changes: Mapping[str, Any] | None = None) -> S
     of_tables: dict[str, Any] = {}
     of_units: dict[str, Any] = {}
     for key, value in (changes or {}).items():
-        (of_tables if key.partition(".")[0] in TABLES else of_units)[key] = value
+        (of_tables if key.partition(".")[0] in Settings.model_fields else of_units)[key] = value
     specification = (read_ssp if archive else read_toml)(path, of_tables)
     with specification.closed_if_refused():
         return _set(specification, of_units)

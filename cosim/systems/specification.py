@@ -5,45 +5,19 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Self, TypeVar
+from typing import Self
 
-from pydantic import BaseModel, Field, model_validator
+from pydantic import model_validator
 from stickslip.quantity import Table, quantity
 
 from cosim.coupling import Affine, CouplingError, Curve, FmuError, UnitDefinition
 from cosim.coupling.participant import Closing
 from cosim.scenario.method import Method
-from cosim.scenario.validation import ScenarioError, checked
-
-Model = TypeVar("Model", bound=BaseModel)
-#: Tables of a system's file of which keys can be set from outside.
-TABLES = ("coupling", "run")
+from cosim.scenario.validation import ScenarioError
 
 
 class SystemFault(ValueError):
     """A system cannot be read or makes no sense; one line: file, key, what, what is allowed."""
-
-
-def table_of(model: type[Model], entries: Any, place: str) -> Model:
-    """A table of a file, checked; SystemFault names its keys with their place."""
-    if not isinstance(entries, Mapping):
-        raise SystemFault(f"{place}: not a table, allowed is a table [{place}]")
-    try:
-        return checked(model, entries)
-    except ScenarioError as fault:
-        line = str(fault)
-        raise SystemFault(line if line.startswith(place) else f"{place}.{line}") from None
-
-
-def changed(tables: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """The tables of a file with other values; changes: `table.key` -> value."""
-    for key, value in changes.items():
-        table, _, entry = key.partition(".")
-        place = tables.setdefault(table, {})
-        if table not in TABLES or not isinstance(place, dict):
-            raise SystemFault(f"{key}: cannot be set here, allowed are keys of coupling and run")
-        place[entry] = value
-    return tables
 
 
 @contextmanager
@@ -64,17 +38,16 @@ NOT_GIVEN = math.inf
 
 
 class Coupling(Method):
-    """How the units talk to each other."""
+    """How the units talk to each other.
 
-    power_bonds: tuple[tuple[str, str], ...] = Field(
-        (), description="for energy: outputs that feed each other and whose product is a power"
-    )
-    order: tuple[str, ...] = Field(
-        (), description="units, in the order in which they step; left out, as the file has them"
-    )
-    macro_step: float = quantity(
-        NOT_GIVEN, "s", "time between two exchanges; of a step control, the first step", gt=0
-    )
+    power_bonds : for energy: outputs that feed each other and whose product is a power
+    order : units, in the order in which they step; left out, as the file has them
+    macro_step : time between two exchanges; of a step control, the first step
+    """
+
+    power_bonds: tuple[tuple[str, str], ...] = quantity((), None)
+    order: tuple[str, ...] = quantity((), None)
+    macro_step: float = quantity(NOT_GIVEN, "s", gt=0)
 
 
 #: Keys of [coupling] that mean something to the iterated scheme alone, and to a step control alone.
@@ -109,6 +82,13 @@ class Run(Table):
                 f"stop = {self.stop:g} s, allowed is a time after run.start = {self.start:g} s"
             )
         return self
+
+
+class Settings(Table):
+    """How a system is run: what an SSP leaves out, and what can be set from outside."""
+
+    coupling: Coupling = Coupling()
+    run: Run = Run()
 
 
 def unused(coupling: Coupling, run: Run) -> list[str]:

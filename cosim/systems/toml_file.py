@@ -16,6 +16,7 @@ from stickslip.quantity import Table, quantity
 
 from cosim.coupling import Affine, Curve
 from cosim.names import unknown_name
+from cosim.scenario.changes import changed_tables
 from cosim.scenario.toml_file import parsed, text_of
 from cosim.scenario.validation import checked
 from cosim.systems.specification import (
@@ -28,7 +29,6 @@ from cosim.systems.specification import (
     SystemFault,
     SystemSpecification,
     UnitEntry,
-    changed,
     naming,
 )
 
@@ -158,7 +158,7 @@ def read_toml(path: Path, changes: Mapping[str, Any]) -> SystemSpecification:
     """
     with naming(str(path)):
         text = text_of(path)
-        tables = changed(parsed(text, path), changes)
+        tables = changed_tables(parsed(text, path), changes)
         found = checked(System, {"name": path.stem, **tables})
         return SystemSpecification(
             name=found.name,

@@ -23,7 +23,7 @@ from cosim.scenario.changes import changes_of
 from cosim.systems import SystemRun, read_system, run_system
 from cosim.systems.run import check_system
 from cosim.systems.show import FILES, write_system
-from cosim.systems.show.summary import closing_lines, in_few_lines
+from cosim.systems.show.page import closing_lines, in_few_lines
 from cosim.systems.specification import SystemSpecification
 
 #: By which keys the JSON of a system is known.

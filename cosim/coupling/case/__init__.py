@@ -111,10 +111,10 @@ def run_scenario(
     record_every = scenario.record_every
     check_work(scenario, coupled=True)
     store = None if folder is None else folder.path
-    snapshots = Snapshots(scenario.run.snapshot_interval, fields, views, store)
     path = Path(fmu or own_fmu(scenario.catalogue))
     mechanics = _mechanics(scenario, path, debug)
     model = BeltIceModel(scenario.thermal, prepared_block(scenario.thermal))
+    snapshots = Snapshots(model, scenario.run.snapshot_interval, fields, views, store)
     heat = ThermalParticipant(model, THERMAL, observer=snapshots, melts=feels_melting(scenario))
 
     with CoupledSystem([mechanics, heat], CONNECTIONS, RESIDUALS) as system:
@@ -133,7 +133,7 @@ def run_scenario(
             observe=lambda time: heat.observe(),
             progress=progress,
         )
-        result = _with_last_picture(result, snapshots, heat.model)
+        result = _with_last_picture(result, snapshots)
     return CoupledRun(scenario, result, snapshots)
 
 
@@ -183,12 +183,10 @@ def feels_melting(scenario: Scenario) -> bool:
     )
 
 
-def _with_last_picture(
-    result: CoupledResult, snapshots: Snapshots, model: BeltIceModel
-) -> CoupledResult:
+def _with_last_picture(result: CoupledResult, snapshots: Snapshots) -> CoupledResult:
     """Also when the disk refuses the picture, the numbers are not lost."""
     try:
-        snapshots.take(float(result.time[-1]), model)
+        snapshots.take(float(result.time[-1]))
     except OutputError as error:
         return replace(result, status="failed", reason=str(error), error=error)
     return result

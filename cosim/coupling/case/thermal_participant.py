@@ -29,7 +29,7 @@ PORTS = inputs(**_DECLARED["inputs"]) + outputs(**_DECLARED["outputs"])
 #: Sizes that are typical, where 1 in the unit is not: a film of a metre would hide one of microns.
 NOMINAL = {"film_thickness": 1e-6}
 
-Observer = Callable[[float, BeltIceModel], None]
+Observer = Callable[[float], None]
 
 
 class UnfeltMelting(RuntimeError):
@@ -58,7 +58,7 @@ class ThermalParticipant:
     what the surface has travelled more than the block; its travel over the railing is all of it,
     for it goes on where the block sticks.
 
-    observer: called as observer(time, model) by `observe`, which is for states that stand: a
+    observer: called with the time (s) by `observe`, which is for states that stand: a
     coupling scheme may take a step back.
     melts: whether the ice may; a step in which it does is else refused by UnfeltMelting.
     """
@@ -135,9 +135,9 @@ class ThermalParticipant:
             )
 
     def observe(self) -> None:
-        """Show the present state to the observer."""
+        """Let the observer look at the present state."""
         if self._observer is not None:
-            self._observer(self._time, self.model)
+            self._observer(self._time)
 
     def get_state(self) -> State:
         """Temperatures, ledger and what was taken so far."""

@@ -25,7 +25,7 @@ from typing import Any, Self
 from cosim.files import OutputError, OutputRefused, writable, write_bytes, write_text
 
 #: Of the file's layout; a file of another one is refused.
-FORMAT = 2
+FORMAT = 3
 _MANIFEST = "manifest.json"
 _DIGEST = 64
 #: How many differences of two set-ups a message names.

@@ -5,7 +5,6 @@ come in parts of their nominals, so that ports of several units meet in one vect
 """
 
 import math
-from collections import deque
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.participant import CouplingError, ParticipantError
-from cosim.coupling.schemes.scheme import EndedEarly, Forgetful, Scheme, StepDone, degree_of
+from cosim.coupling.schemes.scheme import EndedEarly, Remembers, Scheme, StepDone, degree_of
 from cosim.coupling.system import Address, CoupledSystem
 from cosim.coupling.tolerance import Tolerance, bounds, nominals
 from cosim.coupling.waveform import Waveform
@@ -26,7 +25,7 @@ SAME_DIRECTION = 1e-10
 
 
 @dataclass
-class Relaxation(Forgetful):
+class Relaxation(Remembers):
     """x + relaxation (h(x) - x): plain iteration for 1, damped below. The others are more of it."""
 
     relaxation: float = 1.0
@@ -76,25 +75,17 @@ class QuasiNewton(Relaxation):
 
     Degroote, Bathe and Vierendeels, "Performance of a new partitioned procedure versus a monolithic
     procedure in fluid-structure interaction", Computers and Structures 87 (2009).
-    relaxation: of the first iteration, while there is no difference. reused: last steps whose
-    differences are used too.
+    relaxation: of the first iteration, while there is no difference. The differences of the step
+    before are used too.
     """
 
-    reused: int = 1
     _now: list[tuple[Vector, Vector]] = field(default_factory=list, repr=False)
+    _before: list[tuple[Vector, Vector]] = field(default_factory=list, repr=False)
     _last: tuple[Vector, Vector] | None = field(default=None, repr=False)
-    _steps: deque[list[tuple[Vector, Vector]]] = field(default_factory=deque, repr=False)
-
-    def __post_init__(self) -> None:
-        super().__post_init__()
-        if self.reused < 0:
-            raise CouplingError(f"reused_steps = {self.reused}: must be 0 or more")
-        self._steps = deque(maxlen=self.reused)
 
     def begin(self) -> None:
         """Keep the differences of the step before."""
-        if self._now:
-            self._steps.append(self._now)
+        self._before = self._now or self._before
         self._now, self._last = [], None
 
     def next(self, guess: Vector, found: Vector) -> Vector:
@@ -104,23 +95,20 @@ class QuasiNewton(Relaxation):
             self._now.append((change - self._last[0], found - self._last[1]))
         self._last = (change, found)
         # the newest first: what is nearly a combination of newer ones is dropped
-        columns = [*reversed(self._now), *(c for step in reversed(self._steps) for c in step)]
-        changes, founds = independent(columns)
+        changes, founds = independent([*reversed(self._now), *self._before])
         if not changes:
             return guess + self.relaxation * change
         weights, *_ = np.linalg.lstsq(np.column_stack(changes), -change, rcond=None)
         return found + np.column_stack(founds) @ weights
 
     def state(self) -> list[Any]:
-        """The differences of the steps that are used again."""
-        kept = [*self._steps, self._now] if self._now else list(self._steps)
-        return [[(c.tolist(), f.tolist()) for c, f in step] for step in kept]
+        """The differences that the next step uses."""
+        return [(c.tolist(), f.tolist()) for c, f in self._now or self._before]
 
-    def restore(self, state: list[Any]) -> None:
+    def restore(self, state: Any) -> None:
         """Go on with them."""
         self._now, self._last = [], None
-        steps = [[(np.array(c), np.array(f)) for c, f in step] for step in state]
-        self._steps = deque(steps, maxlen=self.reused)
+        self._before = [(np.array(c), np.array(f)) for c, f in state]
 
 
 def independent(columns: list[tuple[Vector, Vector]]) -> tuple[list[Vector], list[Vector]]:
@@ -219,11 +207,11 @@ class Iterated(Scheme):
                     guess = guess.clip(*within)
         return _done(size, self.most_iterations, changes, guessed, False)
 
-    def state(self) -> list[Any]:
-        """What is remembered from step to step, as nested lists of numbers."""
+    def state(self) -> Any:
+        """That of the acceleration."""
         return self.acceleration.state()
 
-    def restore(self, state: list[Any]) -> None:
+    def restore(self, state: Any) -> None:
         """Go on from what `state` gave."""
         self.acceleration.restore(state)
 

@@ -41,18 +41,24 @@ class EndedEarly(Exception):
         self.name, self.size = name, size
 
 
-class Forgetful:
-    """Remembers nothing from step to step."""
+class Remembers:
+    """What is remembered from step to step, `remembered` by its names: nothing, left out.
 
-    def state(self) -> list[Any]:
-        """Nothing."""
-        return []
+    A checkpoint has it as JSON.
+    """
 
-    def restore(self, state: list[Any]) -> None:
-        """Nothing to go on from."""
+    remembered: ClassVar[tuple[str, ...]] = ()
+
+    def state(self) -> Any:
+        """What a run that goes on needs."""
+        return {name: getattr(self, name) for name in self.remembered}
+
+    def restore(self, state: Any) -> None:
+        """Go on from what `state` gave."""
+        vars(self).update(state)
 
 
-class Scheme(Forgetful, ABC):
+class Scheme(Remembers, ABC):
     """How the participants make a macro step together.
 
     order: participant names, each once, in the order of the initial exchange. needs_restore:

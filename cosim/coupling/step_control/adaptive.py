@@ -16,7 +16,7 @@ from cosim.coupling.exchange import Exchange
 from cosim.coupling.messages import SMALLEST
 from cosim.coupling.participant import CouplingError
 from cosim.coupling.schemes.iterated import Iterated, Vector
-from cosim.coupling.schemes.scheme import Forgetful, Scheme
+from cosim.coupling.schemes.scheme import Remembers, Scheme
 from cosim.coupling.step_control.control import OFTEN, StepControl, Stepper
 from cosim.coupling.system import Address, Connection, CoupledSystem, find_port
 from cosim.coupling.tolerance import Tolerance
@@ -102,7 +102,7 @@ def _both_ends(exchange: Exchange, source: Address, sink: str) -> tuple[float, f
     return given, (got - way.offset) / way.factor
 
 
-class Estimate(Forgetful):
+class Estimate(Remembers):
     """Makes a step and says how large its error is.
 
     more: powers of the step's size by which the error of a step is smaller than what the scheme is
@@ -211,6 +211,7 @@ class EnergyResidual(Estimate):
     _crossed: float = 0.0
     _watts: tuple[float, ...] = ()
 
+    remembered = ("_crossed",)
     more = 1  # a step's length times the first power that the polynomial lacks
 
     def check(self, system: CoupledSystem) -> list[str]:
@@ -248,14 +249,6 @@ class EnergyResidual(Estimate):
             self._crossed = max(self._crossed, crossed)
         return reached, error
 
-    def state(self) -> Any:
-        """Energy that has crossed, J."""
-        return self._crossed
-
-    def restore(self, state: Any) -> None:
-        """Go on with it."""
-        self._crossed = float(state)
-
 
 #: Bounds of the factor from one step to the next.
 SHRINK, GROW = 0.2, 5.0
@@ -281,6 +274,7 @@ class AdaptiveStep(StepControl):
     safety: float = 0.9
 
     needs_restore = True
+    remembered = ("_size", "_error", "_above")
 
     def __post_init__(self) -> None:
         for name in ("smallest", "first", "largest"):
@@ -370,16 +364,14 @@ class AdaptiveStep(StepControl):
             grown = max(grown, self._size) if error <= 1.0 else grown
         self._size = min(max(grown, self.smallest), self.largest)
 
-    def state(self) -> dict[str, Any]:
-        """Size, last error, and steps that were too long at last."""
-        said = {"size": self._size, "error": self._error, "above": self._above}
-        return {**said, "estimate": self.estimate.state()}
+    def state(self) -> Any:
+        """With what the estimate remembers."""
+        return [super().state(), self.estimate.state()]
 
-    def restore(self, state: dict[str, Any]) -> None:
+    def restore(self, state: Any) -> None:
         """Go on from there."""
-        self._size, self._error = float(state["size"]), float(state["error"])
-        self._above = int(state.get("above", 0))  # checkpoints of before have none
-        self.estimate.restore(state["estimate"])
+        super().restore(state[0])
+        self.estimate.restore(state[1])
 
 
 def _shared(size: float, left: float) -> float | None:

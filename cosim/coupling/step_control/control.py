@@ -4,14 +4,15 @@ And the plainest, steps of one size.
 """
 
 import math
+from abc import ABC, abstractmethod
 from contextlib import nullcontext
 from dataclasses import dataclass
-from typing import Any, ClassVar, Protocol
+from typing import ClassVar
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.messages import UNCONVERGED
 from cosim.coupling.participant import CouplingError
-from cosim.coupling.schemes.scheme import EndedEarly, Scheme, StepDone
+from cosim.coupling.schemes.scheme import EndedEarly, Remembers, Scheme, StepDone
 from cosim.coupling.system import CoupledSystem
 
 STOP, HALVE, ACCEPT = "stop", "halve", "accept"
@@ -103,7 +104,7 @@ class Stepper:
         )
 
 
-class StepControl(Protocol):
+class StepControl(Remembers, ABC):
     """How long the steps are.
 
     needs_restore: whether steps are taken back.
@@ -112,6 +113,7 @@ class StepControl(Protocol):
     needs_restore: ClassVar[bool] = False
 
     @property
+    @abstractmethod
     def first_size(self) -> float:
         """Size of the first step, s."""
 
@@ -119,21 +121,17 @@ class StepControl(Protocol):
         """What could not be checked, a line each; CouplingError for a system that does not fit."""
         return []
 
+    @abstractmethod
     def begin(self, start: float, stop: float, scheme: Scheme) -> None:
         """Get ready for a run from start to stop (s)."""
 
+    @abstractmethod
     def step(self, stepper: Stepper, stop: float) -> float:
         """Make a step that stands, at most to `stop` (s); the time reached, s."""
 
     def is_row(self) -> bool:
         """Whether the time reached counts as a communication point of its own for the record."""
         return True
-
-    def state(self) -> dict[str, Any]:
-        """What the next step depends on, numbers by name."""
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Go on from what `state` gave."""
 
 
 @dataclass
@@ -145,6 +143,8 @@ class FixedStep(StepControl):
     """
 
     macro_step: float
+
+    remembered = ("_made", "_on_grid")
 
     @property
     def first_size(self) -> float:
@@ -183,11 +183,3 @@ class FixedStep(StepControl):
     def is_row(self) -> bool:
         """On the grid it is."""
         return self._on_grid
-
-    def state(self) -> dict[str, Any]:
-        """Steps made."""
-        return {"made": self._made, "on_grid": self._on_grid}
-
-    def restore(self, state: dict[str, Any]) -> None:
-        """Go on from there."""
-        self._made, self._on_grid = int(state["made"]), bool(state["on_grid"])

@@ -70,8 +70,8 @@ TURNS, COIL = 9, 0.006
 SHEET_WIDTH, SHEET_HEIGHT = 9.5, 6.0  # of all panels, inches at most
 WORDS = 0.025  # m, for what stands below the rig
 ARROW = 0.06  # m, length of the arrow for the surface's direction
-#: Opacity of the beginning and the end of what fades in.
-FAINT, FULL = 0.15, 0.9
+#: Opacity of what fades in on a page.
+FAINT = 0.5
 
 
 @styled
@@ -162,7 +162,6 @@ def draw_phase_portrait(dataset: Data) -> Figure:
         plain_ticks(axes)
         for way in plane.ways:
             _draw_way(axes, way)
-        axes.autoscale_view()
         axes.set(xlabel=plane.across, ylabel=plane.upwards)
     _title(figure, "Phase portrait", dataset)
     handles, labels = panels[0].get_legend_handles_labels()
@@ -172,25 +171,12 @@ def draw_phase_portrait(dataset: Data) -> Figure:
 
 def _draw_way(axes: Axes, way: Way) -> None:
     look: dict[str, Any] = {"color": way.colour, "linewidth": way.width, "label": way.label}
-    if way.dash:
-        look |= {"linestyle": "--", "zorder": 3}
+    look |= {"linestyle": "--", "zorder": 3} if way.dash else {}
+    look |= {"alpha": FAINT} if way.fades else {}
     if way.x is None:
         axes.axhline(float(way.y[0]), **look)
-    elif way.fades:
-        _fading(axes, way, np.stack([way.x, way.y], axis=1))
-        axes.plot([], [], **look)
-    elif way.dash:
-        axes.plot(way.x, way.y, **look)
     else:
         line(axes, way.x, way.y, **look)
-
-
-def _fading(axes: Axes, way: Way, points: Array) -> None:
-    """A way that comes out of the paper: its beginning is of the least weight."""
-    pieces = np.stack([points[:-1], points[1:]], axis=1)
-    colours = [(way.colour, weight) for weight in np.linspace(FAINT, FULL, len(pieces))]
-    axes.add_collection(LineCollection(list(pieces), colors=colours, linewidths=way.width))
-    axes.update_datalim(points[np.isfinite(points).all(axis=1)])
 
 
 def _title(figure: Figure, text: str, dataset: Data) -> None:

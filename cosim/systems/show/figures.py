@@ -1,7 +1,5 @@
 """Figures of a system's run over time: what went across, energy, and the steps taken."""
 
-from dataclasses import replace
-
 import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
@@ -16,7 +14,7 @@ from cosim.report.page import Picture, number, unit_text
 from cosim.report.palette import BLUE, FAINT_BLUE, INK, SERIES, Scaled, readable
 from cosim.report.style import displayed, draw_over_time, picture_over_time, shown
 from cosim.systems.run import SystemRun
-from cosim.systems.show.diagram import colour_key, diagram, is_legible, matrix
+from cosim.systems.show.diagram import chart
 from cosim.systems.show.summary import is_rounding
 
 #: Panels of the first figure, and of the one below with the others, of which the first are drawn.
@@ -34,24 +32,17 @@ OVER_TIME: dict[str, tuple[str, str]] = {
 
 def pictures(run: SystemRun, columns: Columns) -> dict[str, Picture]:
     """Every figure that the run has something for: name -> picture, in the page's order."""
-    system, order = run.assembly.system, run.assembly.scheme.order
-    if is_legible(system, order):
-        units = diagram(system, order)
-        units = replace(units, caption=units.caption + colour_key(system))
-    else:
-        units = matrix(system, order)
-    found = {
-        name: picture_over_time(name, *OVER_TIME[name], one)
-        for name, one in described(run, columns).items()
-    }
-    return {"system": units} | found
+    found = {"system": chart(run.assembly.system, run.assembly.scheme.order)}
+    for name, one in described(run, columns).items():
+        found[name] = picture_over_time(name, *OVER_TIME[name], one)
+    return found
 
 
 def figure_of(run: SystemRun, columns: Columns, name: str) -> Figure:
     """One of them for a notebook; ValueError for a name that is none of this run's."""
-    system, found = (run.assembly.system, run.assembly.scheme.order), described(run, columns)
+    found = described(run, columns)
     if name == "system":
-        return shown(diagram if is_legible(*system) else matrix, *system)
+        return shown(chart, run.assembly.system, run.assembly.scheme.order)
     if name not in found:
         raise ValueError(unknown_name("figure of this run", name, ("system", *found)))
     return displayed(draw_over_time(found[name]))

@@ -4,10 +4,9 @@
 
 import json
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable
 from dataclasses import replace
 from operator import itemgetter
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,8 +17,7 @@ from cosim.coupling.messages import WARNING
 from cosim.coupling.system import ENERGY_UNIT, find_port
 from cosim.report.columns import Column, Columns
 from cosim.report.coupling import efforts, step_numbers
-from cosim.report.files import provenance, results_line
-from cosim.report.page import number
+from cosim.report.files import provenance
 from cosim.systems.run import SystemRun
 
 RESIDUAL = "coupling_residual"
@@ -110,10 +108,6 @@ def is_rounding(columns: Columns, name: str) -> bool:
 
 def _size(column: Column) -> float:
     return float(np.max(np.abs(column.values)))
-
-
-#: Remarks that the terminal shows.
-MOST_NOTES = 4
 
 
 def summary(run: SystemRun, columns: Columns) -> dict[str, Any]:
@@ -312,60 +306,3 @@ def _largest(values: np.ndarray) -> float | None:
 
 def _number(value: float) -> float | None:
     return value + 0.0 if math.isfinite(value) else None  # no negative zero
-
-
-def in_few_lines(said: Sequence[str]) -> list[str]:
-    """The first of them, and how many more there are."""
-    more = len(said) - MOST_NOTES
-    return [*said[:MOST_NOTES], *([f"{more} more on the page"] if more > 0 else [])]
-
-
-def closing_lines(numbers: Mapping[str, Any], folder: Path, wall_time: float) -> list[str]:
-    """What whoever waited for the run is told."""
-    coupling = numbers["coupling"]
-    lines = [
-        f"{numbers['name']}: {numbers['time_reached']:g} s in {wall_time:.1f} s of wall time, "
-        f"{numbers['wall_time']:.2g} s of them in the units",
-        f"  units        {len(numbers['participants'])}, {len(numbers['connections'])} connections",
-        f"  steps        {coupling['steps']} by {coupling['scheme']}, "
-        f"{_range(coupling['shortest_step'], coupling['longest_step'])}{_repeated(coupling)}",
-    ]
-    lines += [f"  energy       {line}" for line in ledger_lines(numbers["ledger"])]
-    lines += [f"  note         {remark}" for remark in in_few_lines(numbers["remarks"])]
-    return [*lines, results_line(folder)]
-
-
-def ledger_lines(found: Mapping[str, Any]) -> list[str]:
-    """A line for every connection that carries energy."""
-    lines = [
-        f"{flow['connection']}: {number(flow['handed'])} J handed over, "
-        f"{number(flow['in_transit'], 2, largest=flow['handed'] or 0.0)} J of them not taken up"
-        for flow in found["energies"]
-    ]
-    made = {"made": "made by the source", "under_the_curve": "under the output's curve"}
-    return lines + [
-        f"{flow['connection']}: {number(flow['given'])} J given, {number(flow[key])} J {words}"
-        for flow in found["powers"]
-        for key, words in made.items()
-        if key in flow
-    ]
-
-
-def _repeated(coupling: Mapping[str, Any]) -> str:
-    """What was made more than once, and what stands although it should not."""
-    told = (
-        ("rejected", 0, "{} taken back"),
-        ("most_iterations", 1, "at most {} iterations a step"),
-        ("unconverged", 0, "{} not converged"),
-        ("above_tolerance", 0, "{} above tolerance"),
-    )
-    parts = [words.format(coupling[key]) for key, usual, words in told if coupling[key] > usual]
-    return "".join(f", {part}" for part in parts)
-
-
-def _range(shortest: float | None, longest: float | None) -> str:
-    if shortest is None or longest is None:
-        return "none made"
-    if longest - shortest <= 1e-6 * longest:
-        return f"{longest:.4g} s each"
-    return f"{shortest:.3g} to {longest:.3g} s"

@@ -15,18 +15,17 @@ from xml.etree.ElementTree import tostring
 from cosim.coupling import UnitDefinition
 from cosim.coupling.fmu.variables import NUMERIC
 from cosim.names import unknown_name
+from cosim.scenario.changes import changed_tables
+from cosim.scenario.validation import checked
 from cosim.systems.specification import (
-    Coupling,
     Hop,
     Link,
-    Run,
+    Settings,
     Start,
     SystemFault,
     SystemSpecification,
     UnitEntry,
-    changed,
     naming,
-    table_of,
 )
 from cosim.systems.ssp.package import Package
 from cosim.systems.ssp.structure import Connector, Element, Ends, tables_of, top_of, units_of
@@ -237,9 +236,8 @@ def read_ssp(path: Path, changes: Mapping[str, Any]) -> SystemSpecification:
         with naming(package.structure):
             top, definitions, said = top_of(root), units_of(root, "ssd"), tables_of(root)
         flat = Flat(top, definitions, package)
-        tables = changed(said, changes)
-        coupling = table_of(Coupling, tables["coupling"], "coupling")
-        run = table_of(Run, tables["run"], "run")
+        tables = changed_tables(said, changes)
+        settings = checked(Settings, tables)
         units = flat.units()
         if not units:
             raise SystemFault(f"{package.structure}: has no component, needed is one at least")
@@ -252,8 +250,8 @@ def read_ssp(path: Path, changes: Mapping[str, Any]) -> SystemSpecification:
             source=str(path),
             units=units,
             links=flat.links(),
-            coupling=coupling,
-            run=run,
+            coupling=settings.coupling,
+            run=settings.run,
             text=tostring(root, encoding="unicode"),
             remarks=(*package.remarks, *variants),
             _held=unpacked.pop_all(),

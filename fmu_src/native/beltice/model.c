@@ -142,7 +142,7 @@ static void exchange(const Model *model, const Found *found, double friction, co
     fluxes->melting = friction - fluxes->from_contact - fluxes->ice;
 }
 
-/* --- the melting face, thermal/ice/ablation.py --- */
+/* --- the melting face, thermal/ice/melting.py --- */
 
 /* Fluxes of a step, the load that sinking ice puts on the modes, and how far the face recedes. */
 static bool recede(Model *model, const Found *found, const IceStep *step, double friction,

@@ -10,26 +10,14 @@ from .effect import Candidate, FreeParameter
 MOST_HARMONIC = 10
 
 
-def harmonic_amplitude(which: str) -> Any:
+def harmonic_amplitude() -> Any:
     """A parameter that a wave which is no sine has besides."""
-    return quantity(
-        0.0,
-        "1",
-        f"amplitude of the {which} harmonic as part of the first's",
-        ge=0,
-        le=MOST_HARMONIC,
-        typical=(0.1, 0.6),
-    )
+    return quantity(0.0, "1", ge=0, le=MOST_HARMONIC, typical=(0.1, 0.6))
 
 
-def harmonic_phase(which: str) -> Any:
+def harmonic_phase() -> Any:
     """The phase of that harmonic."""
-    return quantity(
-        0.0,
-        "deg",
-        f"phase of the {which} harmonic where that of the first is nothing",
-        tried=(-180.0, 180.0),
-    )
+    return quantity(0.0, "deg", tried=(-180.0, 180.0))
 
 
 # B sin(2 a + b) = B cos b sin 2 a + B sin b cos 2 a: what is a harmonic's own is worked out once,

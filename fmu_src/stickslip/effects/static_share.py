@@ -13,28 +13,9 @@ from typing import Any
 from ..quantity import quantity
 
 
-def static_relative() -> Any:
-    """r"""
-    return quantity(
-        0.0,
-        "1",
-        "what mu_s takes of mu_k's relative change: 1 all, in proportion; 0 none, it stays",
-        ge=0,
-        le=2,
-        tried=(0.0, 1.0),
-    )
-
-
-def static_absolute() -> Any:
-    """a"""
-    return quantity(
-        0.0,
-        "1",
-        "what mu_s takes of mu_k's change: 1 all, it moves by as much; 0 none",
-        ge=0,
-        le=2,
-        tried=(0.0, 1.0),
-    )
+def static_share() -> Any:
+    """r, or a."""
+    return quantity(0.0, "1", ge=0, le=2, tried=(0.0, 1.0))
 
 
 #: Form of a candidate beside that in which mu_s stays -> the parameter that is set to 1.

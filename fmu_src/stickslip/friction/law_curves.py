@@ -5,6 +5,7 @@ Each is asked of the kernel, interpreted, as the motion asks it, with every effe
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -142,23 +143,16 @@ def _over_hold(asked: _Asked, reach: float) -> LawCurve:
 
 
 def _over_memory(asked: _Asked, reach: float) -> LawCurve:
+    """Of what an effect remembers first."""
+    first = state_slot(asked.effect, asked.effect.states[0].name)
+    return _over(getattr(asked.kernel, first), "remembered heat", "J", asked, reach)
+
+
+def _over(place: int, axis: str, unit: str, asked: _Asked, reach: float) -> LawCurve:
+    """Kinetic friction over a number of the instant."""
     x = np.linspace(0.0, reach or 1.0, POINTS)
-    first = asked.effect.states[0].name
-    place = W_STATE + getattr(asked.kernel, state_slot(asked.effect, first))
-    y = asked.over(place, x, asked.kernel.kinetic_coefficient)
-    return LawCurve("remembered heat", "J", x, "kinetic friction coefficient", "1", y)
-
-
-def _over_distance(asked: _Asked, reach: float) -> LawCurve:
-    x = np.linspace(0.0, reach or 1.0, POINTS)
-    y = asked.over(W_STATE + DISTANCE, x, asked.kernel.kinetic_coefficient)
-    return LawCurve("distance slid", "m", x, "kinetic friction coefficient", "1", y)
-
-
-def _over_place(asked: _Asked, reach: float) -> LawCurve:
-    x = np.linspace(0.0, reach or 1.0, POINTS)
-    y = asked.over(W_STATE + X, x, asked.kernel.kinetic_coefficient)
-    return LawCurve("place on the surface", "m", x, "kinetic friction coefficient", "1", y)
+    y = asked.over(W_STATE + place, x, asked.kernel.kinetic_coefficient)
+    return LawCurve(axis, unit, x, "kinetic friction coefficient", "1", y)
 
 
 def _over_load(asked: _Asked, reach: float) -> LawCurve:
@@ -206,8 +200,8 @@ _CURVES: dict[str, Callable[[_Asked, float], LawCurve]] = {
     "sliding speed": _over_speed,
     "hold time": _over_hold,
     "heat memory": _over_memory,
-    "distance": _over_distance,
-    "place": _over_place,
+    "distance": partial(_over, DISTANCE, "distance slid", "m"),
+    "place": partial(_over, X, "place on the surface", "m"),
     "load": _over_load,
     "position": _over_extension,
     "velocity": _over_velocity,

@@ -1,6 +1,7 @@
 """Where each number stands in the kernel's flat arrays, with the house's effects.
 
-Counted from `tables`; ``layout.pyi`` tells the names to who checks types, see `generation.stubs`.
+Counted from `tables`; ``layout.pyi`` tells the names to who checks types, see
+`tests/helpers/models/kernel_stubs.py`.
 """
 
 from . import Floats as Floats

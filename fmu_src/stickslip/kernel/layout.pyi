@@ -1,4 +1,4 @@
-# made by stickslip.generation.stubs
+# made by tests/helpers/models/kernel_stubs.py
 from . import Floats as Floats
 
 GRAVITY: float

@@ -4,13 +4,14 @@ Springs without pretension push sideways where they are compressed, and turn the
 line on which friction drags it. Pretension holds it there, as the tension of a string does.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from math import copysign, sqrt
 
 import numpy as np
 
 from ..parameters import Parameters
 from .live import DRY, Interface
-from .roots import root_between
 from .stability import GRAZING, Stability, cycle_stability
 
 #: Pretensions that are looked at, as parts of the spring's installed length: steps and the most.
@@ -69,6 +70,42 @@ def pretension_borders(
         borders.append(float(border))
     closed = [*borders[1::2], None] if unstable[-1] else borders[1::2]
     return PretensionBorders(tuple(zip(borders[::2], closed, strict=True)), float(resolution))
+
+
+def root_between(
+    function: Callable[[float], float],
+    low: tuple[float, float],
+    high: tuple[float, float],
+    within: float,
+) -> float:
+    """Where a function is 0, by Ridders' method, which at least bisects.
+
+    Here, since scipy's takes longer to import than to find it.
+
+    low, high : two places and the function's values there, of different signs; within : to which
+    the root is found
+
+    >>> round(root_between(lambda x: x * x - 2.0, (0.0, -2.0), (2.0, 2.0), 1e-9), 8)
+    1.41421356
+    """
+    (a, at_a), (b, at_b) = low, high
+    best = a if at_a == 0.0 else b
+    while at_a * at_b < 0.0 and abs(b - a) > within:
+        middle = 0.5 * (a + b)
+        at_middle = function(middle)
+        half, curved = middle - a, sqrt(at_middle * at_middle - at_a * at_b)
+        found = middle + half * copysign(1.0, at_a) * at_middle / curved
+        at_found = function(found)
+        if abs(found - best) <= within or at_found == 0.0:
+            return found
+        best = found
+        for place, value in ((middle, at_middle), (found, at_found)):
+            if a < place < b or b < place < a:
+                if value * at_a < 0.0:
+                    b, at_b = place, value
+                else:
+                    a, at_a = place, value
+    return best
 
 
 def with_pretension(parameters: Parameters, pretension: float) -> Parameters:

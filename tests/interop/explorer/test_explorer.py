@@ -25,7 +25,7 @@ from stickslip.steady_motion.regimes import (
 )
 
 from cosim import read_scenario, run_scenario
-from cosim.report import trajectory_dataset
+from cosim.report import trajectory_columns
 from cosim.report.run_summary import after_ramp
 from cosim.scenario import ScenarioError
 from cosim.studies.effects.page import PLAIN
@@ -135,7 +135,7 @@ def test_the_numbers_are_those_of_the_summary(page):
     changes = {"run.duration": 20.0}
     scenario = read_scenario("reference").changed(changes)
     found = page.ended(address_of("reference", changes))["statistics"]
-    dataset = trajectory_dataset(simulated(scenario, 20.0), scenario, "")
+    dataset = trajectory_columns(simulated(scenario, 20.0), scenario, "").to_xarray()
     expected = after_ramp(dataset)
     assert expected["break_aways"] > 10
     assert found.keys() == expected.keys()

@@ -178,8 +178,9 @@ def test_a_participant_goes_back_and_on_bit_for_bit():
 
 
 def test_a_state_that_is_taken_back_is_in_no_picture():
-    pictures = Snapshots(0.1)
-    part = started(model(), pictures)
+    seen = model()
+    pictures = Snapshots(seen, 0.1)
+    part = started(seen, pictures)
     part.observe()
     start = part.get_state()
     for heat in (9.0, 0.1):  # a first try, and the step that counts

@@ -64,7 +64,7 @@ def test_another_format_is_refused(tmp_path, monkeypatch):
     monkeypatch.setattr("cosim.coupling.record.folder.FORMAT", 99)
     path = save_checkpoint(tmp_path / "c.zip", EXAMPLE)
     monkeypatch.undo()
-    with pytest.raises(CheckpointError, match="format 99, this version goes on from format 2"):
+    with pytest.raises(CheckpointError, match="format 99, this version goes on from format 3"):
         load_checkpoint(path)
 
 

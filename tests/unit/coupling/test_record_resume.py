@@ -58,9 +58,9 @@ HOW = {
     "linear": lambda: {"scheme": Jacobi(ORDER, "linear"), "macro_step": 0.03},
     "quadratic": lambda: {"scheme": GaussSeidel(ORDER, "quadratic"), "macro_step": 0.03},
     "Aitken": lambda: {"scheme": iterated(Aitken()), "macro_step": 0.1},
-    "quasi-Newton": lambda: {"scheme": iterated(QuasiNewton(reused=3)), "macro_step": 0.1},
+    "quasi-Newton": lambda: {"scheme": iterated(QuasiNewton()), "macro_step": 0.1},
     "doubling": lambda: {"scheme": GaussSeidel(ORDER, "linear"), "control": adaptive(Doubling)},
-    "defect": lambda: {"scheme": iterated(QuasiNewton(reused=2)), "control": adaptive(Defect)},
+    "defect": lambda: {"scheme": iterated(QuasiNewton(0.5)), "control": adaptive(Defect)},
 }
 #: Known events fall on steps of the grid and between them.
 SPAN = {"stop": 4.0, "events": (0.65, 1.25, 3.0), "record_every": 3}

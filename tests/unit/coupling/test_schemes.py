@@ -274,9 +274,7 @@ def test_a_waveform_s_parts_are_the_waveform():
     assert Waveform((1.0, 2.0, 3.0), 1.0).rates == (2.0, 6.0)
 
 
-@pytest.mark.parametrize(
-    "acceleration", [Relaxation(0.25), Aitken(), QuasiNewton(), QuasiNewton(reused=3)]
-)
+@pytest.mark.parametrize("acceleration", [Relaxation(0.25), Aitken(), QuasiNewton()])
 def test_an_acceleration_solves_what_plain_iteration_runs_away_from(acceleration):
     """x = A x + b with eigenvalues beyond 1; scalar steps of Aitken need one value.
 
@@ -300,7 +298,6 @@ def test_an_acceleration_solves_what_plain_iteration_runs_away_from(acceleration
         (lambda: Tolerance(1e-3, {"a.x": -1.0}), "absolute tolerance of a.x = -1"),
         (lambda: AdaptiveStep(Defect(), 1.0, 2.0, 3.0), "macro_step = 1 s: must lie between"),
         (lambda: AdaptiveStep(Defect(), 1.0, 0.1, 3.0, 1.0), "safety = 1: must lie"),
-        (lambda: QuasiNewton(reused=-1), "reused_steps = -1"),
         (lambda: Jacobi(("a", "b"), "cubic").check(loop(0.1)), "extrapolation = 'cubic'"),
         (lambda: Iterated(("a", "b"), sweep="both").check(loop(0.1)), "sweep = 'both'"),
         (lambda: run(loop(0.1), Jacobi(("a", "b")), stop=1.0), "either macro_step or control"),

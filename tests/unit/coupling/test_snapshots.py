@@ -20,12 +20,12 @@ def model():
 
 def run(model, snapshots, steps, power=1.0):
     for n in steps:
-        snapshots(0.1 * n, model)
+        snapshots(0.1 * n)
         model.step(0.1, 0.1 * power, 0.03)
 
 
 def test_views_are_kept_when_asked_for(model):
-    without, with_views = Snapshots(0.5), Snapshots(0.5, views=True)
+    without, with_views = Snapshots(model, 0.5), Snapshots(model, 0.5, views=True)
     run(model, without, range(10))
     assert without.views == []
     run(model, with_views, range(11))
@@ -39,9 +39,9 @@ def test_views_are_kept_when_asked_for(model):
 
 
 def test_a_long_run_keeps_views_evenly_spread(model):
-    snapshots = Snapshots(0.1, views=True)
+    snapshots = Snapshots(model, 0.1, views=True)
     for n in range(3 * MOST_VIEWS):
-        snapshots(0.1 * n, model)
+        snapshots(0.1 * n)
     times = np.array([time for time, _ in snapshots.views])
     assert MOST_VIEWS // 3 < times.size <= MOST_VIEWS
     assert np.ptp(np.diff(times)) < 1e-9
@@ -63,16 +63,19 @@ def test_pictures_go_on_where_they_were_saved(tmp_path, monkeypatch, cut):
     """Saved after `cut` states, cut off at 30 and resumed from there, as if nothing was."""
     monkeypatch.setattr("cosim.coupling.case.snapshots.MOST_VIEWS", 8)
 
-    def pictures(name):
+    def pictures(name, model):
         (tmp_path / name / "fields").mkdir(parents=True, exist_ok=True)
-        return Snapshots(0.2, tmp_path / name / "fields", views=True, store=tmp_path / name)
+        fields = tmp_path / name / "fields"
+        return Snapshots(model, 0.2, fields, views=True, store=tmp_path / name)
 
-    whole, cut_off, model = pictures("whole"), pictures("cut off"), coarse()
-    run(coarse(), whole, range(40))
+    through, model = coarse(), coarse()
+    whole, cut_off = pictures("whole", through), pictures("cut off", model)
+    run(through, whole, range(40))
     run(model, cut_off, range(cut))
     saved, state = cut_off.save_state(), model.state()
     run(model, cut_off, range(cut, 30))
-    again, model = pictures("cut off"), coarse()
+    model = coarse()
+    again = pictures("cut off", model)
     model.restore(state)
     again.load_state(saved)
     run(model, again, range(cut, 40))
@@ -85,7 +88,7 @@ def test_pictures_go_on_where_they_were_saved(tmp_path, monkeypatch, cut):
 
 
 def test_pictures_are_on_disk_as_they_are_taken(tmp_path, model):
-    snapshots = Snapshots(0.1, store=tmp_path)
+    snapshots = Snapshots(model, 0.1, store=tmp_path)
     run(model, snapshots, range(5))
     found = np.load(tmp_path / "pictures.npy", mmap_mode="r")
     assert found.shape == (5, 2 + snapshots.position.size)
@@ -103,7 +106,7 @@ def frames(data):
 
 
 def test_an_animation_shows_how_it_gets_warmer(model):
-    snapshots = Snapshots(1.0, views=True)
+    snapshots = Snapshots(model, 1.0, views=True)
     run(model, snapshots, range(31), power=5.0)
     shown, duration = frames(animation(snapshots.views, -8.0, "case"))
     assert len(shown) == 4

@@ -107,13 +107,13 @@ def test_a_spring_beyond_its_length_is_told_of():
 def test_a_force_curve_ends_where_it_was_measured():
     from stickslip import simulate
 
-    from cosim.report import trajectory_dataset
+    from cosim.report import trajectory_columns
 
     parameters = Parameters(
         rig=Rig(spring_natural_length=0.19),
         springs=Springs(force_curve_extension=(0.0, 0.02), force_curve_force=(0.0, 0.4)),
     )
-    dataset = trajectory_dataset(simulate(parameters, 2.0, 0.01), parameters, "")
+    dataset = trajectory_columns(simulate(parameters, 2.0, 0.01), parameters, "").to_xarray()
     found = summary(dataset)["overstretched"]
     assert found["allowed"] == pytest.approx(0.21)
     assert found["longest"] == pytest.approx(0.2 + float(dataset["x"].max()), abs=1e-4)

@@ -15,7 +15,7 @@ from stickslip.ports import OUTPUTS
 
 from cosim.coupling import Connection, CoupledResult, EnergyFlow, Ledger
 from cosim.coupling.exchange import Effort, Statistics
-from cosim.report import OutputError, run_dataset, trajectory_dataset, write_data
+from cosim.report import OutputError, run_columns, trajectory_columns, write_data
 from cosim.report.contents import mechanics_of, thermal_of
 from cosim.report.dataset import THERMAL
 from cosim.report.files import write_netcdf
@@ -103,12 +103,12 @@ def statistics(steps: int) -> Statistics:
 def coupled_dataset(surface: str = "belt") -> xr.Dataset:
     result, pictures = coupled(surface)
     case = scenario(surface)
-    return run_dataset(result, case, case.to_toml(), snapshots=pictures)
+    return run_columns(result, case, case.to_toml(), snapshots=pictures).to_xarray()
 
 
 def mechanics_dataset(surface: str = "belt") -> xr.Dataset:
     case = scenario(surface)
-    return trajectory_dataset(trajectory(surface), case, case.to_toml(), wall_time=0.25)
+    return trajectory_columns(trajectory(surface), case, case.to_toml(), wall_time=0.25).to_xarray()
 
 
 BOTH = pytest.mark.parametrize("make", [coupled_dataset, mechanics_dataset])
@@ -173,7 +173,7 @@ def test_netcdf_round_trip_is_exact(make, tmp_path):
     ],
 )
 def test_status_of_a_trajectory(reason, status):
-    dataset = trajectory_dataset(replace(trajectory(), reason=reason), scenario(), "")
+    dataset = trajectory_columns(replace(trajectory(), reason=reason), scenario(), "").to_xarray()
     assert dataset.attrs["status"] == status
     assert bool(dataset.attrs["reason"]) == (status != "complete")
 

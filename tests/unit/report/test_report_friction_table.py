@@ -3,7 +3,7 @@
 import pytest
 from stickslip import simulate
 
-from cosim.report import trajectory_dataset
+from cosim.report import trajectory_columns
 from cosim.report.figures import TABLE, plates_of
 from cosim.scenario import Scenario
 
@@ -19,7 +19,9 @@ OVER_BOTH = {
 def test_there_is_a_line_for_each_temperature(friction, rows):
     scenario = Scenario(friction=friction, initial={"vx": 0.15}, run={"duration": 1.0})
     trajectory = simulate(scenario.mechanics, 1.0, interpreted=True)
-    dataset = trajectory_dataset(trajectory, scenario, scenario.to_toml(), wall_time=0.1)
+    dataset = trajectory_columns(
+        trajectory, scenario, scenario.to_toml(), wall_time=0.1
+    ).to_xarray()
     assert (TABLE in plates_of(dataset)) == bool(rows)
     if rows:
         (ax,) = TABLE.drawn(dataset).axes

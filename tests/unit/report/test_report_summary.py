@@ -8,7 +8,7 @@ from stickslip import Parameters, Surface, Trajectory
 from stickslip.ports import OUTPUTS
 from test_report_dataset import coupled_dataset, mechanics_dataset, trajectory
 
-from cosim.report import summary, trajectory_dataset
+from cosim.report import summary, trajectory_columns
 from cosim.report.contents import break_aways, slip_intervals
 
 RAMP, PERIOD, SLIP, CYCLES = 2.0, 0.5, 0.3, 8
@@ -36,7 +36,7 @@ def made_up(parameters: Parameters | None = None) -> Trajectory:
 
 
 def numbers(run: Trajectory) -> dict:
-    return summary(trajectory_dataset(run, run.parameters, "toml"))
+    return summary(trajectory_columns(run, run.parameters, "toml").to_xarray())
 
 
 def test_stick_slip_numbers_of_a_known_run():
@@ -61,7 +61,7 @@ def test_ledger_of_the_mechanics():
 
 
 def test_without_events_the_modes_tell_to_one_interval():
-    dataset = trajectory_dataset(made_up(), made_up().parameters, "")
+    dataset = trajectory_columns(made_up(), made_up().parameters, "").to_xarray()
     sampled = dataset.drop_dims("event_time").drop_vars("slip_time")
     exact, seen = slip_intervals(dataset), slip_intervals(sampled)
     interval = END / 600

@@ -19,7 +19,7 @@ from cosim.cli.runs.running import scenario_to_run
 from cosim.coupling.case import run_scenario
 from cosim.scenario import Scenario, ScenarioError, check_work, read_scenario
 from cosim.studies.sweep import SweepError, product_grid
-from thermal.ice.ablation import LONGEST_RECESSION
+from thermal.ice.melting import LONGEST_RECESSION
 from thermal.model import BeltIceModel
 from thermal.work import ice_unknowns, internal_steps
 

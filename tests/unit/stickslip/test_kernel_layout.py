@@ -4,8 +4,8 @@ from importlib import resources
 
 import numpy as np
 import pytest
+from kernel_stubs import stubs
 from stickslip import EFFECTS, Parameters
-from stickslip.generation.stubs import stubs
 from stickslip.kernel import layout, tables
 
 
@@ -51,4 +51,4 @@ def test_every_parameter_of_an_effect_reaches_the_vector():
 def test_the_type_checker_knows_the_numbers_and_terms_that_there_are(file):
     """A name that is none, as P_MASSS, is an error of mypy: also an effect's that has gone."""
     written = (resources.files("stickslip.kernel") / file).read_text(encoding="utf-8")
-    assert written == stubs()[file], "python -m stickslip.generation.stubs writes them anew"
+    assert written == stubs()[file], "tests/helpers/models/kernel_stubs.py writes them anew"

@@ -8,7 +8,7 @@ from stickslip import Friction, Initial, Parameters, Rig, Springs, Surface, simu
 from stickslip.packing import GRAVITY
 from stickslip.trajectory import break_away_frequency, counted_break_aways
 
-from cosim.report import trajectory_dataset
+from cosim.report import trajectory_columns
 from cosim.report.run_summary import after_ramp
 from cosim.studies.sweep import FEATURES, features
 
@@ -92,7 +92,7 @@ def test_the_frequency_is_that_of_a_summary():
     found = features(run)["frequency"]
     starts = run.slip_starts
     assert found == break_away_frequency(starts) == pytest.approx(1.0 / np.diff(starts).mean())
-    assert after_ramp(trajectory_dataset(run, case, ""))["frequency"] == found
+    assert after_ramp(trajectory_columns(run, case, "").to_xarray())["frequency"] == found
     counted = counted_break_aways(run.time, run["slip_count"])
     assert counted == pytest.approx(starts, abs=0.005001)  # half a row either way
     assert break_away_frequency(starts[:0]) == 0.0 and math.isnan(break_away_frequency(starts[:1]))

@@ -13,7 +13,7 @@ from melting_by_hand import MeltingBlock
 
 from cosim import read_scenario
 from cosim.coupling.case import run_scenario
-from cosim.report import run_dataset, summary
+from cosim.report import run_columns, summary
 
 END = 4.5
 MACRO_STEP = 0.01
@@ -29,7 +29,7 @@ def coupled():
 @pytest.fixture(scope="module")
 def numbers(coupled):
     case = read_scenario("meltwater").changed({"run.duration": END})
-    return summary(run_dataset(coupled, case, case.to_toml()))
+    return summary(run_columns(coupled, case, case.to_toml()).to_xarray())
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,9 @@ from scipy.special import erfc
 
 from thermal import Contact, Ice
 from thermal.contact.exchange import BeltFace, exchange
-from thermal.ice.ablation import Ablation
 from thermal.ice.body import IceMelted
 from thermal.ice.cylinder import Cylinder
+from thermal.ice.melting import Ablation
 
 K, RHO, C, LATENT = 2.2, 917.0, 2050.0, 334e3
 ALPHA = K / (RHO * C)

@@ -14,7 +14,7 @@ from math import exp
 
 from ...quantity import Table, quantity
 from ..effect import Candidate, Case, Effect, FormsOf, FreeParameter, Scales
-from ..static_share import STATIC_FORMS, static_absolute, static_factor, static_relative
+from ..static_share import STATIC_FORMS, static_factor, static_share
 
 
 class RunIn(Table):
@@ -26,6 +26,9 @@ class RunIn(Table):
         delayed
     later_change : change that comes beside it, part of mu_k
     later_distance : distance over which that one is approached
+    static_relative : what mu_s takes of mu_k's relative change: 1 all, in proportion; 0 none, it
+        stays
+    static_absolute : what mu_s takes of mu_k's change: 1 all, it moves by as much; 0 none
     """
 
     change: float = quantity(0.0, "1", ge=-0.95, le=5, typical=(-0.5, 0.5))
@@ -33,8 +36,8 @@ class RunIn(Table):
     stretching: float = quantity(1.0, "1", ge=0.2, le=4, tried=(0.5, 2.0))
     later_change: float = quantity(0.0, "1", ge=-5, le=5, typical=(-0.5, 0.5))
     later_distance: float = quantity(3.0, "m", gt=0, tried=(0.3, 9.0))
-    static_relative: float = static_relative()
-    static_absolute: float = static_absolute()
+    static_relative: float = static_share()
+    static_absolute: float = static_share()
 
 
 def kinetic_factor(

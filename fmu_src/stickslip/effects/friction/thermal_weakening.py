@@ -18,7 +18,7 @@ from math import exp
 
 from ...quantity import Table, quantity
 from ..effect import Candidate, Case, Effect, FormsOf, FreeParameter, Scales, State
-from ..static_share import STATIC_FORMS, static_absolute, static_factor, static_relative
+from ..static_share import STATIC_FORMS, static_factor, static_share
 
 #: Memories beside tau, shorter and longer by so much, and their weights: those with which the rise
 #: under a constant power is nearest to the root of the time, in the largest relative distance.
@@ -35,14 +35,17 @@ class ThermalWeakening(Table):
     relaxation_time : time in which recent heat is forgotten
     curvature : of the decline of mu_k: -1 linear, 0 exponential, 1 hyperbolic
     diffusion : 1: heat is forgotten as a half-space does, about relaxation_time; 0: exponentially
+    static_relative : what mu_s takes of mu_k's relative change: 1 all, in proportion; 0 none, it
+        stays
+    static_absolute : what mu_s takes of mu_k's change: 1 all, it moves by as much; 0 none
     """
 
     per_joule: float = quantity(0.0, "1/J", ge=0, typical=(0.05, 5.0))
     relaxation_time: float = quantity(5.0, "s", gt=0, typical=(0.3, 30.0))
     curvature: float = quantity(-1.0, "1", ge=-1, le=1, tried=(-1.0, 1.0))
     diffusion: float = quantity(0.0, "1", ge=0, le=1, tried=(0.0, 1.0))
-    static_relative: float = static_relative()
-    static_absolute: float = static_absolute()
+    static_relative: float = static_share()
+    static_absolute: float = static_share()
 
 
 def remembered(recent_heat: float, fast_heat: float, slow_heat: float, diffusion: float) -> float:

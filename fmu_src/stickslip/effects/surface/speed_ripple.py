@@ -17,17 +17,23 @@ class SpeedRipple(Table):
     amplitude : amplitude as part of the speed
     frequency : frequency
     phase_deg : phase at the start
+    second_amplitude : amplitude of the second harmonic as part of the first's
+    second_phase_deg : phase of the second harmonic where that of the first is nothing
+    third_amplitude : amplitude of the third harmonic as part of the first's
+    third_phase_deg : phase of the third harmonic where that of the first is nothing
+    fourth_amplitude : amplitude of the fourth harmonic as part of the first's
+    fourth_phase_deg : phase of the fourth harmonic where that of the first is nothing
     """
 
     amplitude: float = quantity(0.0, "1", ge=0, le=1, typical=(0.02, 0.3))
     frequency: float = quantity(1.0, "Hz", gt=0, le=1000, typical=(0.1, 10.0))
     phase_deg: float = quantity(0.0, "deg", tried=(-180.0, 180.0))
-    second_amplitude: float = harmonic_amplitude("second")
-    second_phase_deg: float = harmonic_phase("second")
-    third_amplitude: float = harmonic_amplitude("third")
-    third_phase_deg: float = harmonic_phase("third")
-    fourth_amplitude: float = harmonic_amplitude("fourth")
-    fourth_phase_deg: float = harmonic_phase("fourth")
+    second_amplitude: float = harmonic_amplitude()
+    second_phase_deg: float = harmonic_phase()
+    third_amplitude: float = harmonic_amplitude()
+    third_phase_deg: float = harmonic_phase()
+    fourth_amplitude: float = harmonic_amplitude()
+    fourth_phase_deg: float = harmonic_phase()
 
 
 def angular_rate(frequency: float) -> float:

@@ -1,6 +1,6 @@
 """Stubs of the kernel's made modules: a name that the layout lacks is an error of the type checker.
 
-    python -m stickslip.generation.stubs
+    python tests/helpers/models/kernel_stubs.py
 
 writes them anew, after an effect has joined the house or a number the layout.
 """
@@ -8,10 +8,10 @@ writes them anew, after an effect has joined the house or a number the layout.
 import ast
 from pathlib import Path
 
-from ..effects import EFFECTS
-from ..kernel import tables, terms
+from stickslip.effects import EFFECTS
+from stickslip.kernel import tables, terms
 
-HEAD = "# made by stickslip.generation.stubs\n"
+HEAD = "# made by tests/helpers/models/kernel_stubs.py\n"
 
 
 def stubs() -> dict[str, str]:
