@@ -163,15 +163,17 @@ class Fitting:
 
     def _promising(self, named: Named, without: Models) -> list[Part]:
         """What the simulated runs' derivatives promise to gain by, the most promising first."""
-        parts = {}
-        for name, (_, added) in named.ladder.further_offers.items():
+        parts, rows = {}, {}
+        for name, (evidence, added) in named.ladder.further_offers.items():
             finding = Finding(name, added, 0.0)
             part = self.part(_with(named, *named.findings, finding), finding)
             if part.in_kernel and not name.startswith("other."):
-                parts[name] = part
+                parts[name], rows[name] = part, evidence - named.ladder.rung.evidence
         promised = dict(zip(parts, without.promised(list(parts.values())), strict=True))
         sooner, is_lone = without.fits[-1].values.get(LOADING, 0.0), not named.ladder.findings
-        return [parts[name] for name in judge.promising(promised, is_lone, sooner)]
+        left = without.ladder[-1].gap
+        names = judge.promising(promised, rows, left, is_lone, sooner)
+        return [parts[name] for name in names]
 
     def _gained(self, part: Part, without: Models, named: Named) -> float:
         """ln of how much more probable simulated runs are with a finding.

@@ -27,7 +27,8 @@
     a greater one), it takes neither all nor half of what they miss without it, at last or before
     friction may scatter, or a greater one explains them before that. So for four rounds; then rows
     are asked for one finding alone, and then for none. What the simulated runs' own derivatives
-    promise e^25 for, beside fewer than two findings, and static friction over the hold time, where
+    promise e^25 for, beside fewer than two findings, in rows by e^6, too, where runs are left above
+    1.1, and static friction over the hold time, where
     the contact lets go by 10 ms sooner, is found where the runs are e^50 times as probable with it,
     e^6 times without what a scatter may be worth. `none` is no finding left, and every run at 1.1
     at most; without any held out nothing tells.
@@ -208,18 +209,25 @@ def is_asked_for_ageing(sooner: float) -> bool:
     return sooner > SOONER
 
 
-def promising(promised: Mapping[str, float], is_lone: bool, sooner: float) -> list[str]:
-    """What simulated runs are asked for though rows do not miss it, the most promising first.
+def promising(
+    promised: Mapping[str, float], rows: Mapping[str, float], left: Score, is_lone: bool,
+    sooner: float,
+) -> list[str]:  # fmt: skip
+    """What simulated runs are asked for beside the findings, the most promising first.
 
-    promised : name -> ln of how much more probable they would be with it, to first order; is_lone :
-    beside no finding; sooner : by which time the contact lets go, s: that is all that ageing does
-    to first order
+    Contact and scatter may have taken up what rows then hardly see; where these leave something,
+    what takes that must be in the rows, too.
+
+    promised, rows : name -> ln of how much more probable runs would be with it, to first order, and
+    rows are; left : gap of the model without it; is_lone : beside no finding; sooner : by which
+    time the contact lets go, s: that is all that ageing does to first order
     """
-    promised = {**promised}
+    asked = {name: promised[name] - price_of(name) for name in promised
+             if rows[name] > LEAST_GAIN or not leaves(left)}  # fmt: skip
     if AGEING in promised and is_lone and is_asked_for_ageing(sooner):
-        promised[AGEING] = math.inf
-    names = [name for name in promised if promised[name] - price_of(name) > PROMISED]
-    return sorted(names, key=lambda name: -promised[name])[:HINTS]
+        asked[AGEING] = math.inf
+    names = [name for name in asked if asked[name] > PROMISED]
+    return sorted(names, key=lambda name: -asked[name])[:HINTS]
 
 
 def is_hidden(gained: float) -> bool:

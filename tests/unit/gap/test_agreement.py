@@ -34,12 +34,14 @@ def part(found):
 class Rows:
     """Ask for the first of some findings that is not barred, or for so many of them.
 
-    offers : what else there is, as simulated runs promise it; left : gap that rows leave
+    offers : what else there is, as simulated runs promise it; hinted : and rows; left : gap that
+    these leave
     """
 
-    def __init__(self, *findings, most=1, offers=(), left=1.0):
+    def __init__(self, *findings, most=1, offers=(), hinted=0.0, left=1.0):
         self.findings, self.most, self.asked, self.left = findings, most, [], left
-        self.offers = {one.name: (one.gain, one.added) for one in offers}
+        self.offers = {one.name: (hinted, one.added) for one in offers}
+        self.promises = {one.name: one.gain for one in offers}
 
     def named(self, without, most):
         self.asked.append(tuple(without))
@@ -89,7 +91,7 @@ def agreed(
             return nearer
 
         def promised(self, parts):
-            return [rows.offers[part.finding.name][0] for part in parts]
+            return [rows.promises[part.finding.name] for part in parts]
 
     fitting = agreement.Fitting(None, lambda: None, 1)
     monkeypatch.setattr(fitting, "fitted", lambda named, parts, **_: Models(parts))
@@ -334,6 +336,15 @@ def test_what_simulated_runs_promise_is_found_where_they_are_then_sure(
     rows = Rows(finding("run_in", 2.0 * SURE), offers=[finding(name, promised)])
     found, _ = agreed(monkeypatch, rows, {name: gained}, nearer=nearer)
     assert found == ["run_in", *[name] * named]
+
+
+@pytest.mark.parametrize(
+    ("reached", "hinted", "named"), [(1.09, 0.0, 1), (1.11, 0.0, 0), (1.11, 5.9, 0), (1.11, 6.1, 1)]
+)
+def test_what_runs_still_miss_is_in_the_rows_too(monkeypatch, reached, hinted, named):
+    rows = Rows(finding("run_in", 2.0 * SURE), offers=[finding("film_drag", 90.0)], hinted=hinted)
+    found, _ = agreed(monkeypatch, rows, {"film_drag": 90.0}, reached=reached)
+    assert found == ["run_in", *["film_drag"] * named]
 
 
 @pytest.mark.parametrize(("gain", "asked"), [(60.1, False), (59.9, True)])
