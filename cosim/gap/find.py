@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from cosim.gap.agreement import Agreed, Fitting, confirmed_findings
+from cosim.gap.agreement import Agreed, confirmed_findings
 from cosim.gap.checks import blocking, digits_evidence, doubts_of, with_rounding
 from cosim.gap.data import Campaign
 from cosim.gap.extended import ROUNDING, Part, rounding_of
+from cosim.gap.fitting import Fitting
 from cosim.gap.judge import explains, is_strained, judge, with_steps
 from cosim.gap.naming import Named, Naming
 from cosim.gap.plan.next_run import next_experiment

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cosim.gap.data import Campaign
 from cosim.gap.weak_form import periodic
@@ -44,6 +44,11 @@ class Named:
     system: System
     rung: Rows
     unknowns: Mapping[str, Sequence[Unknown]]
+
+    def with_findings(self, *findings: Finding) -> Named:
+        """The same rows with these findings in place of its own."""
+        added = [one for finding in findings for one in finding.added]
+        return replace(self, findings=findings, rung=self.system.rung(added))
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 from stickslip.effects.effect import Candidate
 
-from cosim.gap import agreement, find, models
+from cosim.gap import agreement, find, fitting, models, rejection, rivals
 from cosim.gap.extended import CURVE_NUMBERS, Part
+from cosim.gap.fitting import Fitting
 from cosim.gap.judge import SURE
 from cosim.gap.laws import LawFit
 from cosim.gap.models import Models, _same
@@ -65,8 +66,9 @@ def agreed(
     contact lets go, s; nearer : ln of that gain that is no scatter's
     """
     monkeypatch.setattr(agreement.Naming, "of", lambda campaign: rows)
-    monkeypatch.setattr(agreement, "part_of", lambda campaign, system, rung, one, law: part(one))
-    monkeypatch.setattr(agreement, "rounding_of", lambda campaign: rounding)
+    monkeypatch.setattr(fitting, "part_of", lambda campaign, system, rung, one, law: part(one))
+    for module in (agreement, rejection):
+        monkeypatch.setattr(module, "rounding_of", lambda campaign: rounding)
 
     class Models:
         def __init__(self, parts):
@@ -93,9 +95,9 @@ def agreed(
         def promised(self, parts):
             return [rows.promises[part.finding.name] for part in parts]
 
-    fitting = agreement.Fitting(None, lambda: None, 1)
-    monkeypatch.setattr(fitting, "fitted", lambda named, parts, **_: Models(parts))
-    answer = agreement.confirmed_findings(None, fitting)
+    fits = Fitting(None, lambda: None, 1)
+    monkeypatch.setattr(fits, "fitted", lambda named, parts, **_: Models(parts))
+    answer = agreement.confirmed_findings(None, fits)
     return [part.finding.name for part in answer.parts], answer.rejected
 
 
@@ -225,21 +227,21 @@ def test_rivals_of_a_finding_are_simulated(monkeypatch, gain, rows, gained, told
     offers = {name: (gain + less, (wave,)) for name, less in one.others.items()}
     found = (*beside, one)
     named = Named(SimpleNamespace(first_offers=offers, system=system), found, system, rung, {})
-    monkeypatch.setattr(agreement, "part_of", lambda campaign, system, rung, one, law: (
+    monkeypatch.setattr(fitting, "part_of", lambda campaign, system, rung, one, law: (
         Part(one) if one.name == "other.order" else part(one)))  # fmt: skip
-    fitting = agreement.Fitting(None, lambda: None, 1)
+    fits = Fitting(None, lambda: None, 1)
     gains = {"run_in": 20.0, "film_drag": gained}
     ends = [SimpleNamespace(gap=Score(1.0, 1.0))]
     models = SimpleNamespace(
         gained=lambda part, over: gains[part.finding.name] - gains[over.finding.name], ladder=ends
     )
-    monkeypatch.setattr(fitting, "fitted", lambda named, parts, **_: models)
+    monkeypatch.setattr(fits, "fitted", lambda named, parts, **_: models)
     parts = list(map(part, found))
-    rivals = fitting.rivals(parts, named, models)
-    *kept, again = fitting.told_apart(named, rivals).findings
+    alike = rivals.rivals_of(fits, parts, named, models)
+    *kept, again = rivals.told_apart(fits, named, alike).findings
     assert again.others == pytest.approx({"film_drag": told, "other.order": -1.0})
     assert kept == beside
-    assert fitting.overruled(parts, named, rivals) is None
+    assert rivals.overruled(fits, parts, named, alike) is None
 
 
 @pytest.mark.parametrize(
@@ -281,10 +283,10 @@ def overruled(monkeypatch, lone, more, gaps):
         gap = Score(1.0, gaps[parts[0].effect] if parts else 2.0)
         return SimpleNamespace(gained=lambda part: 20.0, ladder=[SimpleNamespace(gap=gap)])
 
-    monkeypatch.setattr(agreement.Fitting, "fitted", fitted)
-    rivals = {"film_drag": (part(finding("film_drag", 30.0)), more)}
-    fitting = agreement.Fitting(None, lambda: None, 1)
-    return fitting.overruled([lone], None, rivals) is not None
+    monkeypatch.setattr(Fitting, "fitted", fitted)
+    others = {"film_drag": (part(finding("film_drag", 30.0)), more)}
+    fits = Fitting(None, lambda: None, 1)
+    return rivals.overruled(fits, [lone], None, others) is not None
 
 
 @pytest.mark.parametrize(
@@ -352,10 +354,8 @@ def test_a_lesser_finding_is_asked_again_beside_what_is_found(monkeypatch, gain,
     """That may be what the rows took it for: here simulated runs no longer miss it."""
     rows = Rows(finding("run_in", gain), offers=[finding("film_drag", 40.0)])
     gains = iter([30.0, 30.0, 0.0])  # of run_in, alone and beside film_drag
-    monkeypatch.setattr(
-        agreement.Fitting, "_gained", lambda self, part, without, named: next(gains)
-    )
-    monkeypatch.setattr(agreement.Fitting, "_makes_up", lambda self, *given: True)
+    monkeypatch.setattr(Fitting, "gained", lambda self, part, without, named: next(gains))
+    monkeypatch.setattr(rejection, "_makes_up", lambda *given: True)
     found, rejected = agreed(monkeypatch, rows, {"film_drag": 60.0, "run_in": 30.0})
     assert [one.effect for one in rejected[:1]] == ["run_in"] * asked
     assert (found == ["run_in", "film_drag"]) is not asked
@@ -367,11 +367,11 @@ def test_of_what_is_promised_the_best_is_found_and_what_is_nearly_as_good_is_ali
     offers = [finding(name, 40.0 - place) for place, name in enumerate(names)]
     gains = {"film_drag": 90.0, "structural_damping": 92.0, "spring_hardening": 40.0}
     one, two = finding("run_in", 9.0 * SURE), finding("load_dependence", 2.0 * SURE)
-    fitting = {"monkeypatch": monkeypatch, "nearer": 9.0}
-    found, _ = agreed(rows=Rows(one, offers=offers), gained=gains, **fitting)
+    given = {"monkeypatch": monkeypatch, "nearer": 9.0}
+    found, _ = agreed(rows=Rows(one, offers=offers), gained=gains, **given)
     assert found == ["run_in", "structural_damping"]
     gains |= {"load_dependence": 9.0 * SURE}
-    found, _ = agreed(rows=Rows(one, two, most=2, offers=offers), gained=gains, **fitting)
+    found, _ = agreed(rows=Rows(one, two, most=2, offers=offers), gained=gains, **given)
     assert found == ["run_in", "load_dependence"]
 
 
@@ -389,10 +389,10 @@ def test_a_lost_finding_stays_where_simulated_runs_ask_for_it_by_more(monkeypatc
     models = SimpleNamespace(
         is_lost_beside=lambda other: True, let_scatter=lambda: None, gained=lambda part: gained
     )
-    fitting = agreement.Fitting(None, lambda: None, 1)
-    monkeypatch.setattr(fitting, "fitted", lambda named, parts, **_: models)
+    fits = Fitting(None, lambda: None, 1)
+    monkeypatch.setattr(fits, "fitted", lambda named, parts, **_: models)
     found = part(finding("spring_hardening", 58.0))
-    assert bool(fitting.lost([found], None, {"spring_hardening"})) == lost
+    assert bool(rejection.lost(fits, [found], None, {"spring_hardening"})) == lost
 
 
 def law(effect, form, price=0.0):
@@ -429,12 +429,12 @@ def test_another_form_of_a_law_is_tried_where_runs_are_of_two_minds(
     forms.append(law("mine", "kinked", 1.0))
     gains = {"logarithmic": first, "power": power, "saturating": 80.0, "kinked": 90.0}
     monkeypatch.setattr(
-        agreement, "part_of", lambda campaign, system, rung, one, law: Part(one, None, (law,))
+        fitting, "part_of", lambda campaign, system, rung, one, law: Part(one, None, (law,))
     )
     campaign = SimpleNamespace(catalogue=SimpleNamespace(effects=()))
     without = SimpleNamespace(gained=lambda part: gains[part.fits[0].candidate.form])
     tried, named = Part(finding(own, 10.0), None, tuple(forms)), Named(None, (), None, None, {})
-    assert agreement.Fitting(campaign, lambda: None, 1)._gained(tried, without, named) == gained
+    assert Fitting(campaign, lambda: None, 1).gained(tried, without, named) == gained
 
 
 def test_a_problem_of_least_squares_is_the_same_from_any_start():

@@ -10,8 +10,8 @@ from gap_campaigns import KNOWN, NOISE, campaign_with, motion, noisy, seen
 from scipy.special import logsumexp
 from scipy.stats import multivariate_normal
 
-from cosim.gap.agreement import Fitting
 from cosim.gap.extended import part_of
+from cosim.gap.fitting import Fitting
 from cosim.gap.naming import Naming
 from cosim.gap.scatter import Scatter, scatter_text
 from cosim.gap.weak_form import periodic

@@ -1,0 +1,95 @@
+"""What rows would nearly have in the place of a lone finding, told from it by simulated runs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from cosim.gap import judge
+from cosim.gap.extended import Part
+from cosim.gap.fitting import Fitting, lone_of
+from cosim.gap.models import Models
+from cosim.gap.naming import Named
+from cosim.gap.result import Rejected
+from cosim.gap.weak_form.constants import ALIKE
+from cosim.gap.weak_form.ladder import Finding, price_of
+
+#: Name -> what it would put into the model, and ln of how much more probable simulated runs are
+#: with it than with the finding that it is a rival of.
+Rivals = Mapping[str, tuple[Part, float]]
+
+
+def rivals_of(fitting: Fitting, parts: Sequence[Part], named: Named, models: Models) -> Rivals:
+    """Of a lone finding along x what the rows would nearly have in its place, simulated.
+
+    What no effect stands for is no more than the model without it.
+    """
+    lone = lone_of(parts)
+    if lone is None:
+        return {}
+    finding = lone.finding
+    near = judge.rivals_of(finding, judge.explains(models.ladder))
+    rivals = {name: _in_place(fitting, named, name) for name in near}
+    if not rivals:
+        return {}
+    without = fitting.without(lone, parts, named)
+    return {name: (rival, _more(fitting, rival, lone, without, named))
+            for name, rival in rivals.items() if rival.in_kernel}  # fmt: skip
+
+
+def _more(fitting: Fitting, rival: Part, lone: Part, without: Models, named: Named) -> float:
+    """ln of how much more probable simulated runs are with a rival than with the finding.
+
+    By any form of its law, where rows hardly tell it.
+    """
+    finding, forms = lone.finding, [rival]
+    if finding.others[rival.finding.name] > -ALIKE:
+        there = named.with_findings(rival.finding)
+        forms += [fitting.part(there, rival.finding, law) for law in rival.rivals(fitting.campaign)
+                  if law.effect == rival.effect]  # fmt: skip
+    over, price = (lone, price_of(finding.name)) if lone.in_kernel else (None, 0.0)
+    return max(without.gained(form, over) for form in forms) - price_of(rival.finding.name) + price
+
+
+def overruled(
+    fitting: Fitting, parts: Sequence[Part], named: Named, rivals: Rivals
+) -> Rejected | None:
+    """A lone finding that simulated runs put so far behind a rival that the rows must err.
+
+    Runs that no fit has seen must come out better with the rival, too; and be explained by it
+    in place of what no effect stands for.
+    """
+    lone = lone_of(parts)
+    if lone is None:
+        return None
+    for name, (rival, more) in rivals.items():
+        if judge.overrules(lone.finding.others[name], more):
+            in_place = [rival if part is lone else part for part in parts]
+            with_it, own = (fitting.fitted(named, some) for some in (in_place, parts))
+            is_better = with_it.ladder[-1].gap.of_verdict < own.ladder[-1].gap.of_verdict
+            if is_better and (lone.in_kernel or judge.explains(with_it.ladder)):
+                without = fitting.without(lone, parts, named)
+                gained = without.gained(lone) if lone.in_kernel else None
+                return Rejected(lone.finding.name, lone.finding.gain, gained)
+    return None
+
+
+def told_apart(fitting: Fitting, named: Named, rivals: Rivals) -> Named:
+    """A lone finding with its rivals as rows and simulated runs have them.
+
+    One that the rows do not tell from it goes where simulated runs do; one that they put behind
+    it stays as probable where simulated runs put it before.
+    """
+    if not rivals:
+        return named
+    *across, finding = named.findings
+    others = dict(finding.others)
+    for name, (_, more) in rivals.items():
+        others[name] = judge.told_by_both(finding, name, more)
+    return replace(named, findings=(*across, replace(finding, others=others)))
+
+
+def _in_place(fitting: Fitting, named: Named, name: str) -> Part:
+    """What another explanation would put into the model."""
+    finding = Finding(name, named.ladder.first_offers[name][1], 0.0)
+    return fitting.part(named.with_findings(finding), finding)
