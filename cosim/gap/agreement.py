@@ -25,7 +25,8 @@ class Agreed:
     """Findings of the rows that the simulated runs ask for too, and the models with them.
 
     rejected : what the rows ask for and the simulated runs do without; left_without : what is
-    missing without any finding, where the models with them do not explain the runs
+    missing without any finding, where the models with them do not explain the runs; is_cut :
+    whether the search ended early
     """
 
     named: Named
@@ -33,6 +34,7 @@ class Agreed:
     models: Models
     rejected: tuple[Rejected, ...] = ()
     left_without: Score | None = None
+    is_cut: bool = False
 
 
 def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
@@ -46,10 +48,11 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
     rejected: list[Rejected] = []
     rounds = iter(judge.findings_by_rounds())
     while True:
-        named = naming.named([one.effect for one in rejected], next(rounds, 0))
+        most = 0 if fitting.is_too_long else next(rounds, 0)
+        named = naming.named([one.effect for one in rejected], most)
         agreed = agreement_on(fitting, named)
         if isinstance(agreed, Agreed):
-            return replace(agreed, rejected=tuple(rejected))
+            return replace(agreed, rejected=tuple(rejected), is_cut=fitting.is_too_long)
         rejected += agreed
 
 
@@ -124,7 +127,8 @@ def _further(fitting: Fitting, parts: list[Part], named: Named) -> tuple[list[Pa
     steps, whose errors go together (`unsure`).
     """
     beside = len(named.ladder.findings) + 1
-    if rounding_of(fitting.campaign) is not None or beside >= MOST_FINDINGS:
+    is_full = fitting.is_too_long or beside >= MOST_FINDINGS
+    if is_full or rounding_of(fitting.campaign) is not None:
         return parts, named
     without, found = fitting.fitted(named, parts), []
     for part in _promising(fitting, named, without):

@@ -81,6 +81,8 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
     )  # fmt: skip
     if strained and models.scatter is not None:
         answered += (_too_much(models.scatter, stated),)
+    if agreed.is_cut:
+        answered += (_cut_short(models.work.simulated, bool(parts)),)
     # coarse steps are read off the digits, and stand in no other finding's place
     rounding = [part for part in [rounding_of(campaign)] if part]
     steps = [rung for rung in models.ladder if rung.name == ROUNDING]
@@ -130,6 +132,14 @@ def _too_much(scatter: Interval, stated: float) -> Doubt:
         f"{scatter_text(scatter)}, where {100.0 * stated:.2g} % is stated; something else differs"
     )
     return Doubt("scatter", f"{text} between the runs that the model does not have", (), False)
+
+
+def _cut_short(simulated: int, is_found: bool) -> Doubt:
+    """Of a search that ended early: without a finding nothing is concluded from it."""
+    text = f"The search ended after {simulated / 1e6:.0f} million simulated samples"
+    return Doubt(
+        "search", f"{text}; not everything was tried that the runs may ask for", (), not is_found
+    )
 
 
 def _hints(gap: Gap, parts: Sequence[Part]) -> list[str]:

@@ -27,6 +27,11 @@ class Fitting:
     jobs: int
     known: list[tuple[Models, bool]] = field(default_factory=list)
 
+    @property
+    def is_too_long(self) -> bool:
+        """Whether nothing more is asked for, as the answer takes too long."""
+        return bool(self.known) and judge.is_too_long(self.known[0][0].work.simulated)
+
     def part(self, named: Named, finding: Finding, law: LawFit | None = None) -> Part:
         """What a finding puts into the model."""
         return part_of(self.campaign, named.system, named.rung, finding, law)

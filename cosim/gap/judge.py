@@ -86,6 +86,9 @@ MUCH_MORE, HIDDEN = 30.0, 50.0
 #: What derivatives must promise of what a fit must find (`HIDDEN`): half, as they have promised
 #: e^401 of e^661. And so many effects are fitted, the most promising first.
 PROMISED, HINTS = 0.5 * HIDDEN, 3
+#: Samples of simulated runs after which nothing more is asked for: minutes; of 76 campaigns with
+#: known answers one needs more.
+LONGEST = 4e8
 #: Scatter of friction from run to run, the least that is probable in what is stated of it, beyond
 #: which it stands for something that is missing.
 STRAINED = 2.0
@@ -194,6 +197,14 @@ def may_be_spurious(finding: Finding, greatest: bool) -> bool:
     Not of what moves the block across, which nothing along x does. greatest : of those found
     """
     return bool(finding.added) and (finding.gain < SURE or not greatest)
+
+
+def is_too_long(simulated: float) -> bool:
+    """Whether a search ends: nothing further is asked of the rows, no rival and no hint tried.
+
+    simulated : samples of all runs so far
+    """
+    return simulated > LONGEST
 
 
 def runs_ask(gained: float) -> bool:

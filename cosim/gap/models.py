@@ -47,6 +47,13 @@ _Free = tuple[list[Number], dict[str, float]]
 
 
 @dataclass
+class Work:
+    """simulated : samples of runs (see `RunModel`)"""
+
+    simulated: int = 0
+
+
+@dataclass
 class Models:
     """The ladder's models, each fitted over the same windows.
 
@@ -57,6 +64,7 @@ class Models:
     is_scattered : whether friction has been let scatter, if it is to
     known : what was fitted to these windows before, by its numbers, settings and scatter
     set_out_from : the model from next to which that has been fitted, too
+    work : of all fits to these windows
     """
 
     campaign: Campaign
@@ -72,6 +80,7 @@ class Models:
     is_scattered: bool = False
     known: dict[frozenset[object], Fitted] = field(default_factory=dict)
     set_out_from: dict[frozenset[object], Fitted] = field(default_factory=dict)
+    work: Work = field(default_factory=Work)
 
     @classmethod
     def fitted(
@@ -85,6 +94,7 @@ class Models:
         """
         windows = others.windows if others else windows_of_campaign(campaign)
         models = cls(campaign, system, windows, parts, jobs, known=others.known if others else {})
+        models.work = others.work if others else models.work
         models._add_plain()
         step()
         if is_shown:
@@ -262,7 +272,7 @@ class Models:
         the better of the two."""
         near, same = self.fits[-1], _same(*free, scatter)
         if self.set_out_from.get(same) is not near:  # asked again, it has been done
-            again = fit(self.campaign, self.windows, *free, scatter, [inside], near, self.jobs)
+            again = self._solved(free, scatter, [inside], near)
             self.known[same] = min(found, again, key=measure)
             self.set_out_from[same] = near
         return self.known[same]
@@ -281,10 +291,15 @@ class Models:
         """The same numbers are fitted once, wherever the rows would have them set out from."""
         same = _same(*free, scatter)
         if same not in self.known:
-            self.known[same] = fit(
-                self.campaign, self.windows, *free, scatter, starts, near, self.jobs
-            )
+            self.known[same] = self._solved(free, scatter, starts, near)
         return self.known[same]
+
+    def _solved(
+        self, free: _Free, scatter: float, starts: Sequence[dict[str, float]], near: Fitted | None
+    ) -> Fitted:
+        fitted = fit(self.campaign, self.windows, *free, scatter, starts, near, self.jobs)
+        self.work.simulated += fitted.simulated
+        return fitted
 
     def _add(
         self, name: str, text: str, free: _Free, rows: Rows, fitted: Fitted | None = None,

@@ -57,9 +57,10 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
                 "static friction that grows at rest would"
             )
         return f"No effect is missing: the stated model describes the runs{beside}{more}."
-    severe = [doubt.text for doubt in gap.doubts if doubt.severe]
+    severe = [doubt for doubt in gap.doubts if doubt.severe]
     if severe:
-        return f"Nothing is named while the data are in doubt. {severe[0]}"
+        why = "" if severe[0].check == "search" else " while the data are in doubt"
+        return f"Nothing is named{why}. {severe[0].text}"
     # numbers of what does not explain the runs make up for what is missing
     sizes = gap.verdict != "unknown"
     each = [text_of(part) + (_size(part, gap) if sizes else "") for part in parts]

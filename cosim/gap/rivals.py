@@ -25,7 +25,7 @@ def rivals_of(fitting: Fitting, parts: Sequence[Part], named: Named, models: Mod
     What no effect stands for is no more than the model without it.
     """
     lone = lone_of(parts)
-    if lone is None:
+    if lone is None or fitting.is_too_long:
         return {}
     finding = lone.finding
     near = judge.rivals_of(finding, judge.explains(models.ladder))

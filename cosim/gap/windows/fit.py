@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -101,4 +102,5 @@ def judge(
         found.append(problem.solved([start]))
         if all(run.gap < IN_STEP for run in found[-1].runs):
             break
-    return min(found, key=lambda fitted: fitted.cost)
+    best = min(found, key=lambda fitted: fitted.cost)
+    return replace(best, simulated=sum(fitted.simulated for fitted in found))

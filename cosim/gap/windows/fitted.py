@@ -132,6 +132,7 @@ class Fitted:
         numbers from what is known beforehand
     leeway : of the numbers that all runs share
     known : of the fitted runs, and of those held out
+    simulated : samples of all runs that it took (see `RunModel`)
     """
 
     values: dict[str, float]
@@ -142,6 +143,7 @@ class Fitted:
     leeway: Leeway | None = field(default=None, repr=False)
     known: tuple[Information, ...] = field(default=(), repr=False)
     held_out_cost: float = 0.0
+    simulated: int = 0
 
     @classmethod
     def at(
@@ -219,6 +221,7 @@ def joined(fitted: Fitted, judged: Fitted, names: Sequence[str]) -> Fitted:
         cost=fitted.cost + judged.cost,
         held_out_cost=judged.cost,
         known=(*fitted.known, *judged.known),
+        simulated=fitted.simulated + judged.simulated,
         values={**judged.values, **fitted.values},
         sd={**judged.sd, **fitted.sd},
         runs=tuple(runs[name] for name in names if name in runs),

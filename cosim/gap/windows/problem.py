@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from functools import cache
 from typing import NamedTuple
 
@@ -188,4 +189,5 @@ class Problem:
     def _fitted(self, at: np.ndarray) -> Fitted:
         derivatives = self.derivatives(at)
         runs = tuple(part.described(at) for part in self.parts)
-        return Fitted.at(self.unknowns, at, derivatives, runs, self.residuals(at))
+        fitted = Fitted.at(self.unknowns, at, derivatives, runs, self.residuals(at))
+        return replace(fitted, simulated=sum(part.model.simulated for part in self.parts))

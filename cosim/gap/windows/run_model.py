@@ -106,6 +106,7 @@ class RunModel:
     starts : the first residual of each window that is compared; those of a window stand together
     owner : (rows,) window of each residual, then of each stick's prior and of each state's
     rounding : (size,) factor by which the noise of each is larger than stated
+    simulated : samples of all tracks so far, tenfold where friction acts on a turning disc
     """
 
     def __init__(self, campaign: Campaign, run: MeasuredRun, windows: Windows):
@@ -139,6 +140,7 @@ class RunModel:
         self.is_start = np.isin(self.restarts, windows.first)
         self.unseen, self.unseen_sd = self._unseen()
         self.owner = np.concatenate([self.owner, of_window, self.unseen[0]])
+        self.simulated = 0
 
     def _unseen(self) -> tuple[tuple[np.ndarray, np.ndarray], np.ndarray]:
         """Where in the states what the tracker does not have is free, and its deviations."""
@@ -183,6 +185,7 @@ class RunModel:
         """
         run = self.run
         p = self.packed(values) if p is None else p
+        self.simulated += run.motion.time.size * (10 if self.windows.is_planar else 1)
         speed = run.surface_speed * (1.0 + values.get("offset.speed", 0.0))
         count = self.restarts.size
         own, since, friction = (
