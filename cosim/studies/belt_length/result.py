@@ -11,13 +11,12 @@ from cosim.report.files import without_nan
 from cosim.report.page import PageResult
 
 from .case import Case
-from .drift import CAMERA, Change, Drift, FrictionEffect, Wait
+from .drift import CAMERA, Drift, FrictionEffect, Rises, Wait
 from .lengths import DriftMap, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
 
-#: What speaks; loaded when asked for.
-TEXT = f"{__package__}.show.text"
+
 #: Column of the table -> place in a case's JSON.
 _TABLE = packaged_tables(__package__, "columns.toml")
 _COLUMNS, PRINTED = _TABLE["columns"], _TABLE["printed"]
@@ -41,7 +40,7 @@ class Row:
     shortest_steady: float | None
     shortest_interface: float | None
     wait: Wait
-    changes: tuple[Change, ...]
+    changes: tuple[Rises, ...]
     uncertainty: Uncertainty | None
 
     def as_dict(self, limit: float) -> dict[str, object]:
@@ -107,7 +106,7 @@ class Study(PageResult):
     'belt'
     """
 
-    SHOWN_BY = f"{__package__}.show.page"
+    SHOWN_BY = f"{__package__}.show"
 
     options: Options
     rows: list[Row] = field(default_factory=list)
@@ -128,7 +127,7 @@ class Study(PageResult):
             **shared,
             "answers": [one.as_dict() for one in self.answers],
             "cases": self._cases(),
-            "verdict": import_module(TEXT).verdict(self),
+            "verdict": import_module(self.SHOWN_BY).verdict(self),
         }
         if self.grid is not None:
             # where a stopped map did not come is null

@@ -1,23 +1,39 @@
-"""What is said of a study: `sentences.txt.j2` with the figures in words that it asks for."""
+"""What is said of a study, and what `stickslip belt-length` leaves of it.
 
+`sentences.txt.j2` has the words, with the figures in words that it asks for; the page has what was
+asked, the answer first, its figures, how sure it is, and why; beside it numbers and tables.
+"""
+
+import json
 import math
+import re
+import tomllib
 from collections.abc import Iterable, Iterator
-from functools import cache
+from functools import cache, partial
+from html import escape
 from operator import attrgetter
+from pathlib import Path
 from typing import Any
 
-from cosim.report.material import of_material
-from cosim.report.page import sentences, texts, tiles_of
+from cosim.files import write_atomically, write_text
+from cosim.report.material import of_material, page_of_material
+from cosim.report.page import Picture, render, sentences, texts, tiles_of
 from thermal import Belt
 
-from ..drift import CAMERA as CAMERA
-from ..drift import NO_HELP
-from ..lengths import LONGEST, length_text, metres, rounded_up
-from ..required_length import NOT_ASKED as NOT_ASKED
-from ..required_length import Answer, Question
-from ..result import PRINTED, Row, Study
-from ..uncertainty import Uncertainty
+from .drift import CAMERA as CAMERA
+from .drift import NO_HELP
+from .lengths import LONGEST, length_text, metres, rounded_up
+from .required_length import NOT_ASKED as NOT_ASKED
+from .required_length import Answer, Question
+from .result import PRINTED, Row, Study
+from .uncertainty import Uncertainty
+from .unknowns import unknowns_of as unknowns_of
 
+RESULT, TABLE, PAGE = "belt_length.json", "belt_length.csv", "report.html"
+CHANGES, DOUBT = "changes.csv", "doubt.csv"
+#: Sentences that stand open; the rest is folded.
+MOST_SENTENCES = 6
+_MINUS = re.compile(r"(?<=[ (])-(?=\d)")
 #: K, s or m: less is not told from nothing.
 _NOTHING = 1e-4
 #: A change helps that leaves less than this part of a rise.
@@ -176,8 +192,8 @@ def too_small(rows: Iterable[Row]) -> list[float]:
 
 def shares(doubt: Uncertainty) -> list[str]:
     """Unknowns with their shares of the variance, the largest first."""
-    words = {one.key: one.says for one in doubt.single_changes}
-    return [f"{words[one.key]} {one.total:.0%}" for one in doubt.influences]
+    words = {one["key"]: one["says"] for one in doubt.single_changes}
+    return [f"{words[one['key']]} {one['total']:.0%}" for one in doubt.influences]
 
 
 def lacking(belt: Belt) -> list[str]:
@@ -190,11 +206,16 @@ def lacking(belt: Belt) -> list[str]:
     return [what for what, there in has.items() if not there]
 
 
-def _outside(name: str, value: float, low: float, high: float, unit: str = "K") -> list[str]:
+RISES = ("the rise at entry", "the interface's rise")
+
+
+def _outside(
+    name: str, value: float | None, low: float, high: float, unit: str = "K", where: str = ""
+) -> list[str]:
     """A figure of the nominal rig that lies beyond its interval; nothing where it does not."""
-    if low <= value <= high:
+    if value is None or low <= value <= high:
         return []
-    return [f"{name} ({two_digits(value)} {unit}, interval {span((low, high))} {unit})"]
+    return [f"{name} ({two_digits(value)} {unit}, interval {span((low, high))} {unit}){where}"]
 
 
 def rows_outside(rows: Iterable[Row]) -> list[str]:
@@ -202,26 +223,60 @@ def rows_outside(rows: Iterable[Row]) -> list[str]:
     found = []
     for row in rows:
         if (u := row.uncertainty) is not None:
-            drift, where = row.drift, f"on {row.case.length:g} m at {row.case.speed:g} m/s"
+            where = "K", f" on {row.case.length:g} m at {row.case.speed:g} m/s"
             ends = u.interface_low, u.interface_high
-            off = _outside("the rise at entry", drift.run, u.low, u.high)
-            off += _outside("the interface's rise", drift.interface_drift, *ends)
-            found += [f"{one} {where}" for one in off]
+            found += _outside(RISES[0], row.drift.run, u.low, u.high, *where)
+            found += _outside(RISES[1], row.drift.interface_drift, *ends, *where)
     return found
 
 
 def answer_outside(answer: Answer) -> list[str]:
     """Nominal figures of an answer that lie beyond their intervals."""
-    found = []
-    for question, rise, length in (
-        (answer.run, "the rise at entry", "the belt that comes round cold"),
-        (answer.interface, "the interface's rise", "the belt with a steady interface"),
-    ):
-        if question.rises is not None:
-            found += _outside(rise, question.rise, question.rises[0], question.rises[2])
-        low, high = question.low, question.high
-        if question.shortest is not None and low and high:
+    found, belts = [], ("the belt that comes round cold", "the belt with a steady interface")
+    for one, rise, belt in zip((answer.run, answer.interface), RISES, belts, strict=True):
+        if one.rises is not None:
+            found += _outside(rise, one.rise, one.rises[0], one.rises[2])
+        if one.low and one.high:
             # beyond the belts looked at an interval is open
-            least = 0.0 if low.says.startswith("<") else low.length or 0.0
-            found += _outside(length, question.shortest, least, high.length or math.inf, "m")
+            least = 0.0 if one.low.says.startswith("<") else one.low.length or 0.0
+            found += _outside(belt, one.shortest, least, one.high.length or math.inf, "m")
     return found
+
+
+def write_numbers(study: Study, folder: Path) -> None:
+    """What there is, be it complete or not."""
+    write_text(json.dumps(study.summary(), indent=1), folder / RESULT)
+    for name, table in ((TABLE, study.table()), (CHANGES, study.changes()), (DOUBT, study.doubt())):
+        if name == TABLE or not table.empty:
+            write_atomically(folder / name, partial(table.to_csv, index=False))
+
+
+def page(study: Study, command: str = "") -> tuple[str, list[Picture]]:
+    """HTML of a study with rows; its pictures."""
+    from .figures import curves_of, draw_doubt, draw_drift, draw_interface, draw_map
+
+    doubted = study.most_doubted
+    curves = curves_of(study)
+    pictures = [draw_drift(study, curves), draw_interface(study, curves)]
+    if doubted is not None and doubted.uncertainty is not None:
+        pictures.append(draw_doubt(doubted, doubted.uncertainty))
+    if study.grid is not None:
+        pictures.append(draw_map(study.grid, study.rows[0].case, study.options.limit))
+    start, *rest = study.worst.changes
+    html = render(
+        "belt_length.html.j2",
+        __package__ or "",
+        **globals(),
+        study=study,
+        name=tomllib.loads(study.scenario).get("name", "The source study's rig"),
+        changes=[start, *sorted(rest, key=lambda one: abs(one.run))],
+        pictures={one.name: one for one in pictures},
+        command=command,
+    )
+    return page_of_material(html, study.material), pictures
+
+
+def on_page(sentence: str) -> str:
+    """A sentence of the terminal, escaped, as HTML: signs, units, what is typed."""
+    text = escape(_MINUS.sub("−", sentence).replace("W/m2K", "W/(m² K)"), quote=False)
+    return re.sub(r"`([^`]+)`", r"<code>\1</code>", text)
