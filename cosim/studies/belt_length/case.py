@@ -214,6 +214,11 @@ class Case:
         carried = convection(self.speed, self._span, self.ambient_degC, self.rig.belt.width)
         return frost(carried, radiation(self.ambient_degC), self.ambient_degC)
 
+    @property
+    def drive(self) -> Self:
+        """What cases have in common that differ in length alone: the same on 1 m."""
+        return self.with_length(1.0)
+
     def with_length(self, length: float) -> Self:
         """The same on another belt."""
         return replace(self, length=length)

@@ -159,7 +159,7 @@ def _mark_end(ax: Axes, length: float, colour: str) -> None:
 def _band(ax: Axes, which: int, study: Study, case: Case, colour: str) -> None:
     """5 to 95 % of the rigs of a speed over the lengths of an own rig, of one of its rises."""
     for answer in study.answers:
-        if answer.case.with_length(1.0) == case.with_length(1.0) and answer.lengths.size:
+        if answer.case.drive == case.drive and answer.lengths.size:
             low, _, high = answer.levels[which]
             style: Any = {"color": colour, "linewidth": 0.0, "alpha": 0.18}
             ax.fill_between(answer.lengths, np.maximum(low, 1e-2 * _FLOOR), high, **style)

@@ -184,7 +184,7 @@ def how_long(
     'belt'
     """
     case = scenario_case(asked) if isinstance(asked, Scenario) else asked
-    cold, for_ever, steady = shortest_belts(case.with_length(1.0), limit)
+    cold, for_ever, steady = shortest_belts(case.drive, limit)
     plain = Answer(
         case,
         limit,

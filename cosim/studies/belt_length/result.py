@@ -16,7 +16,6 @@ from .lengths import DriftMap, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
 
-
 #: Column of the table -> place in a case's JSON.
 _TABLE = packaged_tables(__package__, "columns.toml")
 _COLUMNS, PRINTED = _TABLE["columns"], _TABLE["printed"]
@@ -143,7 +142,7 @@ class Study(PageResult):
     def _cases(self) -> list[dict[str, object]]:
         doubted, cases = self.shortest_in_doubt(), []
         for row in self.rows:
-            levels = doubted[row.case.with_length(1.0)].items()
+            levels = doubted[row.case.drive].items()
             in_doubt = {rise: {level: asdict(one) for level, one in belts.items()}
                         for rise, belts in levels}  # fmt: skip
             cases.append(row.as_dict(self.options.limit) | {"shortest_in_doubt": in_doubt})
@@ -152,10 +151,10 @@ class Study(PageResult):
     def shortest_in_doubt(self) -> dict[Case, Levels]:
         """By rise and level, for each choice of everything but the length, which is 1 m there."""
         if self.answers:
-            return {one.case.with_length(1.0): one.shortest_in_doubt() for one in self.answers}
+            return {one.case.drive: one.shortest_in_doubt() for one in self.answers}
         drives: dict[Case, dict[float, Uncertainty | None]] = {}
         for row in self.rows:
-            drives.setdefault(row.case.with_length(1.0), {})[row.case.length] = row.uncertainty
+            drives.setdefault(row.case.drive, {})[row.case.length] = row.uncertainty
         limit = self.options.limit
         return {case: shortest_in_doubt(doubts, limit) for case, doubts in drives.items()}
 

@@ -18,13 +18,15 @@ from typing import Any
 from cosim.files import write_atomically, write_text
 from cosim.report.material import of_material, page_of_material
 from cosim.report.page import Picture, render, sentences, texts, tiles_of
-from thermal import Belt
 
 from .drift import CAMERA as CAMERA
 from .drift import NO_HELP
-from .lengths import LONGEST, length_text, metres, rounded_up
+from .lengths import LONGEST as LONGEST
+from .lengths import length_text as length_text
+from .lengths import metres as metres
+from .lengths import rounded_up as rounded_up
 from .required_length import NOT_ASKED as NOT_ASKED
-from .required_length import Answer, Question
+from .required_length import Answer
 from .result import PRINTED, Row, Study
 from .uncertainty import Uncertainty
 from .unknowns import unknowns_of as unknowns_of
@@ -91,85 +93,12 @@ def percent(share: float) -> str:
     return f"{100.0 * share:.0f} %"
 
 
-def over(rows: Iterable[Row], name: str) -> str:
-    """Some rows' figures of a name, such as `drift.run`."""
-    return span(map(attrgetter(name), rows))
-
-
-def enough(rows: Iterable[Row], limit: float) -> str:
-    """Whether a belt of some rows does."""
-    cold = [row.drift.run <= limit for row in rows]
-    if all(cold):
-        return "suffices"
-    return "suffices in some of the cases" if any(cold) else "does not suffice"
-
-
-def words_of(drives: Iterable[tuple[float, list[Row]]], limit: float) -> list[str]:
-    """The same of some speeds, each word once."""
-    return list(dict.fromkeys(enough(rows, limit) for _, rows in drives))
-
-
 def outermost(rows: Iterable[Row], low: str, high: str) -> tuple[float, float] | None:
     """Ends of what the doubts of some rows reach over; None where there are none."""
     doubts = [row.uncertainty for row in rows if row.uncertainty is not None]
     if not doubts:
         return None
     return min(map(attrgetter(low), doubts)), max(map(attrgetter(high), doubts))
-
-
-def lengths(rows: list[Row], name: str, longest: str = f"more than {LONGEST:g} m") -> str:
-    """Shortest belts of some rows; longest: said where no belt does."""
-    found = [getattr(row, name) for row in rows]
-    known = [length for length in found if length is not None]
-    if not known:
-        return longest
-    if known == found and all(getattr(row, name) <= row.case.shortest for row in rows):
-        return "any belt"
-    low, high = (rounded_up(length)[0] for length in (min(known), max(known)))
-    belts = metres(min(known)) if low == high else f"{low} to {high} m (rounded up to two digits)"
-    return belts if known == found else f"{belts}, in some cases {longest},"
-
-
-def belts(question: Question, for_ever: str) -> list[str]:
-    """Shortest belts for a question, for a table."""
-    levels = [level.says if level else "-" for level in question.levels]
-    return [length_text(question.shortest), *levels, for_ever]
-
-
-def drives(study: Study) -> Iterator[tuple[Row, list[str], list[str]]]:
-    """A row of each drive; belts at levels of the doubt: round cold, with a steady interface."""
-    doubted = study.shortest_in_doubt()
-    for case, row in {row.case.with_length(1.0): row for row in study.rows}.items():
-        cold, steady = (
-            [doubted[case][rise][level].says or "-" for level in ("median", "high")]
-            for rise in ("run", "interface")
-        )
-        yield row, cold, steady
-
-
-def in_doubt(study: Study, rows: Iterable[Row]) -> list[dict[str, str]]:
-    """Shortest belts that come round cold, and with a steady interface, by level, in words."""
-    doubted = study.shortest_in_doubt()
-    found = [doubted[case] for case in dict.fromkeys(row.case.with_length(1.0) for row in rows)]
-    return [
-        {level: ", ".join(dict.fromkeys(one[rise][level].in_words or "?" for one in found))
-         for level in ("median", "high")}
-        for rise in ("run", "interface")
-    ]  # fmt: skip
-
-
-def waits(rows: list[Row]) -> tuple[list[str], list[str], str]:
-    """Speeds at which there is no need to wait; how long at others; why never."""
-    already, pauses = [], []
-    never = "; ".join(sorted({row.wait.reason for row in rows if row.wait.begin is None}))
-    for speed in sorted({row.case.speed for row in rows}):
-        of_speed = [row.wait.begin for row in rows if row.case.speed == speed]
-        known = [begin for begin in of_speed if begin is not None]
-        if known and max(known) == 0.0:
-            already.append(f"{speed:g}")
-        elif known:
-            pauses.append(f"{span(known)} s at {speed:g} m/s")
-    return already, pauses, never
 
 
 def helps(row: Row) -> Iterator[tuple[str, float, list[str]]]:
@@ -194,16 +123,6 @@ def shares(doubt: Uncertainty) -> list[str]:
     """Unknowns with their shares of the variance, the largest first."""
     words = {one["key"]: one["says"] for one in doubt.single_changes}
     return [f"{words[one['key']]} {one['total']:.0%}" for one in doubt.influences]
-
-
-def lacking(belt: Belt) -> list[str]:
-    """What sampled rigs have that would warm a belt, and a rig as given has not."""
-    has = {
-        "rollers": belt.rollers,
-        "rollers up to 0.5 K warmer than the air": not belt.rollers or belt.roller_rise > 0.0,
-        "a railing that rubs": belt.railing_friction > 0.0,
-    }
-    return [what for what, there in has.items() if not there]
 
 
 RISES = ("the rise at entry", "the interface's rise")

@@ -19,7 +19,7 @@ from cosim.report.style import at_least, picture
 from cosim.studies import FIGURES
 
 from .features import ALL
-from .words import shown_features, titled
+from .result import shown_features, titled
 
 # more lines than this in a panel are a tangle: their median and their range instead
 MOST_LINES = 7
