@@ -87,10 +87,9 @@ def _curves(case: Case, lengths: Array, study: Study) -> Curves:
     rises = [followed(one)[0] for one in belts]
     entry, warming = np.transpose([(one.run, one.interface_drift) for one in rises])
     steady = np.array([steady_drift(one) for one in belts])
-    if study.answers:
-        return Curves(case, lengths, entry, steady, warming, None)
-    passed = [one.as_the_study().temperature_degC(one.length) for one in belts]
-    return Curves(case, lengths, entry, steady, warming, np.array(passed) - case.ambient_degC)
+    passed = np.array([one.as_the_study().temperature_degC(one.length) for one in belts])
+    single = None if study.answers else passed - case.ambient_degC
+    return Curves(case, lengths, entry, steady, warming, single)
 
 
 @picture("drift_over_length", **FIGURES["drift_over_length"])
