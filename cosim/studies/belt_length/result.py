@@ -7,7 +7,7 @@ from typing import Any
 import pandas as pd
 from stickslip.packaged import packaged_tables
 
-from cosim.report.files import without_nan
+from cosim.report.files import plain_data
 from cosim.report.page import PageResult
 
 from .case import Case
@@ -44,9 +44,8 @@ class Row:
 
     def as_dict(self, limit: float) -> dict[str, object]:
         """Everything, for JSON, with the two questions about a belt and their answers."""
-        told, d, u = asdict(self), self.drift, self.uncertainty
-        case = {name: value for name, value in told["case"].items() if name not in _NOT_TOLD}
-        thermal = self.case.thermal()
+        d, u, thermal = self.drift, self.uncertainty, self.case.thermal()
+        case = {name: value for name, value in vars(self.case).items() if name not in _NOT_TOLD}
         layered = bool(thermal.belt.layers)
         used = {
             "conductivity": None if layered else thermal.belt.conductivity,
@@ -72,11 +71,8 @@ class Row:
                 "shortest_belt": self.shortest_interface,
             },
         }
-        return told | {
-            "case": case | used,
-            "questions": questions,
-            "seen_by_camera": d.run > CAMERA,
-        }
+        told = {"case": case | used, "questions": questions, "seen_by_camera": d.run > CAMERA}
+        return vars(self) | told
 
 
 @dataclass(frozen=True)
@@ -128,11 +124,8 @@ class Study(PageResult):
             "cases": self._cases(),
             "verdict": import_module(self.SHOWN_BY).verdict(self),
         }
-        if self.grid is not None:
-            # where a stopped map did not come is null
-            grid = vars(self.grid).items()
-            numbers["map"] = {name: without_nan(values.tolist()) for name, values in grid}
-        return numbers
+        # where a stopped map did not come is null
+        return dict(plain_data(numbers | ({"map": self.grid} if self.grid is not None else {})))
 
     def table(self) -> pd.DataFrame:
         """One row a case; NaN where nothing is known."""
@@ -140,13 +133,9 @@ class Study(PageResult):
         return table.reindex(columns=list(_COLUMNS.values())).set_axis(list(_COLUMNS), axis=1)
 
     def _cases(self) -> list[dict[str, object]]:
-        doubted, cases = self.shortest_in_doubt(), []
-        for row in self.rows:
-            levels = doubted[row.case.drive].items()
-            in_doubt = {rise: {level: asdict(one) for level, one in belts.items()}
-                        for rise, belts in levels}  # fmt: skip
-            cases.append(row.as_dict(self.options.limit) | {"shortest_in_doubt": in_doubt})
-        return cases
+        limit, doubted = self.options.limit, self.shortest_in_doubt()
+        each = ((row.as_dict(limit), doubted[row.case.drive]) for row in self.rows)
+        return [plain_data(told | {"shortest_in_doubt": levels}) for told, levels in each]
 
     def shortest_in_doubt(self) -> dict[Case, Levels]:
         """By rise and level, for each choice of everything but the length, which is 1 m there."""
@@ -161,7 +150,7 @@ class Study(PageResult):
     def changes(self) -> pd.DataFrame:
         """One row a case and change: what would help."""
         return pd.DataFrame(
-            [_place(row.case) | asdict(one) for row in self.rows for one in row.changes]
+            [_place(row.case) | vars(one) for row in self.rows for one in row.changes]
         )
 
     def doubt(self) -> pd.DataFrame:

@@ -5,7 +5,6 @@ asked, the answer first, its figures, how sure it is, and why; beside it numbers
 """
 
 import json
-import math
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
@@ -123,43 +122,6 @@ def shares(doubt: Uncertainty) -> list[str]:
     """Unknowns with their shares of the variance, the largest first."""
     words = {one["key"]: one["says"] for one in doubt.single_changes}
     return [f"{words[one['key']]} {one['total']:.0%}" for one in doubt.influences]
-
-
-RISES = ("the rise at entry", "the interface's rise")
-
-
-def _outside(
-    name: str, value: float | None, low: float, high: float, unit: str = "K", where: str = ""
-) -> list[str]:
-    """A figure of the nominal rig that lies beyond its interval; nothing where it does not."""
-    if value is None or low <= value <= high:
-        return []
-    return [f"{name} ({two_digits(value)} {unit}, interval {span((low, high))} {unit}){where}"]
-
-
-def rows_outside(rows: Iterable[Row]) -> list[str]:
-    """Nominal rises of rows that lie outside of their intervals."""
-    found = []
-    for row in rows:
-        if (u := row.uncertainty) is not None:
-            where = "K", f" on {row.case.length:g} m at {row.case.speed:g} m/s"
-            ends = u.interface_low, u.interface_high
-            found += _outside(RISES[0], row.drift.run, u.low, u.high, *where)
-            found += _outside(RISES[1], row.drift.interface_drift, *ends, *where)
-    return found
-
-
-def answer_outside(answer: Answer) -> list[str]:
-    """Nominal figures of an answer that lie beyond their intervals."""
-    found, belts = [], ("the belt that comes round cold", "the belt with a steady interface")
-    for one, rise, belt in zip((answer.run, answer.interface), RISES, belts, strict=True):
-        if one.rises is not None:
-            found += _outside(rise, one.rise, one.rises[0], one.rises[2])
-        if one.low and one.high:
-            # beyond the belts looked at an interval is open
-            least = 0.0 if one.low.says.startswith("<") else one.low.length or 0.0
-            found += _outside(belt, one.shortest, least, one.high.length or math.inf, "m")
-    return found
 
 
 def write_numbers(study: Study, folder: Path) -> None:

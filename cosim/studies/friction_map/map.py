@@ -8,7 +8,7 @@ damper: neither friction nor its heat is another for it.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from importlib import import_module
 from operator import itemgetter
 from typing import Any
@@ -19,6 +19,7 @@ from stickslip import Parameters, friction_coefficient
 from stickslip.packing import GRAVITY
 
 from cosim.coupling.case import run_scenario
+from cosim.report.files import plain_data
 from cosim.report.page import PageResult
 from cosim.scenario import Scenario
 
@@ -238,14 +239,10 @@ class FrictionMap(PageResult):
 
     def summary(self) -> dict[str, Any]:
         """What `friction_map.json` holds: everything as plain data."""
-        return {
-            "scenario": self.scenario.to_tables(),
-            "duration": self.duration,
-            "regimes": [self.regimes(ambient) for ambient in self.ambients],
-            "points": [asdict(point) for point in self.points],
-            "failed": list(self.failed),
-            "measured": [asdict(each) for each in import_module(MEASURED).measured_beside(self)],
-        }
+        told = {"scenario": self.scenario.to_tables(), "duration": self.duration}
+        told |= {"regimes": [*map(self.regimes, self.ambients)], "points": self.points}
+        told |= {"failed": self.failed, "measured": import_module(MEASURED).measured_beside(self)}
+        return dict(plain_data(told))
 
 
 def friction_map(

@@ -17,7 +17,7 @@ import pandas as pd
 import xarray as xr
 
 from cosim.names import unknown_name
-from cosim.report.files import without_nan, write_netcdf, write_table
+from cosim.report.files import plain_data, write_netcdf, write_table
 from cosim.report.page import render, sentences, texts, tiles_of, unit_text, write_page
 from cosim.result import Result
 
@@ -61,7 +61,7 @@ class Sweep(xr.Dataset, Result):  # type: ignore[no-untyped-call]
 def summary(datasets: Mapping[str, xr.Dataset]) -> dict[str, Any]:
     """Every run of each group, "" being the first."""
     runs = {group or "runs": records(dataset) for group, dataset in datasets.items()}
-    return dict(without_nan(runs))
+    return dict(plain_data(runs))
 
 
 def records(dataset: xr.Dataset) -> list[dict[str, Any]]:
