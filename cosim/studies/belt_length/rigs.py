@@ -14,8 +14,10 @@ left out.
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 from scipy.stats import qmc
@@ -131,10 +133,7 @@ class Rigs:
         """The belts and the values that shares and places stand for."""
         low, high = self._lengths or (case.length, case.length)
         belts = [case.with_length(low * (high / low) ** float(place)) for place in places]
-        of_all = values(self.unknowns, shares)
-        each = [
-            dict(zip(of_all, one, strict=True)) for one in np.transpose([*of_all.values()]).tolist()
-        ]
+        each: Any = pd.DataFrame(values(self.unknowns, shares)).to_dict("records")
         return list(zip(belts, each, strict=True))
 
     def _misses(self, which: int, shares: Array, places: Array, parts: Array) -> float:

@@ -18,7 +18,7 @@ import xarray as xr
 
 from cosim.names import unknown_name
 from cosim.report.files import plain_data, write_netcdf, write_table
-from cosim.report.page import render, sentences, texts, tiles_of, unit_text, write_page
+from cosim.report.page import render, sentences, texts, tiles_of, write_page
 from cosim.result import Result
 
 from .axis import SweepError
@@ -89,7 +89,7 @@ def _drawn(
     dataset: xr.Dataset, asked: Sequence[str] = (), command: str = ""
 ) -> tuple[str, Picture]:
     """Page and figure."""
-    from .figure import draw_sweep  # matplotlib, which no worker needs
+    from .figure import draw_sweep, titled, unit_of  # matplotlib, which no worker needs
 
     drawn, still = shown_features(dataset, asked)
     picture = draw_sweep(dataset, drawn)
@@ -97,7 +97,12 @@ def _drawn(
     dims = {str(dim): unit_of(dataset[dim]) for dim in dataset["status"].dims}
     told = {"name": tomllib.loads(scenario).get("name", "Mechanics"), "scenario": scenario}
     told |= {"dataset": dataset, "dims": dims, "coordinates": [dataset[dim] for dim in dims]}
-    told |= {"picture": picture, "drawn": {name: ALL[name] for name in drawn}, "still": still}
+    told |= {
+        "titled": titled,
+        "picture": picture,
+        "drawn": {name: ALL[name] for name in drawn},
+        "still": still,
+    }
     # the template calls what this module knows
     html = render("sweep.html.j2", __package__ or "", **globals() | told, command=command)
     return html, picture
@@ -127,18 +132,6 @@ def _known(values: xr.DataArray) -> Any:
 def _varies(name: str, known: Any) -> bool:
     nothing = ALL[name].nothing
     return known.size > 1 and bool(np.ptp(known) > STILL * max(np.abs(known).max(), nothing))
-
-
-def titled(coordinate: xr.DataArray) -> str:
-    """A dimension with its unit."""
-    unit = unit_of(coordinate).strip()
-    return f"{coordinate.name} [{unit}]" if unit else str(coordinate.name)
-
-
-def unit_of(coordinate: xr.DataArray) -> str:
-    """As it stands behind a number; nothing for a plain number or a name."""
-    unit = unit_text(coordinate.attrs["units"])
-    return "" if unit == "1" else f" {unit}"
 
 
 def regime(row: Record) -> str:
