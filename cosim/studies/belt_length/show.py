@@ -5,6 +5,7 @@ asked, the answer first, its figures, how sure it is, and why; beside it numbers
 """
 
 import json
+import math
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
@@ -37,6 +38,8 @@ MOST_SENTENCES = 6
 _MINUS = re.compile(r"(?<=[ (])-(?=\d)")
 #: K, s or m: less is not told from nothing.
 _NOTHING = 1e-4
+#: End of an interval of lengths that goes on beyond the belts looked at.
+OPEN = math.inf
 #: A change helps that leaves less than this part of a rise.
 _HELPS = 0.95
 

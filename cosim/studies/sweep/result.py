@@ -95,16 +95,12 @@ def _drawn(
     picture = draw_sweep(dataset, drawn)
     scenario = str(dataset.attrs.get("scenario", ""))
     dims = {str(dim): unit_of(dataset[dim]) for dim in dataset["status"].dims}
-    told = {"name": tomllib.loads(scenario).get("name", "Mechanics"), "scenario": scenario}
-    told |= {"dataset": dataset, "dims": dims, "coordinates": [dataset[dim] for dim in dims]}
-    told |= {
-        "titled": titled,
-        "picture": picture,
-        "drawn": {name: ALL[name] for name in drawn},
-        "still": still,
-    }
+    told = {"dataset": dataset, "scenario": scenario, "picture": picture, "titled": titled}
+    told |= {"dims": dims, "coordinates": [dataset[dim] for dim in dims], "still": still}
+    told |= {"drawn": {name: ALL[name] for name in drawn}, "command": command}
+    name = tomllib.loads(scenario).get("name", "Mechanics")
     # the template calls what this module knows
-    html = render("sweep.html.j2", __package__ or "", **globals() | told, command=command)
+    html = render("sweep.html.j2", __package__ or "", **globals() | told, name=name)
     return html, picture
 
 

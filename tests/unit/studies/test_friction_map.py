@@ -141,7 +141,7 @@ def test_measured_friction_lies_beside_the_law():
     text = page(found, "command")[0]
     assert "Law and measurement differ by more than a factor of 2" in text
     assert text.count("Seppyo 61 (1999)") == 1
-    assert found.summary()["measured"][0]["friction"] == (0.2086,)
+    assert found.summary()["measured"][0]["friction"] == [0.2086]
 
 
 def test_a_roughness_of_an_eighth_of_a_micrometre_is_the_rig_s():
