@@ -7,6 +7,7 @@ import math
 import os
 import platform
 from collections.abc import Mapping
+from dataclasses import fields, is_dataclass
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -113,12 +114,17 @@ def no_formula(cell: Any) -> Any:
     return cell
 
 
-def without_nan(tree: Any) -> Any:
-    """A tree of plain values with None for NaN and infinities, which are no JSON."""
+def plain_data(tree: Any) -> Any:
+    """A result as JSON can have it: of dataclasses the fields, of arrays lists, and None for NaN
+    and infinities."""
+    if is_dataclass(tree):
+        return {each.name: plain_data(getattr(tree, each.name)) for each in fields(tree)}
+    if hasattr(tree, "tolist"):
+        tree = tree.tolist()
     if isinstance(tree, Mapping):
-        return {key: without_nan(one) for key, one in tree.items()}
+        return {key: plain_data(one) for key, one in tree.items()}
     if isinstance(tree, (list, tuple)):
-        return [without_nan(one) for one in tree]
+        return [plain_data(one) for one in tree]
     return None if isinstance(tree, float) and not math.isfinite(tree) else tree
 
 

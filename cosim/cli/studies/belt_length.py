@@ -17,12 +17,11 @@ from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.report.page import write_page
 from cosim.scenario import Scenario
-from cosim.studies.belt_length import unknowns
+from cosim.studies.belt_length import figures as figures  # which draws: loaded once and for all
+from cosim.studies.belt_length import show, unknowns
 from cosim.studies.belt_length.case import Case, Protocol, StudyError
 from cosim.studies.belt_length.lengths import empty_map, fill_map
 from cosim.studies.belt_length.result import Options, Study
-from cosim.studies.belt_length.show import page
-from cosim.studies.belt_length.show.text import printed
 from cosim.studies.belt_length.study import (
     BOUNDS,
     answer_all,
@@ -45,7 +44,7 @@ def execute(arguments: Namespace) -> int:
     began = time.perf_counter()
     scenario, wanted, options = _asked(arguments)
     numbers = numbers_asked(arguments, ("limit", "cases", "verdict"))
-    own_files = (page.RESULT, page.TABLE, page.PAGE, page.CHANGES, page.DOUBT)
+    own_files = (show.RESULT, show.TABLE, show.PAGE, show.CHANGES, show.DOUBT)
     folder = own_folder(arguments.output, own_files, arguments.force)
     if scenario is not None:
         _note(scenario)
@@ -68,9 +67,9 @@ def execute(arguments: Namespace) -> int:
     made = made_by(scenario=study.scenario or None)
     with results_in(folder, made, force=arguments.force) as results:
         results.complete = status == DONE
-        page.write_numbers(study, folder)
+        show.write_numbers(study, folder)
         if results.complete:
-            write_page(*page.page(study, made["command"]), folder)
+            write_page(*show.page(study, made["command"]), folder)
     _print(study, numbers, folder, time.perf_counter() - began)
     return status
 
@@ -139,6 +138,6 @@ def _protocol(base: Case, arguments: Namespace) -> Protocol:
 def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None:
     if asked.give(json.dumps(study.summary(), indent=1)):
         return
-    print(printed(study), end="")
+    print(show.printed(study), end="")
     cases = f"{len(study.rows)} case{'s' * (len(study.rows) != 1)}"
-    print(f"{cases} in {wall_time:.1f} s; {folder / page.PAGE}, {folder / page.RESULT}")
+    print(f"{cases} in {wall_time:.1f} s; {folder / show.PAGE}, {folder / show.RESULT}")

@@ -19,8 +19,16 @@ from cosim.studies.sweep import Grid, SweepError, SweepStopped, product_grid, ru
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import COMPLETE
 from cosim.studies.sweep.grid import plan_grid, repeats_grid
-from cosim.studies.sweep.result import FIGURE, PAGE, RESULT, TABLE, Sweep, summary, write
-from cosim.studies.sweep.words import check_shown
+from cosim.studies.sweep.result import (
+    FIGURE,
+    PAGE,
+    RESULT,
+    TABLE,
+    Sweep,
+    check_shown,
+    summary,
+    write,
+)
 
 OWN = (RESULT, FIGURE, TABLE, PAGE)
 #: Group of the result file that holds the test plan's repeats.

@@ -11,7 +11,7 @@ from .lengths import shortest_belt as shortest_belt
 from .required_length import how_long as how_long
 from .result import Options as Options
 from .result import Study as Study
-from .show.text import verdict as verdict
+from .show import verdict as verdict
 from .study import answer_all as answer_all
 from .study import cases as cases
 from .study import work_off as work_off

@@ -201,18 +201,17 @@ class Case:
         return 1.05 * max(self._diameter, touching, one * max(1, belt.rollers))
 
     @property
-    def _on_rollers(self) -> bool:
-        """Do rollers take more heat than the air in their place, and is that to be resolved?"""
-        belt = self.rig.belt
-        return not self.drawn and belt.rollers > 0 and belt.roller_conductance > self.film
-
-    @property
     def frost(self) -> Frost | None:
         """What frost on the belt can do at most; None in air in which there is none."""
         if self.ambient_degC >= MELTING_POINT_DEGC:
             return None
         carried = convection(self.speed, self._span, self.ambient_degC, self.rig.belt.width)
         return frost(carried, radiation(self.ambient_degC), self.ambient_degC)
+
+    @property
+    def drive(self) -> Self:
+        """What cases have in common that differ in length alone: the same on 1 m."""
+        return self.with_length(1.0)
 
     def with_length(self, length: float) -> Self:
         """The same on another belt."""
@@ -231,9 +230,11 @@ class Case:
         keys = {key: getattr(self, field) for key, field in OWN_KEYS.items()}
         keys = {key: value for key, value in keys.items() if value is not None}
         keys |= RESOLUTION | {"belt.still_air_speed": 0.0}
-        if self.rig.belt.railing_load == 0.0:
+        belt = self.rig.belt
+        if belt.railing_load == 0.0:
             keys["belt.railing_load"] = self.mass * GRAVITY
-        if self._on_rollers:
+        # rollers that take more heat than the air in their place
+        if not self.drawn and belt.rollers > 0 and belt.roller_conductance > self.film:
             keys["belt.elements"] = ELEMENTS_ON_ROLLERS
         tables = changed_tables(self.rig.model_dump(), keys)
         if self.h is None:

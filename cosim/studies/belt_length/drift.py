@@ -8,7 +8,6 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
@@ -75,21 +74,23 @@ def drift(case: Case) -> Drift:
     )
 
 
-class Rises(NamedTuple):
+@dataclass(frozen=True)
+class Rises:
     """At the end of the last run, K: of the belt where it enters the contact, of the interface at
-    constant speed and from the start on."""
+    constant speed and from the start on. what: the change of the case that they are with."""
 
+    what: str
     run: float
     interface_drift: float
     interface_run: float
 
 
-def followed(case: Case) -> tuple[Rises, SlidingState]:
+def followed(case: Case, what: str = "as it is") -> tuple[Rises, SlidingState]:
     """Cold at the start: the rises at the end of the last run, and all of the state there."""
     before, end = case.follow(case.sliding())
     entry = 0.0 if never_comes_round(case) else end.entry
     interface = end.mean_interface
-    return Rises(entry, interface - before.mean_interface, interface), end
+    return Rises(what, entry, interface - before.mean_interface, interface), end
 
 
 def run_drift(case: Case) -> float:
@@ -236,25 +237,14 @@ NO_HELP = (ENDLESS, COLDER_START, WARMER_START)
 RAILING_FRICTION = 0.1
 
 
-@dataclass(frozen=True)
-class Change:
-    """Rises with one change, K: of the belt at entry, of the interface in the run at constant speed
-    and over the air at its end."""
-
-    what: str
-    run: float
-    interface_drift: float
-    interface_run: float
-
-
-def changes(case: Case) -> list[Change]:
+def changes(case: Case) -> list[Rises]:
     """As the case is, then each change alone; what has no room on the rig is left out."""
-    return [Change(what, *followed(changed)[0]) for what, changed in _changed(case)]
+    each = [followed(changed, what)[0] for what, changed in _changed(case)]
+    return [followed(case)[0], *each]
 
 
 def _changed(case: Case) -> Iterator[tuple[str, Case]]:
     protocol, contact, belt = case.protocol, case.rig.contact, case.rig.belt
-    yield "as it is", case
     yield "belt twice as long", case.with_length(2.0 * case.length)
     yield ENDLESS, endless_belt(case)
     yield f"air {COLDER_AIR:g} K colder", replace(case, ambient_degC=case.ambient_degC - COLDER_AIR)

@@ -6,7 +6,7 @@ many of them the belt that is there is long enough.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib import import_module
 from pathlib import Path
@@ -38,6 +38,11 @@ _FLOOR = 0.03
 NOT_ASKED = "no doubt was asked for"
 #: The levels that are told, with what they are called.
 LEVELS = (f"{INTERVAL[0]:.0%} level", "median", f"{INTERVAL[1]:.0%} level")
+#: Of an answer, what JSON has, beside speed and length.
+TOLD = (
+    *("limit", "run", "interface", "evaluations", "unexplained", "reason", "melts", "lengths"),
+    "levels",
+)
 
 
 @dataclass(frozen=True)
@@ -122,11 +127,8 @@ class Answer(Result):
 
     def as_dict(self) -> dict[str, Any]:
         """Everything but the rigs, for JSON."""
-        names = ("limit", "run", "interface", "evaluations", "unexplained", "reason", "melts")
         told: dict[str, Any] = {"speed": self.case.speed, "length": self.case.length}
-        told |= {name: getattr(self, name) for name in names}
-        told |= {"run": asdict(self.run), "interface": asdict(self.interface)}
-        return told | {"lengths": self.lengths.tolist(), "levels": self.levels.tolist()}
+        return told | {name: getattr(self, name) for name in TOLD}
 
     def shortest_in_doubt(self) -> Levels:
         """Shortest belts of the sampled rigs by rise and level."""
@@ -184,7 +186,7 @@ def how_long(
     'belt'
     """
     case = scenario_case(asked) if isinstance(asked, Scenario) else asked
-    cold, for_ever, steady = shortest_belts(case.with_length(1.0), limit)
+    cold, for_ever, steady = shortest_belts(case.drive, limit)
     plain = Answer(
         case,
         limit,

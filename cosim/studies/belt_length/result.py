@@ -7,17 +7,15 @@ from typing import Any
 import pandas as pd
 from stickslip.packaged import packaged_tables
 
-from cosim.report.files import without_nan
+from cosim.report.files import plain_data
 from cosim.report.page import PageResult
 
 from .case import Case
-from .drift import CAMERA, Change, Drift, FrictionEffect, Wait
+from .drift import CAMERA, Drift, FrictionEffect, Rises, Wait
 from .lengths import DriftMap, Levels, shortest_in_doubt
 from .required_length import Answer
 from .uncertainty import Uncertainty
 
-#: What speaks; loaded when asked for.
-TEXT = f"{__package__}.show.text"
 #: Column of the table -> place in a case's JSON.
 _TABLE = packaged_tables(__package__, "columns.toml")
 _COLUMNS, PRINTED = _TABLE["columns"], _TABLE["printed"]
@@ -41,14 +39,13 @@ class Row:
     shortest_steady: float | None
     shortest_interface: float | None
     wait: Wait
-    changes: tuple[Change, ...]
+    changes: tuple[Rises, ...]
     uncertainty: Uncertainty | None
 
     def as_dict(self, limit: float) -> dict[str, object]:
         """Everything, for JSON, with the two questions about a belt and their answers."""
-        told, d, u = asdict(self), self.drift, self.uncertainty
-        case = {name: value for name, value in told["case"].items() if name not in _NOT_TOLD}
-        thermal = self.case.thermal()
+        d, u, thermal = self.drift, self.uncertainty, self.case.thermal()
+        case = {name: value for name, value in vars(self.case).items() if name not in _NOT_TOLD}
         layered = bool(thermal.belt.layers)
         used = {
             "conductivity": None if layered else thermal.belt.conductivity,
@@ -74,11 +71,8 @@ class Row:
                 "shortest_belt": self.shortest_interface,
             },
         }
-        return told | {
-            "case": case | used,
-            "questions": questions,
-            "seen_by_camera": d.run > CAMERA,
-        }
+        told = {"case": case | used, "questions": questions, "seen_by_camera": d.run > CAMERA}
+        return vars(self) | told
 
 
 @dataclass(frozen=True)
@@ -107,7 +101,7 @@ class Study(PageResult):
     'belt'
     """
 
-    SHOWN_BY = f"{__package__}.show.page"
+    SHOWN_BY = f"{__package__}.show"
 
     options: Options
     rows: list[Row] = field(default_factory=list)
@@ -128,13 +122,10 @@ class Study(PageResult):
             **shared,
             "answers": [one.as_dict() for one in self.answers],
             "cases": self._cases(),
-            "verdict": import_module(TEXT).verdict(self),
+            "verdict": import_module(self.SHOWN_BY).verdict(self),
         }
-        if self.grid is not None:
-            # where a stopped map did not come is null
-            grid = vars(self.grid).items()
-            numbers["map"] = {name: without_nan(values.tolist()) for name, values in grid}
-        return numbers
+        # where a stopped map did not come is null
+        return dict(plain_data(numbers | ({"map": self.grid} if self.grid is not None else {})))
 
     def table(self) -> pd.DataFrame:
         """One row a case; NaN where nothing is known."""
@@ -142,28 +133,24 @@ class Study(PageResult):
         return table.reindex(columns=list(_COLUMNS.values())).set_axis(list(_COLUMNS), axis=1)
 
     def _cases(self) -> list[dict[str, object]]:
-        doubted, cases = self.shortest_in_doubt(), []
-        for row in self.rows:
-            levels = doubted[row.case.with_length(1.0)].items()
-            in_doubt = {rise: {level: asdict(one) for level, one in belts.items()}
-                        for rise, belts in levels}  # fmt: skip
-            cases.append(row.as_dict(self.options.limit) | {"shortest_in_doubt": in_doubt})
-        return cases
+        limit, doubted = self.options.limit, self.shortest_in_doubt()
+        each = ((row.as_dict(limit), doubted[row.case.drive]) for row in self.rows)
+        return [plain_data(told | {"shortest_in_doubt": levels}) for told, levels in each]
 
     def shortest_in_doubt(self) -> dict[Case, Levels]:
         """By rise and level, for each choice of everything but the length, which is 1 m there."""
         if self.answers:
-            return {one.case.with_length(1.0): one.shortest_in_doubt() for one in self.answers}
+            return {one.case.drive: one.shortest_in_doubt() for one in self.answers}
         drives: dict[Case, dict[float, Uncertainty | None]] = {}
         for row in self.rows:
-            drives.setdefault(row.case.with_length(1.0), {})[row.case.length] = row.uncertainty
+            drives.setdefault(row.case.drive, {})[row.case.length] = row.uncertainty
         limit = self.options.limit
         return {case: shortest_in_doubt(doubts, limit) for case, doubts in drives.items()}
 
     def changes(self) -> pd.DataFrame:
         """One row a case and change: what would help."""
         return pd.DataFrame(
-            [_place(row.case) | asdict(one) for row in self.rows for one in row.changes]
+            [_place(row.case) | vars(one) for row in self.rows for one in row.changes]
         )
 
     def doubt(self) -> pd.DataFrame:

@@ -14,8 +14,10 @@ left out.
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+import pandas as pd
 from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 from scipy.stats import qmc
@@ -24,17 +26,7 @@ from cosim.processes import processes
 from thermal.arrays import Array
 
 from .case import Case
-from .unknowns import (
-    COLUMNS,
-    ENTRY,
-    ICE,
-    INTERFACE,
-    SAMPLE,
-    Unknown,
-    answers,
-    combined,
-    unknowns_of,
-)
+from .unknowns import COLUMNS, ENTRY, ICE, INTERFACE, SAMPLE, answers, combined, unknowns_of, values
 
 #: A rig: its case, and the values of what is not known of it.
 Meant = tuple[Case, dict[str, float]]
@@ -141,10 +133,7 @@ class Rigs:
         """The belts and the values that shares and places stand for."""
         low, high = self._lengths or (case.length, case.length)
         belts = [case.with_length(low * (high / low) ** float(place)) for place in places]
-        of_all = values(self.unknowns, shares)
-        each = [
-            dict(zip(of_all, one, strict=True)) for one in np.transpose([*of_all.values()]).tolist()
-        ]
+        each: Any = pd.DataFrame(values(self.unknowns, shares)).to_dict("records")
         return list(zip(belts, each, strict=True))
 
     def _misses(self, which: int, shares: Array, places: Array, parts: Array) -> float:
@@ -165,11 +154,6 @@ class Rigs:
 def runs_for(samples: int) -> int:
     """Runs of the model for polynomials through so many, tests included."""
     return samples + round(_TESTED * samples)
-
-
-def values(unknowns: tuple[Unknown, ...], shares: Array) -> dict[str, Array]:
-    """Key -> values (n,) at shares (n, unknowns) of the ranges."""
-    return {one.key: one.at(shares[:, i]) for i, one in enumerate(unknowns)}
 
 
 def _answered(meant: list[Meant], jobs: int, progress: Callable[[int], object]) -> Array:
@@ -206,39 +190,37 @@ class Polynomial:
 
     def __call__(self, points: Array) -> Array:
         """Values at points (n, dimensions) of the unit cube."""
-        values = _terms(points, self.indices) @ self.coefficients
-        return np.exp(values) if self.logarithm else values
+        found = _terms(points, self.indices) @ self.coefficients
+        return np.exp(found) if self.logarithm else found
 
 
-def fitted(points: Array, values: Array, kinds: tuple[bool, ...] = (False, True)) -> Polynomial:
-    """Through points (n, dimensions) of the unit cube with values (n,).
+def fitted(points: Array, rises: Array, kinds: tuple[bool, ...] = (False, True)) -> Polynomial:
+    """Through points (n, dimensions) of the unit cube with rises (n,) there.
 
-    kinds: whether it may be one of the values (False), of their logarithms (True); the latter only
+    kinds: whether it may be one of the rises (False), of their logarithms (True); the latter only
     where all are above 0.
     """
     fits = [
-        _fit(points, values, indices, logarithm)
-        for logarithm in (kinds if np.all(values > 0.0) else (False,))
+        _fit(points, rises, indices, logarithm)
+        for logarithm in (kinds if np.all(rises > 0.0) else (False,))
         for indices in _index_sets(points.shape[1], int(_MOST_TERMS * len(points)))
     ]
     return min(fits, key=lambda fit: fit[1])[0]
 
 
 def _fit(
-    points: Array, values: Array, indices: NDArray[np.intp], logarithm: bool
+    points: Array, rises: Array, indices: NDArray[np.intp], logarithm: bool
 ) -> tuple[Polynomial, float]:
     """The fit, and the root mean square error of each point by a fit without it."""
     terms = _terms(points, indices)
-    goal = np.log(values) if logarithm else values
+    goal = np.log(rises) if logarithm else rises
     q, r = np.linalg.qr(terms)
     coefficients = np.linalg.solve(r, q.T @ goal)
     fit = terms @ coefficients
     left_out = goal - (goal - fit) / np.maximum(1.0 - np.sum(q**2, axis=1), 1e-6)
     said = np.exp(np.minimum(left_out, 50.0)) if logarithm else left_out
-    return (
-        Polynomial(indices, coefficients, logarithm),
-        float(np.sqrt(np.mean((said - values) ** 2))),
-    )
+    error = float(np.sqrt(np.mean((said - rises) ** 2)))
+    return Polynomial(indices, coefficients, logarithm), error
 
 
 def _terms(points: Array, indices: NDArray[np.intp]) -> Array:

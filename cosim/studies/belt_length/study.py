@@ -132,7 +132,7 @@ def _row(case: Case, options: Options, answer: Answer | None) -> Row:
         case,
         drift(case),
         friction_effect(case, options.sensitivity),
-        *shortest_belts(case.with_length(1.0), options.limit),
+        *shortest_belts(case.drive, options.limit),
         wait(case, options.limit),
         tuple(changes(case)),
         uncertainty(case, options.samples, rigs) if doubted else None,
@@ -144,7 +144,7 @@ def steps(study: Study, wanted: list[Case], is_own: bool) -> int:
 
     is_own: the doubt is that of an own rig's drives, not of each case.
     """
-    doubts = len({case.with_length(1.0) for case in wanted}) if is_own else len(wanted)
+    doubts = len({case.drive for case in wanted}) if is_own else len(wanted)
     places = 0 if study.grid is None else study.grid.drift.size
     return doubts * runs_for(study.options.samples) + len(wanted) + places
 
@@ -156,8 +156,8 @@ def work_off(
 
     Where the study has answers, the doubt of a row is that of its drive's rigs.
     """
-    answers = {one.case.with_length(1.0): one for one in study.answers}
-    calls = [(case, study.options, answers.get(case.with_length(1.0))) for case in wanted]
+    answers = {one.case.drive: one for one in study.answers}
+    calls = [(case, study.options, answers.get(case.drive)) for case in wanted]
     with processes(min(jobs, len(calls))) as mapped:
         for row in mapped(_row, calls):
             study.rows.append(row)
@@ -169,7 +169,7 @@ def answer_all(study: Study, wanted: list[Case], jobs: int, progress: Progress) 
     """Fill the study's answers, one for each drive among the cases that are wanted."""
     drives: dict[Case, list[Case]] = {}
     for case in wanted:
-        drives.setdefault(case.with_length(1.0), []).append(case)
+        drives.setdefault(case.drive, []).append(case)
     limit, samples = study.options.limit, study.options.samples
     for belts in drives.values():
         left = runs_for(samples)

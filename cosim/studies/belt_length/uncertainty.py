@@ -6,7 +6,8 @@ each of the answers that a rise is made of (`rigs`).
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy.stats import sobol_indices, uniform
@@ -25,34 +26,10 @@ INTERVAL = (0.05, 0.95)
 SEQUENCE, REPLICATES = 2**10, 8
 
 
-@dataclass(frozen=True)
-class Influence:
-    """Sobol indices of one unknown, with half-widths of their 95 % intervals."""
-
-    key: str
-    first_order: float
-    first_order_half_width: float
-    total: float
-    total_half_width: float
-
-
-@dataclass(frozen=True)
-class SingleChange:
-    """The drift, K, with one unknown at either end of its range, the rest as the case is.
-
-    with_others: what else is not as the case is, key -> value: one of nothing is seen in something.
-    basis: where the range comes from.
-    """
-
-    key: str
-    says: str
-    unit: str
-    low: float
-    high: float
-    drift_low: float
-    drift_high: float
-    with_others: dict[str, float]
-    basis: str
+#: What is known of an unknown, by name, as the files have it.
+Record = dict[str, Any]
+#: Sobol indices, with half-widths of their 95 % intervals.
+INDICES = ("first_order", "first_order_half_width", "total", "total_half_width")
 
 
 @dataclass(frozen=True)
@@ -60,6 +37,9 @@ class Uncertainty:
     """Drift at the end of the runs, K: 5 %, 50 % and 95 % quantiles; influences and single
     changes, the largest first.
 
+    influences: of each unknown its INDICES. single_changes: the drift, K, with one at either end of
+    its range, drift_low and drift_high, the rest as the case is but for with_others (key -> value:
+    one of nothing is seen in something); basis: where the range comes from.
     interface_...: the same quantiles of the interface's rise at constant speed. evaluations: runs
     of the model; ...unexplained: share of the variance that the polynomials miss on the runs that
     they have not seen. melts: share of the rigs in which the ice comes to melt; the rises are as if
@@ -69,8 +49,8 @@ class Uncertainty:
     low: float
     median: float
     high: float
-    influences: tuple[Influence, ...]
-    single_changes: tuple[SingleChange, ...]
+    influences: tuple[Record, ...]
+    single_changes: tuple[Record, ...]
     evaluations: int
     unexplained: float
     interface_low: float
@@ -79,10 +59,10 @@ class Uncertainty:
     interface_unexplained: float
     melts: float = 0.0
 
-    def table(self) -> list[dict[str, object]]:
+    def table(self) -> list[Record]:
         """Single change and indices of each unknown, side by side."""
-        indices = {one.key: asdict(one) for one in self.influences}
-        return [asdict(one) | indices[one.key] for one in self.single_changes]
+        indices = {one["key"]: one for one in self.influences}
+        return [one | indices[one["key"]] for one in self.single_changes]
 
 
 def uncertainty(case: Case, samples: int, rigs: Rigs | None = None) -> Uncertainty | None:
@@ -123,14 +103,15 @@ def quantiles(rises: Array) -> tuple[float, float, float]:
     return float(low), float(median), float(high)
 
 
-def _single_changes(case: Case, unknowns: tuple[Unknown, ...]) -> tuple[SingleChange, ...]:
-    found = []
-    for one in unknowns:
-        if not one.fixed:
-            low, high = (_drift_with(case, one.key, end) for end in (one.low, one.high))
-            said = (one.key, one.says, one.unit, one.low, one.high)
-            found.append(SingleChange(*said, low, high, needs(case, one.key), one.basis))
-    return tuple(sorted(found, key=lambda one: -abs(one.drift_high - one.drift_low)))
+def _single_changes(case: Case, unknowns: tuple[Unknown, ...]) -> tuple[Record, ...]:
+    found = [
+        {name: getattr(one, name) for name in ("key", "says", "unit", "low", "high")}
+        | {f"drift_{end}": _drift_with(case, one.key, getattr(one, end)) for end in ("low", "high")}
+        | {"with_others": needs(case, one.key), "basis": one.basis}
+        for one in unknowns
+        if not one.fixed
+    ]
+    return tuple(sorted(found, key=lambda one: -abs(one["drift_high"] - one["drift_low"])))
 
 
 def _drift_with(case: Case, key: str, end: float) -> float:
@@ -143,16 +124,19 @@ def _drift_with(case: Case, key: str, end: float) -> float:
 
 def _influences(
     keys: Sequence[str], drifts: Array, drift_of: Callable[[Array], Array]
-) -> tuple[Influence, ...]:
+) -> tuple[Record, ...]:
     """Nothing has an influence on a drift that is always the same."""
     if np.ptp(drifts) == 0.0:
-        return tuple(Influence(key, 0.0, 0.0, 0.0, 0.0) for key in keys)
+        return tuple({"key": key} | dict.fromkeys(INDICES, 0.0) for key in keys)
     replicates = np.stack([_indices(len(keys), drift_of, seed) for seed in range(REPLICATES)])
     quantile = student.ppf(0.975, REPLICATES - 1)
     doubt = quantile * replicates.std(axis=0, ddof=1) / np.sqrt(REPLICATES)
     rows = np.stack([replicates.mean(axis=0), doubt], axis=1).reshape(4, -1).T
-    influences = [Influence(key, *row) for key, row in zip(keys, rows.tolist(), strict=True)]
-    return tuple(sorted(influences, key=lambda one: -one.total))
+    influences = [
+        {"key": key} | dict(zip(INDICES, row, strict=True))
+        for key, row in zip(keys, rows.tolist(), strict=True)
+    ]
+    return tuple(sorted(influences, key=lambda one: -one["total"]))
 
 
 def _indices(count: int, drift_of: Callable[[Array], Array], seed: int) -> Array:

@@ -96,6 +96,11 @@ def unknowns_of(case: Case) -> tuple[Unknown, ...]:
     return tuple(replace(one, **own.get(one.key, {})) for one in UNKNOWNS)
 
 
+def values(unknowns: Sequence[Unknown], shares: Array) -> dict[str, Array]:
+    """Key -> values (n,) at shares (n, unknowns) of the ranges."""
+    return {one.key: one.at(shares[:, i]) for i, one in enumerate(unknowns)}
+
+
 #: Rises that are answered: of the belt at entry, of the interface at constant speed, of the ice's
 #: face from the start, by which it is known whether it comes to melt.
 ENTRY, INTERFACE, ICE = 0, 1, 2

@@ -14,16 +14,18 @@ from stickslip.effects.melting.asperity_melting import carrying_speed, conductin
 from stickslip.packaged import packaged_tables
 from stickslip.packing import GRAVITY
 
-from ...scenario import packaged_scenarios, read_scenario
-from .map import FrictionMap
+from ...scenario import Scenario, packaged_scenarios, read_scenario
 
 #: From here on a contact has slid away before the warmth has spread as far as it is long.
 LEAST_PECLET = 1.0
 LAWS = packaged_tables(__package__, "laws.toml")
 
 
-def laws_of(found: FrictionMap) -> list[dict[str, str]]:
-    """Those of the scenario that are on, as `laws.toml` has them: name, holds, here, numbers."""
+def laws_of(scenario: Scenario, speeds: Sequence[float]) -> list[dict[str, str]]:
+    """Those of a scenario that are on, as `laws.toml` has them: name, holds, here, numbers.
+
+    speeds: of the runs, m/s.
+    """
     of = {
         "temperature_dependence": _dry,
         "asperity_melting": _asperities,
@@ -31,26 +33,26 @@ def laws_of(found: FrictionMap) -> list[dict[str, str]]:
         "mixed_lubrication": _flooded,
     }
     return [
-        law | {"name": name, "here": law["here"].format(**of[name](found))}
+        law | {"name": name, "here": law["here"].format(**of[name](scenario, speeds))}
         for name, law in LAWS.items()
-        if getattr(getattr(found.scenario.mechanics, name), law["on"]) != 0.0
+        if getattr(getattr(scenario.mechanics, name), law["on"]) != 0.0
     ]
 
 
-def _dry(found: FrictionMap) -> dict[str, Any]:
-    law = found.scenario.mechanics.temperature_dependence
+def _dry(scenario: Scenario, speeds: Sequence[float]) -> dict[str, Any]:
+    law = scenario.mechanics.temperature_dependence
     nothing_left = law.reference_degC + 1.0 / law.sensitivity
     fall = law.static_sensitivity * (nothing_left - law.reference_degC)
-    static = found.scenario.mechanics.friction.mu_s * max(0.0, 1.0 - fall)
+    static = scenario.mechanics.friction.mu_s * max(0.0, 1.0 - fall)
     return {"nothing_left": nothing_left, "static": static}
 
 
-def _asperities(found: FrictionMap) -> dict[str, Any]:
-    mechanics = found.scenario.mechanics
-    law, speeds = mechanics.asperity_melting, [point.speed for point in found.points]
+def _asperities(scenario: Scenario, speeds: Sequence[float]) -> dict[str, Any]:
+    mechanics = scenario.mechanics
+    law = mechanics.asperity_melting
     bears = mechanics.rig.mass * GRAVITY / law.hardness
-    slow, slowest = LEAST_PECLET * diffusivity(found) / law.length, min(speeds)
-    share = 100.0 * conducted_share(found, slowest)
+    slow, slowest = LEAST_PECLET * diffusivity(scenario) / law.length, min(speeds)
+    share = 100.0 * conducted_share(scenario, slowest)
     conducts = f"{share:.0f} % of what the ice takes in passing at {slowest:.2g} m/s"
     carries = carrying_speed(law.length, law.roughness)
     return {
@@ -72,29 +74,29 @@ def _patches(area: float, length: float) -> str:
     return f"{area / length**2:.3g} patches {1e3 * length:.3g} mm long and wide"
 
 
-def diffusivity(found: FrictionMap) -> float:
+def diffusivity(scenario: Scenario) -> float:
     """Of the block, m2/s."""
-    ice = found.scenario.thermal.ice
+    ice = scenario.thermal.ice
     return ice.conductivity / (ice.density * ice.heat_capacity)
 
 
-def conducted_share(found: FrictionMap, speed: float) -> float:
+def conducted_share(scenario: Scenario, speed: float) -> float:
     """What both bodies conduct, over what the ice takes in passing, at a speed (m/s)."""
-    law = found.scenario.mechanics.asperity_melting
+    law = scenario.mechanics.asperity_melting
     root = conducting(law.length, law.effusivity, law.constant, law.conductivity)
     return root / math.sqrt(speed)
 
 
-def _film(found: FrictionMap) -> dict[str, Any]:
-    mechanics, fastest = found.scenario.mechanics, max(point.speed for point in found.points)
+def _film(scenario: Scenario, speeds: Sequence[float]) -> dict[str, Any]:
+    mechanics, fastest = scenario.mechanics, max(speeds)
     law, load = mechanics.melt_film, mechanics.rig.mass * GRAVITY
     wetted = law.wetted_share * math.pi * mechanics.rig.contact_radius**2
     thickness = math.sqrt(2.0 * law.viscosity * fastest * law.length / law.latent_heat)
     return {"wetted": 1e6 * wetted, "pressure": 1e-6 * load / wetted, "thickness": 1e6 * thickness}
 
 
-def _flooded(found: FrictionMap) -> dict[str, Any]:
-    return {"roughness": 1e6 * found.scenario.mechanics.mixed_lubrication.roughness}
+def _flooded(scenario: Scenario, speeds: Sequence[float]) -> dict[str, Any]:
+    return {"roughness": 1e6 * scenario.mechanics.mixed_lubrication.roughness}
 
 
 #: Law and measurement that differ by more than this factor are told apart in words.
@@ -121,9 +123,9 @@ class Measured:
 PUBLISHED = [Measured(**one) for one in packaged_tables(__package__, "measured.toml")["published"]]
 
 
-def own_point(found: FrictionMap) -> Measured | None:
+def own_point(scenario: Scenario) -> Measured | None:
     """What the source study's rig measured, where a packaged scenario has its block."""
-    scenario, study = found.scenario, read_scenario("study")
+    study = read_scenario("study")
     if scenario.name not in packaged_scenarios() or scenario.rig.mass != study.rig.mass:
         return None
     return Measured(
@@ -136,21 +138,21 @@ def own_point(found: FrictionMap) -> Measured | None:
     )
 
 
-def measured_beside(found: FrictionMap) -> list[Measured]:
-    """What a map of a block of ice has beside it; nothing where the block is of something else."""
-    if found.scenario.thermal.ice.melting_point_degC > 0.0:
+def measured_beside(scenario: Scenario) -> list[Measured]:
+    """What a block of ice has beside it; nothing where the block is of something else."""
+    if scenario.thermal.ice.melting_point_degC > 0.0:
         return []
-    own = own_point(found)
+    own = own_point(scenario)
     return [*([own] if own else []), *PUBLISHED]
 
 
-def differences(found: FrictionMap) -> str:
+def differences(scenario: Scenario) -> str:
     """A sentence of where law and measurement differ by more than a factor; "" for nowhere."""
     told = []
-    for each in measured_beside(found):
+    for each in measured_beside(scenario):
         if each.ambient_degC is None:
             continue
-        law = friction_coefficient(found.scenario.mechanics, each.speeds, each.ambient_degC)
+        law = friction_coefficient(scenario.mechanics, each.speeds, each.ambient_degC)
         for speed, mu, measured in zip(each.speeds, law, each.friction, strict=True):
             if not measured / FACTOR <= mu <= measured * FACTOR:
                 told.append(

@@ -8,8 +8,7 @@ damper: neither friction nor its heat is another for it.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
-from importlib import import_module
+from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any
 
@@ -19,10 +18,12 @@ from stickslip import Parameters, friction_coefficient
 from stickslip.packing import GRAVITY
 
 from cosim.coupling.case import run_scenario
+from cosim.report.files import plain_data
 from cosim.report.page import PageResult
 from cosim.scenario import Scenario
 
-MEASURED = "cosim.studies.friction_map.laws"
+from .laws import laws_of, measured_beside
+
 #: Damping over what the fall of friction with the speed drives.
 DAMPING = 3.0
 #: Steady is friction that changes by less than this part in the last tenth of a run: the interface
@@ -202,6 +203,11 @@ class FrictionMap(PageResult):
         friction = [point.friction for point in self.at(ambient_degC)]
         return max(friction) - min(friction) <= SAME * max(friction)
 
+    @property
+    def laws(self) -> list[dict[str, str]]:
+        """For what real contact the laws of friction hold that are on, see `laws_of`."""
+        return laws_of(self.scenario, [point.speed for point in self.points])
+
     def no_slope(self, ambient_degC: float) -> str:
         """Why there is no slope over a decade of speed, where there is none."""
         speeds = [point.speed for point in self.at(ambient_degC)]
@@ -238,14 +244,10 @@ class FrictionMap(PageResult):
 
     def summary(self) -> dict[str, Any]:
         """What `friction_map.json` holds: everything as plain data."""
-        return {
-            "scenario": self.scenario.to_tables(),
-            "duration": self.duration,
-            "regimes": [self.regimes(ambient) for ambient in self.ambients],
-            "points": [asdict(point) for point in self.points],
-            "failed": list(self.failed),
-            "measured": [asdict(each) for each in import_module(MEASURED).measured_beside(self)],
-        }
+        told = {"scenario": self.scenario.to_tables(), "duration": self.duration}
+        told |= {"regimes": [*map(self.regimes, self.ambients)], "points": self.points}
+        told |= {"failed": self.failed, "measured": measured_beside(self.scenario)}
+        return dict(plain_data(told))
 
 
 def friction_map(

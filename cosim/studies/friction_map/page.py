@@ -19,8 +19,8 @@ from cosim.report.palette import GREY, INK, PALE_GREY, SERIES
 from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
 from cosim.studies import FIGURES
 
-from .laws import Measured, differences, measured_beside, own_point
-from .laws import laws_of as laws_of
+from .laws import Measured, measured_beside, own_point
+from .laws import differences as differences
 from .map import SAME, FrictionMap, steady_scenario
 
 #: The law is drawn this far beyond the slowest and the fastest run.
@@ -55,7 +55,7 @@ def draw_map(found: FrictionMap) -> Figure:
         ylabel="friction coefficient [1]",
         title=f"lines: the law {alike}; points: coupled runs",
     )
-    measured, own = measured_beside(found), own_point(found)
+    measured, own = measured_beside(found.scenario), own_point(found.scenario)
     for each in measured:
         _draw_measured(ax, each, is_own=each == own)
     low, high = ax.dataLim.intervaly
@@ -191,5 +191,5 @@ def page(found: FrictionMap, command: str = "") -> tuple[str, list[Picture]]:
     """HTML of a map, and its figure."""
     drawn = draw_map(found)
     # the template calls what this module knows
-    told = {"found": found, "drawn": drawn, "differences": differences(found), "command": command}
+    told = {"found": found, "drawn": drawn, "command": command}
     return render("friction_map.html.j2", __package__ or "", **globals() | told), [drawn]

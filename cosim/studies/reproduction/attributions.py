@@ -9,13 +9,14 @@ from . import readings
 from .cases import DATASETS
 from .claims.friction_level import misfit, observed
 from .claims.rotation import ROTATES, turns_far_and_near
-from .readings import AS_PRINTED, MARKS, Outcome, Reading, outcome, reading_figures, rotation
+from .readings import AS_PRINTED, MARKS, Reading, outcome, reading_figures, rotation
 
 #: Claims that this bears on.
 CLAIMS = ("C5", "C6", "C7")
+Row = dict[str, Any]
 
 
-def attribution(reading: Reading) -> dict[str, Any]:
+def attribution(reading: Reading) -> Row:
     """What a reading makes of the claims, and which mended fault undoes it.
 
     rotates: #1 turns by more than the study's least (C5); without: #1's largest rotation with each
@@ -40,32 +41,26 @@ def attribution(reading: Reading) -> dict[str, Any]:
     }
 
 
-def datasets() -> dict[str, Any]:
+def datasets() -> Row:
     """Every reading beside the marks, and the claims as printed and under those that stand."""
     bearing = dict.fromkeys([AS_PRINTED, *readings.standing()])
-    return as_data(
-        [outcome(one) for one in readings.READINGS], [attribution(one) for one in bearing]
-    )
+    return as_data([*map(outcome, readings.READINGS)], [*map(attribution, bearing)])
 
 
-def as_data(outcomes: Sequence[Outcome], every: Sequence[dict[str, Any]]) -> dict[str, Any]:
+def as_data(outcomes: Sequence[Row], every: Sequence[Row]) -> Row:
     """Whether the scheme gives the study's two datasets, in every reading; for JSON and page.
 
     says: what came of it, in sentences; bears: what it does to the three claims.
     """
-    of, most = {one.reading: one for one in outcomes}, max(sum(one.met) for one in outcomes)
-    shown = [of[one] for one in (AS_PRINTED, readings.BALANCED, readings.ROUNDED)]
-    closest = [one.reading.name for one in outcomes if sum(one.met) == most]
+    of, most = {one["reading"]: one for one in outcomes}, max(sum(one["met"]) for one in outcomes)
+    shown = [of[one.name] for one in (AS_PRINTED, readings.BALANCED, readings.ROUNDED)]
+    closest = [one["reading"] for one in outcomes if sum(one["met"]) == most]
     written = texts("datasets.txt.j2", __package__ or "", {"MARKS": MARKS, "ROTATES": ROTATES})
     return {
         "says": " ".join(sentences(written.says(most, closest, *shown))),
         "bears": " ".join(sentences(written.bears(every))),
         "found": most == len(MARKS),
         "marks": MARKS,
-        "readings": [
-            {"values": one.values, "met": one.met, "reading": one.reading.name}
-            | {"place": one.reading.place, "turned_by_1deg_after_s": one.onset}
-            for one in outcomes
-        ],
+        "readings": outcomes,
         "attributions": every,
     }

@@ -246,7 +246,8 @@ class Claim:
         limit = written.get("limit", 0.0) if limit is None else limit
         compare = COMPARED[written.get("so", "below")]
         self._said = said = said | {"limit": limit}
-        self._passes: Callable[[Any], bool] = lambda one: bool(
+        #: Whether the last check would let a number pass, or an answer that is known already.
+        self.passes: Callable[[Any], bool] = lambda one: bool(
             one if isinstance(one, (bool, np.bool_)) else compare(one, limit)
         )
         beside = next((one for one in (margin, *ours[::-1]) if one is not None), None)
@@ -255,7 +256,7 @@ class Claim:
             what, unit = written["margin"].format(**said), written.get("unit", "1")
             shown = Margin(what, float(beside), float(limit), unit)
         says = written["says"].format(**said)
-        answers = [None if one is None else self._passes(one) for one in ours]
+        answers = [None if one is None else self.passes(one) for one in ours]
         self.checks.append(Check(says, *answers, faults=faults, margin=shown, together=together))
 
     def turn(
@@ -264,7 +265,7 @@ class Claim:
         """What the last check comes to under a change: a number against the same limit."""
         written, said = WRITTEN[self.id]["turn"][name], self._said | said | {"value": value}
         change, figure = (written[text].format(**said) for text in ("change", "figure"))
-        sound = self._passes(value) if sound is None else sound
+        sound = self.passes(value) if sound is None else sound
         weight = weight or written.get("weight", FAR)
         self.checks[-1].turns.append(Turn(change, figure, bool(sound), weight))
 

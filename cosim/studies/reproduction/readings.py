@@ -5,6 +5,7 @@ reading (`readings.toml`) takes something otherwise, as another passage of the s
 the print leaves it open, and is laid beside all five.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cache
 from typing import Any, Self
@@ -109,21 +110,6 @@ def rotation(reading: Reading, dataset: int) -> float:
     return reading_figures(reading, dataset)["max_rotation"]
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """A reading beside the marks; values in the order of `MARKS`. onset: s until #2 turns by 1°."""
-
-    reading: Reading
-    values: tuple[float, ...]
-    onset: float
-
-    @property
-    def met(self) -> tuple[bool, ...]:
-        """Which marks it meets."""
-        pairs = zip(MARKS, self.values, strict=True)
-        return tuple(mark["low"] <= value <= mark["high"] for mark, value in pairs)
-
-
 def onset(motion: Motion, angle: float = 1.0) -> float:
     """When phi first exceeds ``angle`` (deg), s; NaN where it never does."""
     turned = np.flatnonzero(np.abs(motion.phi_deg) > angle)
@@ -131,12 +117,20 @@ def onset(motion: Motion, angle: float = 1.0) -> float:
 
 
 @cache
-def outcome(reading: Reading) -> Outcome:
-    """A reading laid beside the marks."""
+def outcome(reading: Reading) -> dict[str, Any]:
+    """A reading laid beside the marks, as JSON and page have it; s until #2 turns by 1°."""
     values = tuple(reading_figures(reading, mark["dataset"])[mark["figure"]] for mark in MARKS)
-    return Outcome(reading, values, onset(reading.motion(2)))
+    found = {"values": values, "met": met(values), "reading": reading.name}
+    return found | {"place": reading.place, "turned_by_1deg_after_s": onset(reading.motion(2))}
+
+
+def met(values: Sequence[float]) -> tuple[bool, ...]:
+    """Which of `MARKS` are met, by values in their order."""
+    return tuple(
+        mark["low"] <= value <= mark["high"] for mark, value in zip(MARKS, values, strict=True)
+    )
 
 
 def standing() -> list[Reading]:
     """The readings that meet most marks."""
-    return [one for one in READINGS if sum(outcome(one).met) >= ENOUGH]
+    return [one for one in READINGS if sum(outcome(one)["met"]) >= ENOUGH]

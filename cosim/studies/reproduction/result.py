@@ -3,7 +3,6 @@
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -11,7 +10,7 @@ from typing import Any
 from stickslip.reference.scheme_options import DESCRIPTIONS
 
 from cosim.files import write_text
-from cosim.report.files import json_text, without_nan
+from cosim.report.files import json_text, plain_data
 from cosim.report.page import render, texts, write_page
 from cosim.result import Result
 
@@ -51,7 +50,7 @@ class Reproduction(list[Claim], Result):
             "faults": FAULTS,
             "wall_time": self.wall_time,
         }
-        return dict(without_nan(found))
+        return dict(plain_data(found))
 
     def _answer(self) -> tuple[str, Sequence[tuple[str, str]]]:
         verdicts = Counter(claim.verdict for claim in self)
@@ -87,8 +86,8 @@ def _referee(claim: Claim) -> dict[str, Any]:
     """A claim in the referee's table: how firm its verdict is."""
     return _named(claim, "id place verdict scope steady") | {
         "claim": claim.title,
-        "margins": [asdict(one) | {"text": one.text} for one in claim.margins],
-        "turns": [asdict(one) for one in claim.turns],
+        "margins": [vars(one) | {"text": one.text} for one in claim.margins],
+        "turns": claim.turns,
         "rests_on": claim.rests,
     }
 
@@ -96,7 +95,7 @@ def _referee(claim: Claim) -> dict[str, Any]:
 def _told(claim: Claim) -> dict[str, Any]:
     words = "id title place first verdict scope word faults reason remarks assumed"
     return _named(claim, words) | {
-        "checks": [asdict(check) | {"verdict": check.verdict} for check in claim.checks],
-        "numbers": [asdict(row) for row in claim.rows],
+        "checks": [vars(check) | {"verdict": check.verdict} for check in claim.checks],
+        "numbers": claim.rows,
         "figures": [f"{picture.name}.png" for picture in claim.pictures],
     }

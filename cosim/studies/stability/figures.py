@@ -12,7 +12,7 @@ from cosim.report.palette import BLUE, INK, RED, SAND, SOFT_GREY
 from cosim.report.style import panels, picture
 from cosim.studies import FIGURES
 
-from .maps import MAPPED, Case, PretensionMap, RegimeMap
+from .maps import Case, PretensionMap, RegimeMap
 
 TITLES = {REST: "from rest", RIDING: "riding", RAMP: "from a speed ramp"}
 KINDS = {STICK_SLIP: BLUE, SLIDING: SAND}
@@ -55,25 +55,26 @@ def draw_pretension_map(found: PretensionMap, case: Case) -> Figure:
 @picture("regime_map", **FIGURES["regime_map"])
 def draw_regime_map(found: RegimeMap, case: Case) -> Figure:
     """A panel for each start."""
-    figure, axes = panels(1, len(MAPPED), height=3.6, width=11.0, sharey=True)
+    figure, axes = panels(1, len(found.simulated), height=3.6, width=11.0, sharey=True)
     kinds = list(KINDS)
     colours = ListedColormap([*KINDS.values(), OTHER])
     norm = BoundaryNorm(np.arange(len(kinds) + 2) - 0.5, len(kinds) + 1)
-    for k, (ax, start) in enumerate(zip(axes[0], MAPPED, strict=True)):
-        is_kind = [found.simulated[k] == kind for kind in kinds]
+    for ax, (start, names) in zip(axes[0], found.simulated.items(), strict=True):
+        is_kind = [names == kind for kind in kinds]
         numbers = np.select(is_kind, range(len(kinds)), default=len(kinds))
         ax.grid(False)
         ax.pcolormesh(
             found.speeds, found.ratios, numbers, cmap=colours, norm=norm, shading="nearest"
         )
-        if found.borders:
-            ax.plot(*found.borders[k].T, "o", color=INK, ms=3.2, mec="white", mew=0.5)
+        if start in found.closed_form_borders:
+            border = found.closed_form_borders[start].T
+            ax.plot(*border, "o", color=INK, ms=3.2, mec="white", mew=0.5)
         friction = case.parameters.friction
         _cross(ax, abs(case.parameters.surface.speed), friction.mu_s / friction.mu_k)
         ax.set(xlabel="speed of the surface [m/s]", title=TITLES[start])
     axes[0, 0].set_ylabel("µ_s / µ_k")
     handles = [Patch(facecolor=colour, label=name) for name, colour in KINDS.items()]
-    if not np.isin(found.simulated, kinds).all():
+    if not np.isin(list(found.simulated.values()), kinds).all():
         handles.append(Patch(facecolor=OTHER, label="other, or not followed"))
     figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
     figure.suptitle(f"Regimes: {case.name}", x=0.008, ha="left")

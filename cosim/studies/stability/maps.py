@@ -124,26 +124,21 @@ HARMLESS = {"lateral_friction", "structural_damping", "imperfections"}
 
 @dataclass(frozen=True)
 class RegimeMap:
-    """Names of regimes (3, n, m) from `MAPPED`, at ratios mu_s/mu_k (n,) and speeds (m,) m/s.
+    """Names of regimes (n, m) by start, at ratios mu_s/mu_k (n,) and speeds (m,) m/s.
 
     simulated: by the model; an empty name is a run that ended early. closed_form: of the Coulomb
-    oscillator with the same numbers; None where the scenario's motion is not that of one. borders:
-    of that closed form, for each start (k, 2) of speed and ratio, far closer than the grid.
+    oscillator with the same numbers; None where the scenario's motion is not that of one, as is in
+    how many cells, of all starts, the two differ. closed_form_borders: for each start (k, 2) of
+    speed and ratio, far closer than the grid.
     """
 
     ratios: Array
     speeds: Array
-    simulated: Array
-    closed_form: Array | None
+    simulated: dict[str, Array]
+    closed_form: dict[str, Array] | None
+    cells_that_differ: int | None
     fastest_from_rest: float | None
-    borders: tuple[Array, ...] = ()
-
-    @property
-    def wrong(self) -> int | None:
-        """Cells, of all three starts, in which simulation and closed form differ."""
-        if self.closed_form is None:
-            return None
-        return int(np.sum((self.simulated != self.closed_form) & (self.simulated != "")))
+    closed_form_borders: dict[str, Array]
 
 
 def regime_map(case: Case, ratios: Array, speeds: Array, done: Done) -> RegimeMap:
@@ -158,15 +153,16 @@ def regime_map(case: Case, ratios: Array, speeds: Array, done: Done) -> RegimeMa
             if known:
                 closed[:, i, j] = predicted(parameters)
             done(1)
-    fastest = belt_start(case.parameters).fastest_from_rest if known else None
-    borders = tuple(
-        _borders(case.parameters, start, names, ratios, speeds)
-        for start, names in zip(MAPPED if known else (), closed, strict=False)
-    )
-    return RegimeMap(
-        np.asarray(ratios), np.asarray(speeds), simulated, closed if known else None, fastest,
-        borders,
-    )  # fmt: skip
+    by_start = np.asarray(ratios), np.asarray(speeds), dict(zip(MAPPED, simulated, strict=True))
+    if not known:
+        return RegimeMap(*by_start, None, None, None, {})
+    borders = {
+        start: _borders(case.parameters, start, names, ratios, speeds)
+        for start, names in zip(MAPPED, closed, strict=True)
+    }
+    differ = int(np.sum((simulated != closed) & (simulated != "")))
+    fastest = belt_start(case.parameters).fastest_from_rest
+    return RegimeMap(*by_start, dict(zip(MAPPED, closed, strict=True)), differ, fastest, borders)
 
 
 def _simulated(parameters: Parameters, interface: Interface) -> list[str]:

@@ -5,7 +5,7 @@ And in which range of one number it sticks and slips: from rest, riding, and fro
 
 import json
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import groupby, pairwise
 from pathlib import Path
@@ -18,7 +18,7 @@ from stickslip.steady_motion.regimes import STICK_SLIP
 from stickslip.steady_motion.starts import RAMP, REST, STARTS, disturbed, other_starts
 
 from ...files import write_text
-from ...report.files import without_nan
+from ...report.files import plain_data
 from ...report.page import PageResult, Picture, render, sentences, texts, tiles_of
 from ...report.run_text import border_sentence, regime_sentence, stability_sentence
 from ...scenario import Scenario
@@ -89,7 +89,7 @@ def _windows(lowest: str, borders: list[tuple[float, str]]) -> list[Window]:
 
 def range_sentence(found: dict[str, Any]) -> str:
     """The answer in a line: "... sticks and slips from rest up to 0.1812 m/s; riding ..."."""
-    return " ".join(sentences(texts("stability.txt.j2", __package__ or "", {}).range(found)))
+    return " ".join(sentences(_text().range(found)))
 
 
 RESULT, PAGE = "stability.json", "report.html"
@@ -134,25 +134,9 @@ class Stability(PageResult):
 
     def summary(self) -> dict[str, Any]:
         """What `stability.json` holds: plain numbers, SI; what was not computed is None."""
-        stretched, regimes = self.pretension, self.regimes
-        return {
-            "name": self.case.name,
-            **self.case.assessment.as_dict(),
-            "starts": STARTS,
-            "pretension_map": stretched
-            and {key: without_nan(values.tolist()) for key, values in vars(stretched).items()},
-            "regime_map": regimes
-            and {
-                "ratios": regimes.ratios.tolist(),
-                "speeds": regimes.speeds.tolist(),
-                "simulated": _by_start(regimes.simulated),
-                "closed_form": _by_start(regimes.closed_form),
-                "cells_that_differ": regimes.wrong,
-                "fastest_from_rest": regimes.fastest_from_rest,
-                "closed_form_borders": _by_start(regimes.borders),
-            },
-            "stick_slip_range": self.stick_slip,
-        }
+        maps = {"pretension_map": self.pretension, "regime_map": self.regimes}
+        told = {"name": self.case.name, **self.case.assessment.as_dict(), "starts": STARTS, **maps}
+        return dict(plain_data(told | {"stick_slip_range": self.stick_slip}))
 
     @property
     def sentences(self) -> list[str]:
@@ -185,12 +169,6 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
     if grid:
         found.fill_maps(grid)
     return found
-
-
-def _by_start(tables: Iterable[np.ndarray] | None) -> dict[str, Any] | None:
-    if tables is None:
-        return None
-    return {start: table.tolist() for start, table in zip(MAPPED, tables, strict=False)}
 
 
 def write_numbers(found: Stability, folder: Path) -> None:

@@ -72,7 +72,7 @@ def axis(keys: str | Sequence[str], values: Sequence[Any], kind: type[Scenario] 
     name, fields = LINK.join(keys), {key: _field(key, kind) for key in keys}
     if len(fields) < len(keys):
         raise SweepError(f"{name}: links a key with itself, allowed are different keys")
-    rows = [_row(name, len(keys), value) for value in _listed(name, values)]
+    rows = _rows(name, len(keys), values)
     if not rows:
         raise SweepError(f"{name}: no values, allowed is at least one")
     labels = [":".join(map(_label, row)) for row in rows]
@@ -121,22 +121,16 @@ def _field(key: str, kind: type[Scenario]) -> FieldInfo:
     raise SweepError(f"{key}: no such key of a scenario, {hint}")
 
 
-def _listed(name: str, values: Any) -> list[Any]:
-    if not isinstance(values, (str, bytes, Mapping)):
-        with suppress(TypeError):  # of what has no length, such as a number of numpy
-            return list(values)
-    raise SweepError(f"{name}: not a list ({values!r}), allowed is a list of values")
-
-
-def _row(name: str, count: int, value: Any) -> tuple[Any, ...]:
-    """One value for each of some keys, in plain Python types."""
-    if count == 1:
-        return (_plain(value),)
-    if isinstance(value, str) or not hasattr(value, "__len__") or len(value) != count:
-        raise SweepError(
-            f"{name}: not one value for each linked key ({value!r}), allowed are {count}"
-        )
-    return tuple(map(_plain, value))
+def _rows(name: str, count: int, values: Any) -> list[tuple[Any, ...]]:
+    """Of each of some values one for each of so many keys, in plain Python types."""
+    if isinstance(values, (str, bytes, Mapping)) or not np.iterable(values):
+        raise SweepError(f"{name}: not a list ({values!r}), allowed is a list of values")
+    rows = [(value,) if count == 1 else value for value in map(_plain, values)]
+    for row in rows:
+        if not isinstance(row, tuple) or len(row) != count:
+            said = f"not one value for each linked key ({row!r}), allowed are {count}"
+            raise SweepError(f"{name}: {said}")
+    return rows
 
 
 def _plain(value: Any) -> Any:

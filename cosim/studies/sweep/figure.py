@@ -14,12 +14,12 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cosim.report.columns import Array
+from cosim.report.page import unit_text
 from cosim.report.palette import BLUE, FAINT_BLUE, INK, LIGHT_BLUE
 from cosim.report.style import at_least, picture
 from cosim.studies import FIGURES
 
 from .features import ALL
-from .words import shown_features, titled
 
 # more lines than this in a panel are a tangle: their median and their range instead
 MOST_LINES = 7
@@ -35,15 +35,14 @@ SMALL: Any = {"fontsize": 7.5, "title_fontsize": 7.5}
 
 
 @picture("sweep", **FIGURES["sweep"])
-def draw_sweep(dataset: xr.Dataset, features: Sequence[str] = ()) -> Figure:
+def draw_sweep(dataset: xr.Dataset, names: Sequence[str]) -> Figure:
     """One row for each feature, one column for each varied dimension (three columns for one).
 
-    features: by name; those that vary when left out. With few lines in a panel there is one for
-    each combination of the other dimensions, else their median, the middle half of them (darker)
-    and their range. Runs that failed are left out.
+    names: of the features. With few lines in a panel there is one for each combination of the
+    other dimensions, else their median, the middle half of them (darker) and their range. Runs that
+    failed are left out.
     """
     dims = [str(name) for name in dataset["status"].dims]
-    names = list(features) or shown_features(dataset)[0]
     columns = len(dims) if len(dims) > 1 else min(ABREAST, len(names))
     figure, panels = _panels(len(dims), columns, len(names))
     for row, feature in zip(panels, names, strict=True):
@@ -131,6 +130,18 @@ def _places(coordinate: xr.DataArray) -> Array:
     """Where the values stand: at themselves, names side by side."""
     at = coordinate.values if _is_numeric(coordinate) else np.arange(coordinate.size)
     return at.astype(float)
+
+
+def titled(coordinate: xr.DataArray) -> str:
+    """A dimension with its unit."""
+    unit = unit_of(coordinate).strip()
+    return f"{coordinate.name} [{unit}]" if unit else str(coordinate.name)
+
+
+def unit_of(coordinate: xr.DataArray) -> str:
+    """As it stands behind a number; nothing for a plain number or a name."""
+    unit = unit_text(coordinate.attrs["units"])
+    return "" if unit == "1" else f" {unit}"
 
 
 def _name_axis(axes: Axes, coordinate: xr.DataArray, last: bool) -> None:

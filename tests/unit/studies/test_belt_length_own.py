@@ -27,7 +27,7 @@ from cosim.studies.belt_length import (
 )
 from cosim.studies.belt_length.drift import interface_drift, run_drift
 from cosim.studies.belt_length.lengths import rounded_up
-from cosim.studies.belt_length.show.text import answered
+from cosim.studies.belt_length.show import answered
 from cosim.studies.belt_length.study import steps
 from cosim.studies.belt_length.unknowns import UNKNOWNS, unknowns_of
 

@@ -19,7 +19,6 @@ from cosim.studies.friction_map import map as map_module
 from cosim.studies.friction_map.laws import (
     conducted_share,
     differences,
-    laws_of,
     measured_beside,
     own_point,
 )
@@ -118,7 +117,7 @@ def test_a_point_that_fails_costs_one_point(tmp_path, capsys):
 
 def test_each_law_says_for_which_contact_it_holds():
     found = FrictionMap(CASE, 2.0, (point(1e-4), point(1.0)))
-    laws = {law["name"]: law for law in laws_of(found)}
+    laws = {law["name"]: law for law in found.laws}
     assert list(laws) == ["asperity_melting", "melt_film"]
     # 6.57 N on 20 MPa, ice of 1.17e-6 m2/s over 1 cm
     assert "N/H = 0.33 mm²" in laws["asperity_melting"]["here"]
@@ -128,20 +127,23 @@ def test_each_law_says_for_which_contact_it_holds():
 
 def test_what_is_conducted_is_that_of_a_disc_on_two_half_spaces():
     """4 k r dT over pi r^2, over C e dT sqrt(v / l): what passes takes."""
-    found = FrictionMap(CASE, 2.0, (point(0.1),))
     flux = 4.0 * (2.2 + 0.5) / (np.pi * 5e-3)
-    assert conducted_share(found, 0.1) == pytest.approx(flux / (1.128 * 2034.0 * 10.0**0.5))
+    assert conducted_share(CASE, 0.1) == pytest.approx(flux / (1.128 * 2034.0 * 10.0**0.5))
 
 
 def test_measured_friction_lies_beside_the_law():
     """The rig's 0.2086 is 8 times what the packaged case says there, and the page says so."""
     found = FrictionMap(CASE, 2.0, (point(0.15), point(1.0)))
-    assert own_point(found).friction == (0.2086,) and own_point(found).speeds == (0.15,)
-    assert "0.0256 where the source study's rig has 0.2086 (0.15 m/s, −8 °C)" in differences(found)
+    assert own_point(found.scenario).friction == (0.2086,) and own_point(found.scenario).speeds == (
+        0.15,
+    )
+    assert "0.0256 where the source study's rig has 0.2086 (0.15 m/s, −8 °C)" in differences(
+        found.scenario
+    )
     text = page(found, "command")[0]
     assert "Law and measurement differ by more than a factor of 2" in text
     assert text.count("Seppyo 61 (1999)") == 1
-    assert found.summary()["measured"][0]["friction"] == (0.2086,)
+    assert found.summary()["measured"][0]["friction"] == [0.2086]
 
 
 def test_a_roughness_of_an_eighth_of_a_micrometre_is_the_rig_s():
@@ -150,16 +152,15 @@ def test_a_roughness_of_an_eighth_of_a_micrometre_is_the_rig_s():
     found = FrictionMap(rough, 2.0, (point(0.15),))
     (mu,) = friction_coefficient(rough.mechanics, [0.15], -8.0)
     assert mu == pytest.approx(0.2086, rel=0.01)
-    assert "the source study's rig" not in differences(found)
+    assert "the source study's rig" not in differences(found.scenario)
 
 
 def test_no_measured_ice_beside_another_block():
     """Nor the rig's own where the scenario is the user's, or its block another."""
-    points = (point(0.15),)
     steel = CASE.changed({"ice.material": "steel"})
-    assert measured_beside(FrictionMap(steel, 2.0, points)) == []
+    assert measured_beside(steel) == []
     for other in (CASE.changed({"rig.mass": 1.0}), CASE.changed({"name": "mine"})):
-        assert own_point(FrictionMap(other, 2.0, points)) is None
+        assert own_point(other) is None
 
 
 def point(speed):

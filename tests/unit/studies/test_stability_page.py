@@ -27,7 +27,7 @@ def regimes():
 
 
 def test_borders_are_those_of_the_closed_form_and_not_of_the_grid(regimes):
-    from_rest = regimes.borders[0]
+    from_rest = regimes.closed_form_borders["rest"]
     assert len(from_rest) == len(RATIOS)
     step = np.diff(SPEEDS)[0] / 2**maps.HALVINGS
     for speed, ratio in from_rest:
@@ -37,9 +37,8 @@ def test_borders_are_those_of_the_closed_form_and_not_of_the_grid(regimes):
 
 
 def test_the_drawn_borders_are_these(regimes):
-    for panel, border in zip(
-        shown(draw_regime_map, regimes, CASE).axes, regimes.borders, strict=True
-    ):
+    borders = regimes.closed_form_borders.values()
+    for panel, border in zip(shown(draw_regime_map, regimes, CASE).axes, borders, strict=True):
         drawn = panel.lines[0].get_xydata()
         np.testing.assert_array_equal(drawn, border)
     assert "Dots: borders" in draw_regime_map(regimes, CASE).caption

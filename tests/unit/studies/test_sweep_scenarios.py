@@ -11,7 +11,7 @@ from stickslip.trajectory import counted_break_aways
 from cosim import Scenario, run_scenario
 from cosim.cli.studies import sweep as sweep_command
 from cosim.fmu.build import ensure_fmu
-from cosim.studies.sweep import SweepError, features, sweep, words
+from cosim.studies.sweep import SweepError, features, result, sweep
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import as_trajectory
 from cosim.studies.sweep.grid import product_grid
@@ -61,14 +61,14 @@ def test_the_unit_of_an_entry_of_a_list_is_told(coupled):
 
 
 def test_what_does_not_vary_is_told_and_not_drawn(coupled):
-    drawn, still = words.shown_features(coupled)
+    drawn, still = result.shown_features(coupled)
     assert "interface_rise" in drawn and "x_mean" in still and "phi_max" in still
-    assert "largest |φ| 0 °" in words.still_sentence(coupled, still)
+    assert "largest |φ| 0 °" in result.still_sentence(coupled, still)
     never = coupled[["frequency"]] * 0.0
-    assert words.still_sentence(never, ["frequency"]) == "The same in all runs: no stick-slip."
-    assert words.shown_features(coupled, ["x_mean", "heat"]) == (["x_mean", "heat"], [])
+    assert result.still_sentence(never, ["frequency"]) == "The same in all runs: no stick-slip."
+    assert result.shown_features(coupled, ["x_mean", "heat"]) == (["x_mean", "heat"], [])
     with pytest.raises(SweepError, match="--show: no feature .*'x_men'; nearest: 'x_mean'"):
-        words.check_shown(["x_men"], coupled)
+        result.check_shown(["x_men"], coupled)
 
 
 def test_scenarios_are_an_axis_of_their_own():
@@ -151,7 +151,7 @@ def test_the_command_leaves_a_page_and_a_table(tmp_path, capsys):
     assert text.count("<img") == 1 and 'src="data:image/png' in text
     assert len((out / "sweep.csv").read_text().splitlines()) == 3
     with xr.open_dataset(out / "sweep.nc") as done:
-        assert words.records(done.load())[0]["surface.speed"] == 0.15
+        assert result.records(done.load())[0]["surface.speed"] == 0.15
         assert np.all(done["status"].values == 0)
 
 
@@ -174,5 +174,5 @@ def run_row(mass, frequency, share=0.9, status="complete"):
     ],
 )  # fmt: skip
 def test_the_page_says_first_what_the_block_does_where(rows, told):
-    assert words.sentence(rows, {"rig.mass": " kg"}).removeprefix("The block ") == told
-    assert len(words.tiles(rows, {"rig.mass": " kg"})) <= 4
+    assert result.sentence(rows, {"rig.mass": " kg"}).removeprefix("The block ") == told
+    assert len(result.tiles(rows, {"rig.mass": " kg"})) <= 4

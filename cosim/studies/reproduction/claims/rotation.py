@@ -149,7 +149,7 @@ def judge_datasets(claim: Claim) -> dict[str, Any]:
     faults = responsible(lambda faults: farthest(DATASET_1, faults).rotation > least)
     claim.check("far", first, limit=FAR_TURN / FACTOR, faults=faults)
     claim.check("near", second, limit=FACTOR * MEASURED)
-    met = {reading: sum(outcome(reading).met) for reading in READINGS}
+    met = {reading: sum(outcome(reading)["met"]) for reading in READINGS}
     claim.check("both", turns_far_and_near(*turned), margin=max(met.values()), limit=len(MARKS))
     loose = [exact_motion(case, pretension=0.0).rotation for case in DATASETS.values()]
     claim.turn("loose", sound=turns_far_and_near(*loose), turned=loose)

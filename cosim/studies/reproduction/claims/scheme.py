@@ -24,33 +24,28 @@ from ..motion import rate, upward_crossings
 
 Run = tuple[np.ndarray, np.ndarray]  # time s, x m
 
-AXES = "xyφ"
-HALF_A_DIGIT = 0.5e-5
+DURATION = 20.0  # s
 #: Attachment radii above the study's that are tried, m.
 RADII = ATTACHMENT_RADIUS + 1e-5 * np.arange(1, 1000)
-DURATION, STIFF_DURATION = 20.0, 10.0
-STIFF, WEAK_SPRING = 9999.0, 1.0  # N/m
-OFFSET, LARGE_OFFSET = 0.02, 0.05  # m
-HARDENING = 40.0  # 1/m2; §6.2 of the study: linear for the first couple of centimetres only
 
 
 def judge_matrices(claim: Claim) -> dict[str, float]:
     """Every printed entry against K = k sum g gT; entries that are not listed are printed 0."""
     for treatment in ("zero", "constant", "opposed"):
         angles = fixed_angles(treatment)
+        said: Any = {"treatment": treatment}
         ours, printed = stiffness_matrix(angles), np.zeros((3, 3))
         for name in filter(lambda name: name.startswith(treatment), STUDY):
-            i, j = map(AXES.index, name[-2:])
+            i, j = map("xyφ".index, name[-2:])
             printed[i, j] = printed[j, i] = STUDY[name].value
-            entry, kind = [ours[i, j]] * 2, f"entry_{(i == 2) + (j == 2)}"
-            claim.row(kind, entry, study=name, axes=name[-2:], treatment=treatment)
-        apart = np.abs(ours - printed).max()
-        claim.check("entries", [apart, apart], treatment=treatment)
+            kind = f"entry_{(i == 2) + (j == 2)}"
+            claim.row(kind, [ours[i, j]] * 2, study=name, axes=name[-2:], **said)
+        claim.check("entries", [np.abs(ours - printed).max()] * 2, **said)
         # the least radius with which a printed digit changes
         for radius in RADII:
             matrix = stiffness_matrix(angles, radius)
             off = np.abs(matrix - printed).max()
-            if off >= HALF_A_DIGIT:
+            if not claim.passes(off):
                 break
         claim.turn("radius", off, radius=1e3 * radius, entry=matrix[2, 2])
     return {}
@@ -71,32 +66,31 @@ def _runs(
     return [*((run.time, run.q[:, 0]) for run in slides), _exact(case, duration, **model)]
 
 
-def _growth(run: Run) -> float:
-    """Travel of a run by that of its first half."""
-    half, whole = np.interp((DURATION / 2, DURATION), *run)
-    return float(whole / half)
-
-
 def judge_no_stiffness(claim: Claim) -> dict[str, float]:
     """k = 0 under constant friction; x = mu_k g t2 / 2 in slip, the belt's speed the limit."""
     case = DATASET_1.changed(stiffness=0.0)
-    runs = _runs(case, DURATION)
-    ends = [float(np.interp(DURATION, *run)) for run in runs]
-    claim.row("travel", ends, derived=0.5 * case.mu_k * GRAVITY * DURATION**2)
-    claim.check("drifts", [_growth(run) for run in runs])
-    claim.turn("sprung", _growth(_exact(case.changed(stiffness=WEAK_SPRING), DURATION)))
-    return {"meets": case.speed / (case.mu_k * GRAVITY), "speed": case.speed, "ridden": ends[-1]}
+    runs = [*_runs(case, DURATION), _exact(case.changed(stiffness=1.0), DURATION)]
+    halves, ends = np.transpose([np.interp((DURATION / 2, DURATION), *run) for run in runs])
+    *growth, sprung = ends / halves
+    claim.row("travel", ends[:3], derived=0.5 * case.mu_k * GRAVITY * DURATION**2)
+    claim.check("drifts", growth)
+    claim.turn("sprung", sprung)
+    return {"meets": case.speed / (case.mu_k * GRAVITY), "speed": case.speed, "ridden": ends[2]}
 
 
 def judge_stiff(claim: Claim) -> dict[str, float]:
     """k = 9999 N/m; the displacement is below what the camera sees."""
-    case = DATASET_1.changed(stiffness=STIFF)
-    runs = [*_runs(case, STIFF_DURATION, scatter=0.02), _exact(case, STIFF_DURATION, case.speed)]
+    case, duration = DATASET_1.changed(stiffness=9999.0), 10.0
+    runs = [*_runs(case, duration, scatter=0.02), _exact(case, duration, case.speed)]
     *largest, riding = (np.abs(x).max() for _, x in runs)
     claim.row("largest", largest)
     claim.check("pixel", [1e3 * one for one in largest])
     claim.turn("riding", 1e3 * riding)
     return {}
+
+
+OFFSET, LARGE_OFFSET = 0.02, 0.05  # m
+HARDENING = 40.0  # 1/m2; §6.2 of the study: linear for the first couple of centimetres only
 
 
 def judge_no_friction(claim: Claim) -> dict[str, float]:
@@ -108,12 +102,12 @@ def judge_no_friction(claim: Claim) -> dict[str, float]:
     runs = _runs(case, DURATION, OFFSET, initial={"x": OFFSET} | at_rest)
     hardened = _exact(case, DURATION, initial=wide, spring_hardening=cubic)
     rates = [rate(upward_crossings(*run)) for run in (*runs, hardened)]
-    off = [abs(one / expected - 1.0) for one in rates]
+    *off, off_hardened = (abs(one / expected - 1.0) for one in rates)
     last = [x[time > DURATION - 1.0].max() for time, x in runs]
     claim.row("frequency", rates[:3], derived=expected)
     claim.row("amplitude", last, derived=OFFSET)
-    claim.check("frequency", off[:3])
-    claim.turn("hardened", off[3], part=HARDENING * LARGE_OFFSET**2)
+    claim.check("frequency", off)
+    claim.turn("hardened", off_hardened, part=HARDENING * LARGE_OFFSET**2)
     claim.check("undamped", [abs(value / OFFSET - 1.0) for value in last])
     loose = simulate(cases.exact_parameters(case, pretension=0.0, initial=wide), 3 * DURATION, 1e-2)
     return {"rotation": np.degrees(np.abs(loose["phi"]).max())}
@@ -121,9 +115,7 @@ def judge_no_friction(claim: Claim) -> dict[str, float]:
 
 # one stick and one slip, then the next ones begin: what a script needs grows with the slips
 SCRIPT = 0.7
-WHOLE = 20.0
 COMPARED_CYCLES = 40  # the runs that the study compares
-KINDS = ("updated", "zero")
 
 
 def _seconds(call: Callable[[], object]) -> float:
@@ -132,10 +124,11 @@ def _seconds(call: Callable[[], object]) -> float:
 
 def judge_run_times(claim: Claim) -> dict[str, Any]:
     """What updating the spring angles costs: as a script, and compiled."""
-    plain = [Scheme(scatter=0.0, treatment=kind) for kind in KINDS]
+    kinds = ("updated", "zero")
+    plain = [Scheme(scatter=0.0, treatment=kind) for kind in kinds]
     updated, zero = (_seconds(partial(interpreted_run, SCRIPT, one)) for one in plain)
-    schemes = [scheme(DATASET_1, PRINTED, treatment=kind) for kind in KINDS]
-    compiled = [_seconds(partial(one.run, duration=WHOLE)) for one in schemes]
+    schemes = [scheme(DATASET_1, PRINTED, treatment=kind) for kind in kinds]
+    compiled = [_seconds(partial(one.run, duration=DURATION)) for one in schemes]
     ratios = [updated / zero, compiled[0] / compiled[1]]
     claim.row("updated", [COMPARED_CYCLES * updated / 60.0])
     claim.row("zero", [COMPARED_CYCLES * zero])
@@ -185,46 +178,40 @@ def _exact_jumps(case: Case) -> int:
 
 def judge_jumps(claim: Claim) -> dict[str, Any]:
     """Jumps in the three named runs and in all runs of the study's plan."""
-    series = cases.plan()
+    series, located = cases.plan(), PRINTED.without("F6")
     jumping, mended = _jumping(series, PRINTED), len(_jumping(series, MENDED))
-    exact = sum(map(_exact_jumps, NAMED))
+    exact, some = sum(map(_exact_jumps, NAMED)), len(jumping) > 0
     for case in NAMED:
         claim.row("jumps", [jumps(case, PRINTED), jumps(case, MENDED), exact], v=case.speed)
     claim.row("runs", [len(jumping), mended], plan=len(series))
-    some = len(jumping) > 0
     claim.check("anomaly", [some, some and not mended, some and not exact], margin=exact)
     for case in NAMED:
         claim.check("named", [jumps(case, PRINTED)], v=case.speed)
         # laws of friction that the study's drawing cannot be told from
         for other in case.over("weakening", OTHER_WEAKENINGS):
             claim.turn("slope", jumps(other, PRINTED), part=100.0 * other.weakening)
-        claim.turn("located", jumps(case, PRINTED.without("F6")))
+        claim.turn("located", jumps(case, located))
     claim.check("rare", [len(jumping)], plan=len(series))
     with_r = _jumping(series, PRINTED.without("F2"))
     claim.turn("with_r", len(with_r), named=sum(case in NAMED for case in with_r))
-    for part in (OTHER_WEAKENINGS[0], OTHER_WEAKENINGS[-1]):
+    for part in OTHER_WEAKENINGS[:: len(OTHER_WEAKENINGS) - 1]:
         changed = [case.changed(weakening=part) for case in series]
         claim.turn("plan_slope", len(_jumping(changed, PRINTED)), part=100.0 * part)
-    witnesses = jumping[:WITNESSES]
+    witnesses, shown = jumping[:WITNESSES], (jumping or NAMED)[-1]
     faults = responsible(lambda faults: any(jumps(case, faults) for case in witnesses))
-    printed, located, uncut = (
-        sum(jumps(case, one) for case in witnesses)
-        for one in (PRINTED, PRINTED.without("F6"), PRINTED.without("F14"))
-    )
-    shown = (jumping or NAMED)[-1]
+    told = {"printed": PRINTED, "located": located, "uncut": PRINTED.without("F14")}
     models = zip((PRINTED, MENDED), LINES, strict=False)
     add_picture(claim, "C14_jump", [[_panel(shown, faults, line)] for faults, line in models])
-    said = {"n": len(witnesses), "faults": ", ".join(faults) or "none", "plan": len(series)}
-    return said | {"printed": printed, "located": located, "uncut": uncut}
+    said = {name: sum(jumps(case, one) for case in witnesses) for name, one in told.items()}
+    said |= {"n": len(witnesses), "plan": len(series)}
+    return said | {"faults": ", ".join(faults) or "none"}
 
 
 def _panel(case: Case, faults: Faults, line: dict[str, Any]) -> Panel:
     """x' of a run, and where it jumps."""
     run, ends = _jumping_run(case, faults)
     marks = {"marker": "x", "ls": "", "color": INK, "ms": 7, "label": "jump to stick"}
-    curves = [
-        Curve(run.time, run.velocity[:, 0], {"lw": 0.8} | line),
-        Curve(ends, np.full(len(ends), case.speed), marks),
-    ]
+    speed = Curve(run.time, run.velocity[:, 0], {"lw": 0.8} | line)
     numbers = f"k {case.stiffness:.2f} N/m, m {case.mass:.2f} kg, v {case.speed:.2f} m/s"
-    return Panel(curves, f"{line['label']}, {numbers}", end=16.0)
+    jumped = Curve(ends, np.full(len(ends), case.speed), marks)
+    return Panel([speed, jumped], f"{line['label']}, {numbers}", end=16.0)

@@ -23,6 +23,7 @@ from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme_options import PRINTED, SchemeEffects
 
 from ....gap.data import Campaign, MeasuredRun
+from ....scenario.changes import changed_tables
 from ..cases import CYCLES, SAMPLE, SCATTER, SETTLING, STEADY, Case, longest
 from ..motion import WINDOW, Motion
 from ..motion import figures as read_off
@@ -68,11 +69,8 @@ def _exact_motion(
         y, phi = np.random.default_rng(seed).normal(0.0, (MISPLACED, TURNED)).tolist()
     free = known["rig"]["degrees_of_freedom"]
     start = {"initial.y": y if "y" in free else 0.0, "initial.phi": phi if "phi" in free else 0.0}
-    tables: dict[str, dict[str, Any]] = {block: dict(table) for block, table in known.items()}
-    for key, value in (start | dict(values)).items():
-        block, name = key.split(".", 1)
-        tables.setdefault(block, {})[name] = value
-    tables["initial"] = {"vx": tables["surface"]["speed"]} | tables["initial"]
+    moving = {"initial.vx": known["surface"]["speed"]}
+    tables = changed_tables(known, moving | start | dict(values))
     with warnings.catch_warnings(action="ignore"):  # a fit may pass through mu_k > mu_s
         parameters = Parameters.model_validate(tables, strict=True)
     motion = Motion.of_trajectory(simulate(parameters, SETTLING + WINDOW, SAMPLE))

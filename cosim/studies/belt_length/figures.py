@@ -1,6 +1,7 @@
 """Figures of the study: drift over length, what the doubt is made of, map."""
 
 from collections.abc import Sequence
+from operator import itemgetter
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,11 +18,11 @@ from cosim.report.style import panels, picture
 from cosim.studies import FIGURES
 from thermal.arrays import Array
 
-from ..case import Case
-from ..drift import endless_belt, followed, never_comes_round, steady_drift
-from ..lengths import DriftMap
-from ..result import Row, Study
-from ..uncertainty import SingleChange, Uncertainty
+from .case import Case
+from .drift import endless_belt, followed, never_comes_round, steady_drift
+from .lengths import DriftMap
+from .result import Row, Study
+from .uncertainty import Record, Uncertainty
 
 #: Points along a curve.
 _CURVE = 40
@@ -29,6 +30,11 @@ _CURVE = 40
 _ASIDE = 1.025
 #: Lowest rise that is drawn on a logarithmic axis, K.
 _FLOOR = 1e-3
+#: With what an unknown is seen that is a part of it.
+SEEN_IN = {
+    "railing_friction": "friction on it {:g}",
+    "roller_conductance": "conductance to them {:g} W/m2K",
+}
 
 
 def _title(cases: list[Case]) -> str:
@@ -78,12 +84,12 @@ def _curves(case: Case, lengths: Array, study: Study) -> Curves:
         # so that the curve falls where the last place comes round, not somewhere beyond
         lengths = np.sort([*lengths, 0.98 * travel, travel, 1.03 * travel])
     belts = [case.with_length(float(length)) for length in lengths]
-    entry, warming, _ = np.transpose([followed(one)[0] for one in belts])
+    rises = [followed(one)[0] for one in belts]
+    entry, warming = np.transpose([(one.run, one.interface_drift) for one in rises])
     steady = np.array([steady_drift(one) for one in belts])
-    if study.answers:
-        return Curves(case, lengths, entry, steady, warming, None)
-    passed = [one.as_the_study().temperature_degC(one.length) for one in belts]
-    return Curves(case, lengths, entry, steady, warming, np.array(passed) - case.ambient_degC)
+    passed = np.array([one.as_the_study().temperature_degC(one.length) for one in belts])
+    single = None if study.answers else passed - case.ambient_degC
+    return Curves(case, lengths, entry, steady, warming, single)
 
 
 @picture("drift_over_length", **FIGURES["drift_over_length"])
@@ -152,7 +158,7 @@ def _mark_end(ax: Axes, length: float, colour: str) -> None:
 def _band(ax: Axes, which: int, study: Study, case: Case, colour: str) -> None:
     """5 to 95 % of the rigs of a speed over the lengths of an own rig, of one of its rises."""
     for answer in study.answers:
-        if answer.case.with_length(1.0) == case.with_length(1.0) and answer.lengths.size:
+        if answer.case.drive == case.drive and answer.lengths.size:
             low, _, high = answer.levels[which]
             style: Any = {"color": colour, "linewidth": 0.0, "alpha": 0.18}
             ax.fill_between(answer.lengths, np.maximum(low, 1e-2 * _FLOOR), high, **style)
@@ -193,21 +199,20 @@ def draw_doubt(row: Row, doubt: Uncertainty) -> Figure:
     height = 1.6 + 0.38 * len(doubt.single_changes)
     figure, axes = panels(1, 2, height=height, width=10.0, sharey=True)
     left, right = axes[0]
-    indices = {one.key: one for one in doubt.influences}
-    single = sorted(doubt.single_changes, key=lambda one: indices[one.key].total)
+    single = sorted(doubt.table(), key=itemgetter("total"))
     places = np.arange(len(single))
-    ends = np.array([(one.drift_low, one.drift_high) for one in single])
+    ends = np.array([(one["drift_low"], one["drift_high"]) for one in single])
     left.hlines(places, *ends.T, color=GREY, linewidth=5.0, alpha=0.5)
     for end, colour, said in zip(ends.T, (BLUE, RED), ("low end", "high end"), strict=True):
         left.plot(end, places, "o", color=colour, markersize=6.0, label=said)
     left.axvline(row.drift.run, color=INK, linewidth=1.0, label="as the case is")
-    left.set_yticks(places, [f"{one.says}\n{_span_of(one)}" for one in single], fontsize=8.5)
+    left.set_yticks(places, [f"{one['says']}\n{_span_of(one)}" for one in single], fontsize=8.5)
     where = f"{row.case.length:g} m at {row.case.speed:g} m/s"
     left.set_title(f"{where}:\neach unknown over its range")
     left.set_xlabel("belt's rise at entry [K]")
     figure.legend(*left.get_legend_handles_labels(), ncols=3, loc="outside upper center")
-    totals = [100.0 * indices[one.key].total for one in single]
-    errors = [100.0 * indices[one.key].total_half_width for one in single]
+    totals = [100.0 * one["total"] for one in single]
+    errors = [100.0 * one["total_half_width"] for one in single]
     right.barh(places, totals, xerr=errors, color=GREY, ecolor=INK, height=0.6)
     right.set_title("total Sobol index of each,\nwith 95 % interval")
     right.set_xlabel("part of the variance of the rise [%]")
@@ -215,14 +220,12 @@ def draw_doubt(row: Row, doubt: Uncertainty) -> Figure:
     return figure
 
 
-def _span_of(one: SingleChange) -> str:
-    unit = {"x": " times", "1": ""}.get(one.unit, f" {one.unit}")
-    others = {
-        "railing_friction": "friction on it {:g}",
-        "roller_conductance": "conductance to them {:g} W/m2K",
-    }
-    seen_in = "".join(f" ({others[key].format(value)})" for key, value in one.with_others.items())
-    said = f"{one.low:g} to {one.high:g}{unit}{seen_in}"
+def _span_of(one: Record) -> str:
+    """Of an unknown the range, and what else is not as the case is."""
+    unit = {"x": " times", "1": ""}.get(one["unit"], f" {one['unit']}")
+    said = f"{one['low']:g} to {one['high']:g}{unit}"
+    for key, value in one["with_others"].items():
+        said += f" ({SEEN_IN[key].format(value)})"
     return said.replace("W/m2K", "W/(m² K)").replace("-", "−")
 
 

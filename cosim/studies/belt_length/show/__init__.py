@@ -1,1 +1,0 @@
-"""What is said and drawn of the study: the verdict in words, figures, the page."""
