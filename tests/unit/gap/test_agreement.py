@@ -375,6 +375,36 @@ def test_of_what_is_promised_the_best_is_found_and_what_is_nearly_as_good_is_ali
     assert found == ["run_in", "load_dependence"]
 
 
+@pytest.mark.parametrize(("simulated", "too_long"), [(3.9e8, False), (4.1e8, True)])
+def test_a_search_has_an_end(simulated, too_long):
+    fitted = SimpleNamespace(work=models.Work(simulated))
+    assert Fitting(None, None, 1, [(fitted, True)]).is_too_long is too_long
+    assert not Fitting(None, None, 1).is_too_long
+
+
+@pytest.mark.parametrize("is_cut", [False, True])
+def test_a_search_that_takes_too_long_asks_for_nothing_more(monkeypatch, is_cut):
+    """Neither the rows after what they pretended, nor for what is hidden."""
+
+    def named(rows):
+        cut = iter([False])  # before the first round
+        monkeypatch.setattr(Fitting, "is_too_long", property(lambda fits: next(cut, is_cut)))
+        gained = {"spring_hardening": 0.0, "film_drag": 90.0, "run_in": 90.0}
+        return agreed(monkeypatch, rows, gained)[0]
+
+    rows = Rows(finding("spring_hardening", 205.0), finding("film_drag", 134.0))
+    assert named(rows) == ["film_drag"] * (not is_cut)
+    rows = Rows(finding("film_drag", 2.0 * SURE), offers=[finding("run_in", 90.0)])
+    assert named(rows) == ["film_drag"] + ["run_in"] * (not is_cut)
+
+
+@pytest.mark.parametrize("is_found", [False, True])
+def test_a_search_that_was_cut_short_says_so(is_found):
+    doubt = find._cut_short(400_000_000, is_found)
+    assert doubt.text.startswith("The search ended after 400 million simulated samples")
+    assert doubt.severe is not is_found
+
+
 def test_what_is_lost_by_itself_goes_before_the_others_are_asked_beside_it(monkeypatch):
     rows = Rows(finding("spring_hardening", 58.0), finding("film_drag", 20.0), most=2)
     gained = {"spring_hardening": -9e3}  # film_drag: KeyError
@@ -455,7 +485,7 @@ def test_a_model_that_comes_out_worse_than_the_one_it_holds_sets_out_from_it(
 
     def fit(campaign, windows, numbers, settings, scatter, starts, near, jobs):
         started.append(starts)
-        return SimpleNamespace(gap=(next(gaps), 1.0), values={"friction.mu_k": 0.2})
+        return SimpleNamespace(gap=(next(gaps), 1.0), values={"friction.mu_k": 0.2}, simulated=7)
 
     monkeypatch.setattr(models, "fit", fit)
     monkeypatch.setattr(models, "started_from", lambda campaign, rows: {})
@@ -469,6 +499,7 @@ def test_a_model_that_comes_out_worse_than_the_one_it_holds_sets_out_from_it(
     assert found.gap[0] == (1.1 if again else reached)
     nested = {"friction.mu_k": 0.2, "friction.transition_speed": 3e-4, "friction.stick_creep": 2e-5}
     assert started[2:] == ([[nested]] if again else [])
+    assert ladder.work.simulated == 7 * (2 + again)
 
 
 @pytest.mark.parametrize(("cost", "again"), [(99.9, False), (100.1, True)])
@@ -478,7 +509,7 @@ def test_a_finding_sets_out_from_the_rows_and_once_from_next_to_nothing(monkeypa
 
     def fit(campaign, windows, numbers, settings, scatter, starts, near, jobs):
         started.extend(starts)
-        return SimpleNamespace(cost=next(costs))
+        return SimpleNamespace(cost=next(costs), simulated=7)
 
     monkeypatch.setattr(models, "fit", fit)
     monkeypatch.setattr(models, "started_from", lambda campaign, rows: {"friction.mu_k": 0.21})
