@@ -150,7 +150,8 @@ def _promising(fitting: Fitting, named: Named, without: Models) -> list[Part]:
     for name, (evidence, added) in named.ladder.further_offers.items():
         finding = Finding(name, added, 0.0)
         part = fitting.part(named.with_findings(*named.findings, finding), finding)
-        if part.in_kernel and not name.startswith("other."):
+        is_wave = added[0].unknown.wave is not None  # which nothing in the model takes up
+        if part.in_kernel and not (is_wave or name.startswith("other.")):
             parts[name], rows[name] = part, evidence - named.ladder.rung.evidence
     promised = dict(zip(parts, without.promised(list(parts.values())), strict=True))
     sooner, is_lone = without.fits[-1].values.get(LOADING, 0.0), not named.ladder.findings

@@ -87,12 +87,6 @@ class Problem:
         rows = self.threads.map(lambda part: part.changes(scaled, more), self.parts)
         return np.concatenate([*rows, np.zeros_like(self._priors(scaled)[0])])
 
-    @property
-    def rows(self) -> list[slice]:
-        """Where each run's residuals are among all."""
-        ends = np.cumsum([part.model.owner.size for part in self.parts]).tolist()
-        return [slice(begin, end) for begin, end in zip([0, *ends], ends, strict=False)]
-
     def _priors(self, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         rows, slopes = np.zeros(len(self.unknowns)), np.zeros(len(self.unknowns))
         known = () if self.leeway is None else self.leeway.labels

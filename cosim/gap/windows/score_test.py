@@ -24,9 +24,6 @@ from .windows import Windows
 #: Part of an effect that is put into the model; what it does to a residual is then some tenth of
 #: the noise, or is made so in so many rounds: far above the integrator's error, and still linear.
 LITTLE, FELT, WANTED, ROUNDS = 0.02, (0.02, 1.0), 0.2, 3
-#: Phases of a wave, degrees: of two any other is a sum.
-PHASES = (0.0, 90.0)
-PHASE = "phase_deg"
 
 
 @dataclass(frozen=True)
@@ -61,49 +58,27 @@ class ScoreTest:
         """ln of how much more probable the runs would be with these numbers, too.
 
         0 of an effect that would have to turn its sign, and of one without a number that says how
-        large it is. A wave may have any size and phase in every run.
+        large it is. Phases stay as given.
         """
         strengths = [n for n in more if n.low <= 0.0 <= n.high and n.scope != "run"
                      and not n.key.rpartition(".")[2].startswith("static_")]  # fmt: skip
         if not strengths:
             return 0.0
-        is_wave = any(number.key.endswith(PHASE) for number in more)
         base = {**settings, **{number.key: number.start for number in more}, **starts}
-        columns = self._columns(base, strengths, PHASES if is_wave else (0.0,))
-        if is_wave:
-            columns = self._of_each_run(columns)
-        left = columns - self.basis @ (self.basis.T @ columns)
-        step = np.linalg.lstsq(left, -self.residuals, rcond=None)[0]
-        if not is_wave and step[0] < 0.0 and all(number.low >= 0.0 for number in strengths):
-            return 0.0
-        remains = self.residuals + left @ step
-        return float(self.residuals @ self.residuals - remains @ remains) / (2.0 * self.misfit)
+        change = self._change(base, strengths)
+        left = change - self.basis @ (self.basis.T @ change)
+        along, square = float(left @ self.residuals), float(left @ left)
+        turns_sign = along > 0.0 and all(number.low >= 0.0 for number in strengths)
+        return 0.0 if turns_sign or square == 0.0 else along**2 / square / (2.0 * self.misfit)
 
-    def _columns(
-        self, base: Mapping[str, float], strengths: Sequence[Number], phases: Sequence[float]
-    ) -> np.ndarray:
-        """(m, phases) what a little of an effect changes."""
-        part, columns = LITTLE, np.zeros((self.residuals.size, len(phases)))
+    def _change(self, base: Mapping[str, float], strengths: Sequence[Number]) -> np.ndarray:
+        """(m,) of the residuals by a little of an effect."""
+        part, change = LITTLE, np.zeros_like(self.residuals)
         for _ in range(ROUNDS):
-            little = {**base, **{n.key: part * n.start for n in strengths}}
-            columns = np.column_stack([self.problem.changes(self.scaled, _turned(little, phase))
-                                       for phase in phases])  # fmt: skip
-            size = float(np.sqrt(np.mean(columns**2)))
+            little = {**base, **{number.key: part * number.start for number in strengths}}
+            change = self.problem.changes(self.scaled, little)
+            size = float(np.sqrt(np.mean(change**2)))
             if size == 0.0 or FELT[0] < size < FELT[1]:
                 break
             part *= WANTED / size
-        return columns
-
-    def _of_each_run(self, columns: np.ndarray) -> np.ndarray:
-        """(m, runs phases) columns of one run alone each."""
-        rows = self.problem.rows
-        alone = np.zeros((len(columns), len(rows), columns.shape[1]))
-        for number, own in enumerate(rows):
-            alone[own, number] = columns[own]
-        return alone.reshape(len(columns), -1)
-
-
-def _turned(values: Mapping[str, float], phase: float) -> dict[str, float]:
-    """With a wave's phases farther by so much, degrees."""
-    return {label: value + phase if label.partition("@")[0].endswith(PHASE) else value
-            for label, value in values.items()}  # fmt: skip
+        return change

@@ -375,6 +375,14 @@ def test_of_what_is_promised_the_best_is_found_and_what_is_nearly_as_good_is_ali
     assert found == ["run_in", "load_dependence"]
 
 
+def test_no_wave_is_promised_that_rows_do_not_find(monkeypatch):
+    """Neither contact nor scatter takes it up; but with a size and a phase of every run it fits
+    what a contact leaves."""
+    wave = Added(Unknown("speed_ripple", "", None, np.eye(1), wave="of some length"))
+    rows = Rows(offers=[Finding("speed_ripple", (wave,), 900.0)])
+    assert agreed(monkeypatch, rows, {"speed_ripple": 900.0})[0] == []
+
+
 @pytest.mark.parametrize(("simulated", "too_long"), [(3.9e8, False), (4.1e8, True)])
 def test_a_search_has_an_end(simulated, too_long):
     fitted = SimpleNamespace(work=models.Work(simulated))
