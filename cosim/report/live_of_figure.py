@@ -3,7 +3,6 @@
 Curves with times of their own, as of several models, then share an axis.
 """
 
-import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -37,7 +36,7 @@ def _figure(group: Sequence[Axes], labels: dict[str, str], rows: dict[float, str
     for axes in group:
         label = axes.get_ylabel() or rows[round(axes.get_position().y0, 6)]
         own = [_series(line, labels, label) for line in axes.lines if _is_curve(axes, line)]
-        panels.append((Panel(_with_brackets(label), [], levels=_straight(axes)), own))
+        panels.append((Panel(label, [], levels=_straight(axes)), own))
     seen = panels_on_one_axis(panels, group[0].get_xlim())
     return TimeFigure(*seen, marks=_straight(group[0], upright=True)).live()
 
@@ -49,7 +48,7 @@ def _is_curve(axes: Axes, line: Line2D) -> bool:
 def _series(line: Line2D, labels: dict[str, str], axis: str) -> Series:
     colour = to_hex(line.get_color())
     own = str(line.get_label())
-    label = labels.get(colour, re.split(r"[\[,(]", axis)[0].strip()) if own[:1] == "_" else own
+    label = labels.get(colour, axis.partition(" [")[0]) if own[:1] == "_" else own
     time, values = (np.asarray(each, float) for each in line.get_data())
     dots = line.get_linestyle() in ("None", "", " ")
     dash = line.get_linestyle() == "--"
@@ -77,8 +76,3 @@ def _straight(axes: Axes, upright: bool = False) -> list[tuple[float, str]]:
 def _named(line: Line2D) -> str:
     label = str(line.get_label())
     return "" if label.startswith("_") else label
-
-
-def _with_brackets(label: str) -> str:
-    """ "x, cm" and "x (cm)" as the pages have it: "x [cm]"."""
-    return re.sub(r"^(.*?)(?:, | \()([^,()]+)\)?$", r"\1 [\2]", label)

@@ -33,7 +33,7 @@ UPRIGHT = 4
 SHORT = 12
 #: A law over so wide a range has a logarithmic axis.
 WIDE = 30.0
-SCALES = {"x": (1e3, "x (mm)"), "y": (1e3, "y (mm)"), "phi": (1e3, "φ (mrad)")}
+SCALES = {"x": (1e3, "x [mm]"), "y": (1e3, "y [mm]"), "phi": (1e3, "φ [mrad]")}
 WIDTH = 8.4
 #: Noise units: linear up to here, logarithmic beyond.
 LINEAR = 3.0
@@ -74,7 +74,7 @@ def draw_ladder(gap: Gap) -> Figure:
     axis.set_xticks(range(count), names, **lean)
     axis.set_xlim(-0.5, count - 0.5)
     axis.grid(visible=False, axis="x")
-    axis.set_ylabel("gap (units of the noise)")
+    axis.set_ylabel("gap [units of the noise]")
     figure.legend(loc="outside upper center", ncols=3)
     return figure
 
@@ -82,7 +82,7 @@ def draw_ladder(gap: Gap) -> Figure:
 def _logarithmic_y(axis: Axes, low: float, high: float) -> None:
     axis.set_ylim(low, high)
     axis.set_yscale("log")
-    subs = (1, 1.5, 2, 3, 5, 7) if high < 5.0 * low else (1, 2, 5)
+    subs = (1, 1.5, 2, 3, 5, 7, 8) if high < 5.0 * low else (1, 2, 5)
     axis.yaxis.set_major_locator(LogLocator(subs=subs))
     axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.yaxis.set_minor_formatter(NullFormatter())
@@ -124,8 +124,8 @@ def _draw_law(axis: Axes, law: Law) -> None:
     axis.set_ylim(low - room, high + room)
     if at.min() > 0.0 and at.max() > WIDE * at.min():
         logarithmic_x(axis)
-    axis.set_xlabel(law.quantity + (f" ({scaled.unit})" if law.unit not in ("", "1") else ""))
-    axis.set_ylabel("force along x (N)" if is_force else f"change of {symbol} (%)")
+    axis.set_xlabel(law.quantity + (f" [{scaled.unit}]" if law.unit not in ("", "1") else ""))
+    axis.set_ylabel("force along x [N]" if is_force else f"change of {symbol} [%]")
     axis.set_title(law.effect)
     axis.legend(loc="best", frameon=True, facecolor="white", edgecolor="none", framealpha=0.9)
 
@@ -204,7 +204,7 @@ def _residuals(axis: Axes, gap: Gap, run: MeasuredRun, channel: str) -> None:
     axis.minorticks_off()
     axis.set_ylim(-1.4 * largest, 1.4 * largest)
     axis.set_title(f"{run.name}: gap {' → '.join(gaps)}")
-    axis.set_ylabel(f"{channel.replace('phi', 'φ')} (noise)")
+    axis.set_ylabel(f"{channel.replace('phi', 'φ')} [noise]")
 
 
 def _motion(axis: Axes, gap: Gap, run: MeasuredRun, channel: str, size: float) -> None:
@@ -223,7 +223,7 @@ def _motion(axis: Axes, gap: Gap, run: MeasuredRun, channel: str, size: float) -
 
 def _labelled(figure: Figure, axes: Any) -> Figure:
     """With a time axis and a legend."""
-    axes[-1, 0].set_xlabel("time in the run (s)")
+    axes[-1, 0].set_xlabel("time in the run [s]")
     handles, labels = axes[0, 0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper right", ncols=3)
     return figure

@@ -30,8 +30,8 @@ def drawn():
         axes[0, column].set_title(f"as {name}", loc="left")
         axes[0, column].set_xlim(0.0, 1.0)
         axes[1, column].set_xlim(0.0, 1.0)
-    axes[0, 0].set_ylabel("x, cm")
-    axes[1, 0].set_ylabel("φ (mrad)")
+    axes[0, 0].set_ylabel("x [cm]")
+    axes[1, 0].set_ylabel("φ [mrad]")
     figure.draw_without_rendering()
     return figure
 

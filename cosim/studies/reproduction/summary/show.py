@@ -165,6 +165,6 @@ def draw_observations(gap: SummaryGap) -> Figure:
     axis.set_yticks(places, names)
     axis.invert_yaxis()
     axis.set_xscale("symlog", linthresh=3.0)
-    axis.set_xlabel("modelled less observed (standard deviations)")
+    axis.set_xlabel("modelled less observed [standard deviations]")
     figure.legend(loc="outside upper right", ncols=3)
     return figure
