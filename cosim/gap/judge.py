@@ -26,11 +26,11 @@
     e^50 with it, e^30 by another of its laws, or, below e^500 (e^12: a trend from run to run beside
     a greater one), it takes neither all nor half of what they miss without it, at last or before
     friction may scatter, or a greater one explains them before that. So for four rounds; then rows
-    are asked for one finding alone, and then for none. What the simulated runs' own derivatives
-    promise e^25 for, beside fewer than two findings, in rows by e^6, too, where runs are left above
-    1.1, and static friction over the hold time, where
-    the contact lets go by 10 ms sooner, is found where the runs are e^50 times as probable with it,
-    e^6 times without what a scatter may be worth. `none` is no finding left, and every run at 1.1
+    are asked for one finding alone, and then for none. Beside fewer than two findings, what rows
+    ask for by e^6, or derivatives of the simulated runs by e^25 where these are left at 1.1 at
+    most, and static friction over the hold time where the contact lets go by 10 ms sooner, is found
+    where the runs are e^50 times as probable with it, e^6 times without what a scatter may be
+    worth. `none` is no finding left, and every run at 1.1
     at most; without any held out nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them, and fitted
     ones, too, or most of their misfit gone; `partial` where held-out runs are better but stay above
@@ -226,19 +226,20 @@ def promising(
 ) -> list[str]:  # fmt: skip
     """What simulated runs are asked for beside the findings, the most promising first.
 
-    Contact and scatter may have taken up what rows then hardly see; where these leave something,
-    what takes that must be in the rows, too.
+    What rows ask for and hardly miss; and, where contact and scatter leave nothing, what these may
+    have taken up so that rows do not see it.
 
     promised, rows : name -> ln of how much more probable runs would be with it, to first order, and
     rows are; left : gap of the model without it; is_lone : beside no finding; sooner : by which
     time the contact lets go, s: that is all that ageing does to first order
     """
-    asked = {name: promised[name] - price_of(name) for name in promised
-             if rows[name] > LEAST_GAIN or not leaves(left)}  # fmt: skip
-    if AGEING in promised and is_lone and is_asked_for_ageing(sooner):
+    asked = {name: gain for name, gain in rows.items() if gain > LEAST_GAIN}
+    for name, gain in promised.items():
+        if gain - price_of(name) > PROMISED and not leaves(left):
+            asked[name] = max(gain - price_of(name), asked.get(name, 0.0))
+    if AGEING in rows and is_lone and is_asked_for_ageing(sooner):
         asked[AGEING] = math.inf
-    names = [name for name in asked if asked[name] > PROMISED]
-    return sorted(names, key=lambda name: -asked[name])[:HINTS]
+    return sorted(asked, key=lambda name: -asked[name])[:HINTS]
 
 
 def is_hidden(gained: float) -> bool:
@@ -304,9 +305,9 @@ def told_by_both(finding: Finding, name: str, simulated: float) -> float:
     contradict.
     """
     rows = finding.others[name]
-    if rows > -ALIKE:
-        return simulated if simulated < -LEAST_GAIN else rows
-    return 0.0 if simulated > 0.0 and rows > -UNDECIDED else rows
+    if simulated < -LEAST_GAIN:
+        return min(rows, simulated)
+    return 0.0 if simulated > 0.0 and -UNDECIDED < rows <= -ALIKE else rows
 
 
 def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:

@@ -210,6 +210,8 @@ def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monke
         (30.0, -2.9, 14.1, -2.9),  # a class, which simulated runs do not tell apart
         (30.0, -2.9, 13.9, -6.1),
         (30.0, -3.1, 19.9, -3.1),
+        (30.0, -3.1, 14.1, -3.1),
+        (30.0, -3.1, 13.9, -6.1),  # nor can noise confuse what simulated runs tell apart
         (499.0, -11.9, 20.1, 0.0),  # they contradict the rows
         (2e4, -2.9, 13.9, -6.1),
         (2e4, -11.9, 20.1, 0.0),
@@ -341,10 +343,14 @@ def test_what_simulated_runs_promise_is_found_where_they_are_then_sure(
 
 
 @pytest.mark.parametrize(
-    ("reached", "hinted", "named"), [(1.09, 0.0, 1), (1.11, 0.0, 0), (1.11, 5.9, 0), (1.11, 6.1, 1)]
-)
-def test_what_runs_still_miss_is_in_the_rows_too(monkeypatch, reached, hinted, named):
-    rows = Rows(finding("run_in", 2.0 * SURE), offers=[finding("film_drag", 90.0)], hinted=hinted)
+    ("reached", "promised", "hinted", "named"),
+    [(1.09, 90.0, 0.0, 1), (1.11, 90.0, 0.0, 0), (1.11, 90.0, 5.9, 0), (1.11, 0.0, 6.1, 1),
+     (1.09, 0.0, 5.9, 0)],
+)  # fmt: skip
+def test_what_runs_still_miss_is_in_the_rows_too(monkeypatch, reached, promised, hinted, named):
+    """What these ask for and hardly miss needs no promise."""
+    offers = [finding("film_drag", promised)]
+    rows = Rows(finding("run_in", 2.0 * SURE), offers=offers, hinted=hinted)
     found, _ = agreed(monkeypatch, rows, {"film_drag": 90.0}, reached=reached)
     assert found == ["run_in", *["film_drag"] * named]
 
