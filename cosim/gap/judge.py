@@ -88,7 +88,7 @@ MUCH_MORE, HIDDEN = 30.0, 50.0
 PROMISED, HINTS = 0.5 * HIDDEN, 3
 #: Samples of simulated runs after which nothing more is asked for: minutes; of 76 campaigns with
 #: known answers one needs more.
-LONGEST = 4e8
+LONGEST = 1.2e8
 #: Scatter of friction from run to run, the least that is probable in what is stated of it, beyond
 #: which it stands for something that is missing.
 STRAINED = 2.0

@@ -13,6 +13,7 @@ from cosim.gap.windows import (
     Number,
     fit,
     judge,
+    run_model,
     sticks_of,
     user_model,
     windows_of,
@@ -323,3 +324,20 @@ def test_numbers_that_act_alike_are_simulated_once(plain, monkeypatch):
     for place, unit in enumerate(1e-3 * np.eye(4)):
         alone = (part.model.residuals(part.values(unit), at.states) - at.residuals) / 1e-3
         assert slopes[:, place] == pytest.approx(alone, abs=0.01 * np.abs(alone).max())
+
+
+def test_what_a_fit_takes_is_counted(plain, monkeypatch):
+    """Every sample of every track, held-out runs' too; a disc's as five."""
+    simulated, track = [], run_model.track_restarted
+
+    def counted(p, speed, temperature, times, *given, **named):
+        simulated.append(times.size)
+        return track(p, speed, temperature, times, *given, **named)
+
+    monkeypatch.setattr(run_model, "track_restarted", counted)
+    numbers, settings = user_model(plain)
+    windows = windows_of_campaign(plain)
+    for across, factor in ((0.0, 1), (1.0, 5)):
+        simulated.clear()
+        held = settings | {"lateral_friction.ratio": across}
+        assert fit(plain, windows, numbers[:1], held).simulated == factor * sum(simulated) > 0
