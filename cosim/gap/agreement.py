@@ -130,18 +130,34 @@ def _further(fitting: Fitting, parts: list[Part], named: Named) -> tuple[list[Pa
     is_full = fitting.is_too_long or beside >= MOST_FINDINGS
     if is_full or rounding_of(fitting.campaign) is not None:
         return parts, named
-    without, found = fitting.fitted(named, parts), []
-    for part in _promising(fitting, named, without):
-        gained = without.gained(part) - price_of(part.finding.name)
-        if judge.is_hidden(gained) and judge.runs_ask(without.nearer(part)):
-            found.append(replace(part, finding=replace(part.finding, gain=gained)))
+    without = fitting.fitted(named, parts)
+    tried = [_simulated(part, without) for part in _promising(fitting, named, without)]
+    hidden = [part for part in tried if judge.is_hidden(part.finding.gain)]
+    found = [part for part in hidden if judge.runs_ask(without.nearer(part))]
     if not found:
         return parts, named
+    most = max(part.finding.gain for part in found)
+    near = [part for part in found if part.finding.gain > most - judge.TURNED]
+    if len(near) > 1:  # by which law each is tried decides then
+        found = [_best_form(fitting, part, without, named) for part in near]
     part = max(found, key=lambda one: one.finding.gain)
     others = {one.finding.name: one.finding.gain - part.finding.gain
               for one in found if one is not part}  # fmt: skip
     finding = replace(part.finding, others=others)
     return [*parts, replace(part, finding=finding)], named.with_findings(*named.findings, finding)
+
+
+def _simulated(part: Part, without: Models) -> Part:
+    """A finding with what simulated runs gain by it, less its price."""
+    gained = without.gained(part) - price_of(part.finding.name)
+    return replace(part, finding=replace(part.finding, gain=gained))
+
+
+def _best_form(fitting: Fitting, part: Part, without: Models, named: Named) -> Part:
+    """A finding by that law of its effect with which simulated runs gain most."""
+    there = named.with_findings(*named.findings, part.finding)
+    forms = (_simulated(form, without) for form in fitting.forms(part, there))
+    return max(forms, key=lambda form: form.finding.gain)
 
 
 def _promising(fitting: Fitting, named: Named, without: Models) -> list[Part]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import islice
 
 from cosim.gap import judge
 from cosim.gap.data import Campaign
@@ -65,12 +66,18 @@ class Fitting:
         """
         first = without.gained(part)
         if abs(first) <= LEAST_GAIN + price_of(part.finding.name):
-            for law in part.rivals(self.campaign):
-                if law.effect == part.effect:
-                    gained = without.gained(self.part(named, part.finding, law))
-                    if judge.much_more(gained):
-                        return gained
+            for form in islice(self.forms(part, named), 1, None):
+                gained = without.gained(form)
+                if judge.much_more(gained):
+                    return gained
         return first
+
+    def forms(self, part: Part, named: Named) -> Iterator[Part]:
+        """A finding by each law of its effect that is nearly as near to its curve."""
+        yield part
+        for law in part.rivals(self.campaign):
+            if law.effect == part.effect:
+                yield self.part(named, part.finding, law)
 
     def best_of(self, parts: list[Part], named: Named) -> tuple[list[Part], Models]:
         """With laws that follow the curves, or with the curves where the runs ask for them.

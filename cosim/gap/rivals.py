@@ -44,9 +44,7 @@ def _more(fitting: Fitting, rival: Part, lone: Part, without: Models, named: Nam
     """
     finding, forms = lone.finding, [rival]
     if finding.others[rival.finding.name] > -ALIKE:
-        there = named.with_findings(rival.finding)
-        forms += [fitting.part(there, rival.finding, law) for law in rival.rivals(fitting.campaign)
-                  if law.effect == rival.effect]  # fmt: skip
+        forms = [*fitting.forms(rival, named.with_findings(rival.finding))]
     over, price = (lone, price_of(finding.name)) if lone.in_kernel else (None, 0.0)
     return max(without.gained(form, over) for form in forms) - price_of(rival.finding.name) + price
 

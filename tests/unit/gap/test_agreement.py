@@ -87,7 +87,8 @@ def agreed(
             pass
 
         def gained(self, part, over=None):
-            return gained[part.finding.name] - (gained[over.finding.name] if over else 0.0)
+            form = gained.get((part.finding.name, *part.settings), gained[part.finding.name])
+            return form - (gained[over.finding.name] if over else 0.0)
 
         def nearer(self, part):
             return nearer
@@ -417,6 +418,22 @@ def test_a_search_that_was_cut_short_says_so(is_found):
     doubt = find._cut_short(120_000_000, is_found)
     assert doubt.text.startswith("The search ended after 120 million simulated samples")
     assert doubt.severe is not is_found
+
+
+@pytest.mark.parametrize(("gain", "name"), [(199.0, "film_drag"), (201.0, "structural_damping")])
+def test_of_two_hidden_ones_near_each_other_every_form_of_their_laws_is_tried(
+    monkeypatch, gain, name
+):
+    """structural_damping is ahead of film_drag by so much until another form of that is tried."""
+
+    def forms(self, part, named):
+        yield from (part, replace(part, settings={"root": 1.0}))
+
+    monkeypatch.setattr(Fitting, "forms", forms)
+    offers = [finding(one, 90.0) for one in ("film_drag", "structural_damping")]
+    gains = {"film_drag": 60.0, "structural_damping": 60.0 + gain, ("film_drag", "root"): 900.0}
+    rows = Rows(finding("run_in", 2.0 * SURE), offers=offers)
+    assert agreed(monkeypatch, rows, gains | {"run_in": 900.0})[0] == ["run_in", name]
 
 
 def test_what_is_lost_by_itself_goes_before_the_others_are_asked_beside_it(monkeypatch):
