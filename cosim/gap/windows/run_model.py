@@ -28,8 +28,6 @@ FEW_POINTS = 0.6
 #: on an even surface that moves steadily much longer, as the load only grows.
 LONGER, LONGER_STICK = 2.0, 20.0
 FRICTION = ("friction.mu_s", "friction.mu_k")
-#: Friction across, in parts of that along x; a sample of a disc takes so many times as long.
-ACROSS, DISC = "lateral_friction.ratio", 5
 #: Standard deviations of y and phi at a window's start where the tracker does not have them, m and
 #: rad, and of their velocities in these times the frequency of the free vibration: what springs and
 #: friction let a block do. Without them what a window hardly feels may take any value.
@@ -108,7 +106,7 @@ class RunModel:
     starts : the first residual of each window that is compared; those of a window stand together
     owner : (rows,) window of each residual, then of each stick's prior and of each state's
     rounding : (size,) factor by which the noise of each is larger than stated
-    simulated : samples of all tracks so far; where friction acts across they count as `DISC`
+    simulated : samples of all tracks so far
     """
 
     def __init__(self, campaign: Campaign, run: MeasuredRun, windows: Windows):
@@ -187,8 +185,7 @@ class RunModel:
         """
         run = self.run
         p = self.packed(values) if p is None else p
-        is_disc = values.get(ACROSS, self.known[ACROSS]) > 0.0
-        self.simulated += run.motion.time.size * (DISC if is_disc else 1)
+        self.simulated += run.motion.time.size
         speed = run.surface_speed * (1.0 + values.get("offset.speed", 0.0))
         count = self.restarts.size
         own, since, friction = (

@@ -14,8 +14,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .run_model import ACROSS, BREAK_AWAY, RunModel
+from .run_model import BREAK_AWAY, RunModel
 
+#: Friction across, in parts of that along x.
+ACROSS = "lateral_friction.ratio"
 #: Finite differences of a state, in units of the noise (velocities: noise times omega).
 STEP = 1e-3
 #: The same of a stick's own friction: 1e-5 of some cm are tenths of a micrometre.

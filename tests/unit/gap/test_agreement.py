@@ -390,7 +390,7 @@ def test_no_wave_is_promised_that_rows_do_not_find(monkeypatch):
     assert agreed(monkeypatch, rows, {"speed_ripple": 900.0})[0] == []
 
 
-@pytest.mark.parametrize(("simulated", "too_long"), [(1.1e8, False), (1.3e8, True)])
+@pytest.mark.parametrize(("simulated", "too_long"), [(1.4e8, False), (1.6e8, True)])
 def test_a_search_has_an_end(simulated, too_long):
     fitted = SimpleNamespace(work=models.Work(simulated))
     assert Fitting(None, None, 1, [(fitted, True)]).is_too_long is too_long
@@ -415,8 +415,8 @@ def test_a_search_that_takes_too_long_asks_for_nothing_more(monkeypatch, is_cut)
 
 @pytest.mark.parametrize("is_found", [False, True])
 def test_a_search_that_was_cut_short_says_so(is_found):
-    doubt = find._cut_short(120_000_000, is_found)
-    assert doubt.text.startswith("The search ended after 120 million simulated samples")
+    doubt = find._cut_short(150_000_000, is_found)
+    assert doubt.text.startswith("The search ended after 150 million simulated samples")
     assert doubt.severe is not is_found
 
 

@@ -327,7 +327,7 @@ def test_numbers_that_act_alike_are_simulated_once(plain, monkeypatch):
 
 
 def test_what_a_fit_takes_is_counted(plain, monkeypatch):
-    """Every sample of every track, held-out runs' too; a disc's as five."""
+    """Every sample of every track, held-out runs' too."""
     simulated, track = [], run_model.track_restarted
 
     def counted(p, speed, temperature, times, *given, **named):
@@ -337,7 +337,4 @@ def test_what_a_fit_takes_is_counted(plain, monkeypatch):
     monkeypatch.setattr(run_model, "track_restarted", counted)
     numbers, settings = user_model(plain)
     windows = windows_of_campaign(plain)
-    for across, factor in ((0.0, 1), (1.0, 5)):
-        simulated.clear()
-        held = settings | {"lateral_friction.ratio": across}
-        assert fit(plain, windows, numbers[:1], held).simulated == factor * sum(simulated) > 0
+    assert fit(plain, windows, numbers[:1], settings).simulated == sum(simulated) > 0
