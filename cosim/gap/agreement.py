@@ -164,10 +164,11 @@ def _promising(fitting: Fitting, named: Named, without: Models) -> list[Part]:
     """What the simulated runs' derivatives promise to gain by, the most promising first."""
     parts, rows = {}, {}
     for name, (evidence, added) in named.ladder.further_offers.items():
+        if name.startswith("other.") or added[0].unknown.wave is not None:
+            continue  # nothing in the model stands for it, or takes it up
         finding = Finding(name, added, 0.0)
         part = fitting.part(named.with_findings(*named.findings, finding), finding)
-        is_wave = added[0].unknown.wave is not None  # which nothing in the model takes up
-        if part.in_kernel and not (is_wave or name.startswith("other.")):
+        if part.in_kernel:
             parts[name], rows[name] = part, evidence - named.ladder.rung.evidence
     promised = dict(zip(parts, without.promised(list(parts.values())), strict=True))
     sooner, is_lone = without.fits[-1].values.get(LOADING, 0.0), not named.ladder.findings
