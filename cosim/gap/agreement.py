@@ -124,11 +124,14 @@ def _further(fitting: Fitting, parts: list[Part], named: Named) -> tuple[list[Pa
     """With one more finding along x that simulated runs are much more probable with.
 
     The contact's numbers and scatter may leave rows next to nothing of it. Not beside coarse
-    steps, whose errors go together (`unsure`).
+    steps, whose errors go together (`unsure`), nor beside a fault of the camera: that has one of a
+    few courses, and what they leave of it is no noise either.
     """
-    beside = len(named.ladder.findings) + 1
-    is_full = fitting.is_too_long or beside >= MOST_FINDINGS
-    if is_full or rounding_of(fitting.campaign) is not None:
+    is_full = fitting.is_too_long or len(named.ladder.findings) + 1 >= MOST_FINDINGS
+    is_faulty = rounding_of(fitting.campaign) is not None or any(
+        one.name.startswith("measurement.") for one in named.findings
+    )
+    if is_full or is_faulty:
         return parts, named
     without = fitting.fitted(named, parts)
     tried = [_simulated(part, without) for part in _promising(fitting, named, without)]

@@ -321,6 +321,16 @@ def test_beside_coarse_steps_no_promise_is_followed(monkeypatch):
     assert agreed(monkeypatch, rows, gains)[0] == ["run_in", "film_drag"]
 
 
+@pytest.mark.parametrize("across", [0, 1])
+def test_beside_a_fault_of_the_camera_no_promise_is_followed(monkeypatch, across):
+    """What its course leaves of it is no noise."""
+    drift = finding("measurement.drift", 2.0 * SURE)
+    turned = Finding("measurement.rotation", (), 2.0 * SURE, numbers={"rotation": (0.1, 0.01)})
+    rows = Rows(turned if across else drift, offers=[finding("film_drag", 90.0)])
+    found, _ = agreed(monkeypatch, rows, {"film_drag": 900.0})
+    assert found == [turned.name if across else drift.name]
+
+
 @pytest.mark.parametrize(
     ("name", "promised", "gained", "nearer", "named"),
     [
