@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -40,10 +41,16 @@ class Curve:
 
     def at(self, values: np.ndarray) -> np.ndarray:
         """(n, q) what each node's value adds at arguments (n,); straight on beyond the ends."""
-        splines = CubicSpline(self.nodes, np.eye(self.nodes.size), bc_type="not-a-knot")
         inside = np.clip(values, self.nodes[0], self.nodes[-1])
-        beyond = (values - inside)[:, None] * splines(inside, 1)
-        return np.asarray(splines(inside) + beyond, dtype=float)
+        there, is_beyond = self._splines(inside), values != inside
+        off = (values - inside)[is_beyond, None]
+        there[is_beyond] += off * self._splines(inside[is_beyond], 1)
+        return np.asarray(there, dtype=float)
+
+    @cached_property
+    def _splines(self) -> CubicSpline:
+        """1 at a node, 0 at the others; the same for all runs."""
+        return CubicSpline(self.nodes, np.eye(self.nodes.size), bc_type="not-a-knot")
 
 
 @dataclass(frozen=True)
