@@ -1,5 +1,6 @@
 """`--set key=value`: what is said on the command line in place of what a file has."""
 
+import copy
 import tomllib
 from collections.abc import Collection, Iterable, Mapping
 from typing import Any
@@ -53,28 +54,20 @@ def changes_named(named: Mapping[str, Any], tables: Collection[str]) -> dict[str
 
 
 def changed_tables(tables: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """The tables of a file with `table.key` -> value put in; what is no table is replaced by one.
+    """The tables of a file with `table.key` -> value put in; what is no table there stays, as a
+    fault of the file.
 
     A third name is a key of a table in a table, as `coupling.absolute_tolerances.block.x`.
     """
-    changed = {key: dict(value) if isinstance(value, dict) else value
-               for key, value in tables.items()}  # fmt: skip
+    changed = copy.deepcopy(dict(tables))
     for key, value in changes.items():
-        table, dot, entry = key.partition(".")
-        if not dot:
-            changed[table] = value
-            continue
-        entry, further, name = entry.partition(".")
-        here = changed[table] = _table(changed.get(table))
-        if further:
-            here[entry] = {**_table(here.get(entry)), name: value}
-        else:
+        *names, entry = key.split(".", 2)
+        here: Any = changed
+        for name in names:
+            here = here.setdefault(name, {}) if isinstance(here, dict) else None
+        if isinstance(here, dict):
             here[entry] = value
     return changed
-
-
-def _table(entries: Any) -> dict[str, Any]:
-    return entries if isinstance(entries, dict) else {}
 
 
 def is_of_change(fault: str, changes: Mapping[str, Any]) -> bool:

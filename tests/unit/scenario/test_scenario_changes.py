@@ -1,5 +1,6 @@
 """`--set key=value`: one way on every command that takes a scenario, checked as a file is."""
 
+import copy
 import json
 
 import pytest
@@ -50,17 +51,33 @@ def test_the_last_of_a_key_counts_and_a_key_is_needed():
 
 
 def test_tables_are_changed_and_not_those_that_were_given():
-    tables = {"name": "a", "rig": {"mass": 1.0}, "run": 3}
+    """What is no table stays, and is said to be none."""
+    tables = {"name": "a", "rig": {"mass": 1.0}, "run": 3, "of": {"belt": 4}}
+    given = copy.deepcopy(tables)
     changed = changed_tables(
-        tables, {"name": "b", "rig.mass": 2.0, "run.duration": 5.0, "coupling.of.a.port": 1e-9}
+        tables,
+        {
+            "name": "b",
+            "rig.mass": 2.0,
+            "run.duration": 5.0,
+            "coupling.of.a.port": 1e-9,
+            "of.belt.length": 2.0,
+        },
     )
     assert changed == {
         "name": "b",
         "rig": {"mass": 2.0},
-        "run": {"duration": 5.0},
+        "run": 3,
         "coupling": {"of": {"a.port": 1e-9}},
+        "of": {"belt": 4},
     }
-    assert tables == {"name": "a", "rig": {"mass": 1.0}, "run": 3}
+    assert tables == given
+
+
+def test_a_key_that_is_set_hides_no_fault_of_the_file(tmp_path):
+    (tmp_path / "case.toml").write_text("surface = 3\n")
+    with pytest.raises(ScenarioError, match=r"surface: not a table \(3\)"):
+        read_scenario("case.toml", {"surface.speed": 0.2})
 
 
 def test_keywords_are_keys_or_tables_of_them():
