@@ -86,8 +86,8 @@ MUCH_MORE, HIDDEN = 30.0, 50.0
 #: What derivatives must promise of what a fit must find (`HIDDEN`): half, as they have promised
 #: e^401 of e^661. And so many effects are fitted, the most promising first.
 PROMISED, HINTS = 0.5 * HIDDEN, 3
-#: Samples of simulated runs after which nothing more is asked for: some minutes. Right answers on
-#: 70 campaigns have taken 2 to 130 million.
+#: Samples of simulated runs after which nothing more is asked for: some minutes. What was named
+#: rightly on 70 campaigns took 2 to 130 million.
 LONGEST = 1.5e8
 #: Scatter of friction from run to run, the least that is probable in what is stated of it, beyond
 #: which it stands for something that is missing.
