@@ -85,7 +85,7 @@ def agreement_on(fitting: Fitting, named: Named) -> Agreed | Sequence[Rejected]:
     rivals = rivals_of(fitting, parts, named, models)
     if doubted := overruled(fitting, parts, named, rivals):
         return [doubted]
-    named = told_apart(fitting, named, rivals)
+    named = told_apart(named, rivals)
     found = [replace(part, finding=finding)
              for part, finding in zip(found, named.findings, strict=True)]  # fmt: skip
     return Agreed(named, found, models, left_without=_left_without(fitting, found, models, named))

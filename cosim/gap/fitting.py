@@ -56,6 +56,7 @@ class Fitting:
         return models
 
     def without(self, part: Part, parts: Sequence[Part], named: Named) -> Models:
+        """Models of the other findings."""
         return self.fitted(named, [other for other in parts if other is not part], is_shown=False)
 
     def gained(self, part: Part, without: Models, named: Named) -> float:
@@ -102,14 +103,3 @@ class Fitting:
                 if others.ladder[-1].gap.of_verdict < models.ladder[-1].gap.of_verdict:
                     return points, others
         return parts, models
-
-
-def lone_of(parts: Sequence[Part]) -> Part | None:
-    """The only finding along x, beside what moves the block across."""
-    along = [part for part in parts if part.finding.added]
-    return along[0] if len(along) == 1 else None
-
-
-def greatest_of(parts: Sequence[Part]) -> Part | None:
-    """The finding that the rows ask for most."""
-    return max(parts, key=lambda part: part.finding.gain, default=None)

@@ -338,7 +338,7 @@ class Models:
 
 def _next_to_nothing(numbers: Sequence[Number]) -> dict[str, float]:
     """key -> value from which a model is next to the one without these numbers."""
-    slight = {n.key: HARDLY * n.start for n in numbers if n.low <= 0.0 <= n.high}
+    slight = {n.key: HARDLY * n.start for n in numbers if n.may_vanish}
     sudden = {n.key: n.low for n in numbers if n.key == TRANSITION_SPEED}
     return slight | sudden
 

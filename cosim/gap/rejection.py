@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 
 from cosim.gap import judge
 from cosim.gap.extended import Part, rounding_of
-from cosim.gap.fitting import Fitting, greatest_of
+from cosim.gap.fitting import Fitting
 from cosim.gap.naming import Named
 from cosim.gap.result import Rejected
 from cosim.gap.weak_form.ladder import price_of
@@ -28,7 +28,7 @@ def outdone(
     One by one they would all go (see `rejected`), each after fits of its own; not so where
     simulated runs are sure of one.
     """
-    greatest = greatest_of(parts)
+    greatest = _greatest(parts)
     lesser = [part for part in parts if part is not greatest and part.finding.name in asked]
     if greatest is None or len(lesser) < 2 or any(p.finding.gain >= judge.SURE for p in lesser):
         return []
@@ -48,7 +48,7 @@ def lost(
 ) -> Rejected | None:
     """The greatest finding, where simulated runs are much worse with it alone, and ask for it
     by no more than e^30 beside contact and scatter: nothing is built upon it."""
-    greatest = greatest_of(parts)
+    greatest = _greatest(parts)
     if greatest is None or greatest.finding.name not in asked or not greatest.in_kernel:
         return None
     alone = fitting.fitted(named, [greatest], is_shown=False, scatters=False)
@@ -126,3 +126,8 @@ def _makes_up(fitting: Fitting, part: Part, parts: Sequence[Part], named: Named)
         return True
     left = without.unscattered
     return judge.leaves(left) and judge.halves(found.unscattered, left)
+
+
+def _greatest(parts: Sequence[Part]) -> Part | None:
+    """The finding that the rows ask for most."""
+    return max(parts, key=lambda part: part.finding.gain, default=None)

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from cosim.gap import judge
 from cosim.gap.extended import Part
-from cosim.gap.fitting import Fitting, lone_of
+from cosim.gap.fitting import Fitting
 from cosim.gap.models import Models
 from cosim.gap.naming import Named
 from cosim.gap.result import Rejected
@@ -24,7 +24,7 @@ def rivals_of(fitting: Fitting, parts: Sequence[Part], named: Named, models: Mod
 
     What no effect stands for is no more than the model without it.
     """
-    lone = lone_of(parts)
+    lone = _lone(parts)
     if lone is None or fitting.is_too_long:
         return {}
     finding = lone.finding
@@ -57,7 +57,7 @@ def overruled(
     Runs that no fit has seen must come out better with the rival, too; and be explained by it
     in place of what no effect stands for.
     """
-    lone = lone_of(parts)
+    lone = _lone(parts)
     if lone is None:
         return None
     for name, (rival, more) in rivals.items():
@@ -72,7 +72,7 @@ def overruled(
     return None
 
 
-def told_apart(fitting: Fitting, named: Named, rivals: Rivals) -> Named:
+def told_apart(named: Named, rivals: Rivals) -> Named:
     """A lone finding with its rivals as rows and simulated runs have them.
 
     One that the rows do not tell from it goes where simulated runs do; one that they put behind
@@ -85,6 +85,12 @@ def told_apart(fitting: Fitting, named: Named, rivals: Rivals) -> Named:
     for name, (_, more) in rivals.items():
         others[name] = judge.told_by_both(finding, name, more)
     return replace(named, findings=(*across, replace(finding, others=others)))
+
+
+def _lone(parts: Sequence[Part]) -> Part | None:
+    """The only finding along x, beside what moves the block across."""
+    along = [part for part in parts if part.finding.added]
+    return along[0] if len(along) == 1 else None
 
 
 def _in_place(fitting: Fitting, named: Named, name: str) -> Part:

@@ -100,7 +100,7 @@ def draw_sizes(plan: Plan) -> Figure:
     label: dict[str, Any] = {"va": "center", "fontsize": 9.5}
     ends = [(size, end) for size in sizes for end in (size.value, size.alone)]
     every = [size.law.percent(end) for size, end in ends if end is not None]
-    any_alone = False
+    drawn = {"named": axis.barh([0], [0], color=BLUE)}
     left, right = 0.5 * min(every, default=1.0), 8.0 * max(every, default=1.0)
     for place, size in enumerate(sizes):
         axis.text(1.05 * left, place - 0.34, data.name_of(size, sizes), **label)
@@ -110,8 +110,8 @@ def draw_sizes(plan: Plan) -> Figure:
         alone = math.inf if size.alone is None else size.law.percent(size.alone)
         axis.barh(place, size.percent - left, left=left, height=0.26, color=BLUE)
         if MORE * size.percent < alone < math.inf:
-            any_alone = True
-            axis.barh(place + 0.23, alone - left, left=left, height=0.16, color=ORANGE)
+            bar = axis.barh(place + 0.23, alone - left, left=left, height=0.16, color=ORANGE)
+            drawn["named by itself"] = bar
             axis.text(1.05 * alone, place + 0.24, _value(size.alone, size), **label)
         never = "" if math.isfinite(alone) else ", never by itself"
         axis.text(1.05 * size.percent, place - 0.02, _value(size.value, size) + never, **label)
@@ -120,8 +120,5 @@ def draw_sizes(plan: Plan) -> Figure:
     axis.set_yticks([])
     axis.set_ylim(len(sizes) - 0.6, -0.6)
     axis.set_xlabel("smallest size [% of friction]")
-    axis.barh([0], [0], color=BLUE, label="named")
-    if any_alone:
-        axis.barh([0], [0], color=ORANGE, label="named by itself")
-    figure.legend(loc="outside upper right", ncols=2)
+    figure.legend(drawn.values(), drawn.keys(), loc="outside upper right", ncols=2)
     return figure

@@ -51,6 +51,11 @@ class Number:
         ends = [abs(end) for end in (self.low, self.high) if math.isfinite(end)]
         return PART * (abs(self.start) or max(ends, default=0.0) or 1.0)
 
+    @property
+    def may_vanish(self) -> bool:
+        """Whether it may be 0, as what says how large an effect is."""
+        return self.low <= 0.0 <= self.high
+
     def value(self, scaled: float) -> float:
         """The number from ``scaled``, in scales from the start."""
         if self.log:

@@ -16,7 +16,7 @@ from scipy.linalg import qr
 
 from cosim.gap.data import Campaign
 
-from .fitted import Fitted
+from .fitted import RANK, Fitted
 from .numbers import Number
 from .problem import Problem
 from .windows import Windows
@@ -49,7 +49,7 @@ class ScoreTest:
         residuals, derivatives = problem.residuals(scaled), problem.derivatives(scaled)
         basis, triangle, _ = qr(derivatives, mode="economic", pivoting=True)
         sizes = np.abs(np.diag(triangle))
-        is_felt = sizes > 1e-9 * sizes.max(initial=0.0)
+        is_felt = sizes > RANK * sizes.max(initial=0.0)
         return cls(problem, scaled, residuals, basis[:, is_felt], max(fitted.misfit, 1.0))
 
     def promised(
@@ -60,7 +60,7 @@ class ScoreTest:
         0 of an effect that would have to turn its sign, and of one without a number that says how
         large it is. Phases stay as given.
         """
-        strengths = [n for n in more if n.low <= 0.0 <= n.high and n.scope != "run"
+        strengths = [n for n in more if n.may_vanish and n.scope != "run"
                      and not n.key.rpartition(".")[2].startswith("static_")]  # fmt: skip
         if not strengths:
             return 0.0

@@ -241,7 +241,7 @@ def test_rivals_of_a_finding_are_simulated(monkeypatch, gain, rows, gained, told
     monkeypatch.setattr(fits, "fitted", lambda named, parts, **_: models)
     parts = list(map(part, found))
     alike = rivals.rivals_of(fits, parts, named, models)
-    *kept, again = rivals.told_apart(fits, named, alike).findings
+    *kept, again = rivals.told_apart(named, alike).findings
     assert again.others == pytest.approx({"film_drag": told, "other.order": -1.0})
     assert kept == beside
     assert rivals.overruled(fits, parts, named, alike) is None
