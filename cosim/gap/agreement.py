@@ -11,7 +11,7 @@ from cosim.gap.extended import Part, rounding_of
 from cosim.gap.fitting import Fitting
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
-from cosim.gap.rejection import lost, outdone, rejected, unsure
+from cosim.gap.rejection import lost, outdone, rejected, unpromising, unsure
 from cosim.gap.result import Rejected, Score
 from cosim.gap.rivals import overruled, rivals_of, told_apart
 from cosim.gap.weak_form.camera_faults import SMOOTHING, likeliest_filters
@@ -67,7 +67,7 @@ def agreement_on(fitting: Fitting, named: Named) -> Agreed | Sequence[Rejected]:
     most = max((part.finding.gain for part in parts), default=0.0)
     faint = {part.finding.name for part in parts
              if judge.may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
-    if doubts := outdone(fitting, parts, named, faint):
+    if doubts := unpromising(fitting, parts, named, faint) or outdone(fitting, parts, named, faint):
         return doubts
     if doubted := lost(fitting, parts, named, faint) or rejected(fitting, parts, named, faint):
         return [doubted]
@@ -136,7 +136,7 @@ def _further(fitting: Fitting, parts: list[Part], named: Named) -> tuple[list[Pa
     without = fitting.fitted(named, parts)
     tried = [_simulated(part, without) for part in _promising(fitting, named, without)]
     hidden = [part for part in tried if judge.is_hidden(part.finding.gain)]
-    found = [part for part in hidden if judge.runs_ask(without.nearer(part))]
+    found = [part for part in hidden if _is_nearer(part, without)]
     if not found:
         return parts, named
     most = max(part.finding.gain for part in found)
@@ -148,6 +148,12 @@ def _further(fitting: Fitting, parts: list[Part], named: Named) -> tuple[list[Pa
               for one in found if one is not part}  # fmt: skip
     finding = replace(part.finding, others=others)
     return [*parts, replace(part, finding=finding)], named.with_findings(*named.findings, finding)
+
+
+def _is_nearer(part: Part, without: Models) -> bool:
+    """Whether runs ask for a finding also without what a scatter may be worth."""
+    finding, nearer = part.finding, without.nearer(part)
+    return judge.runs_ask(nearer) and judge.not_by_scatter_alone(finding.name, finding.gain, nearer)
 
 
 def _simulated(part: Part, without: Models) -> Part:
@@ -173,7 +179,8 @@ def _promising(fitting: Fitting, named: Named, without: Models) -> list[Part]:
         part = fitting.part(named.with_findings(*named.findings, finding), finding)
         if part.in_kernel:
             parts[name], rows[name] = part, evidence - named.ladder.rung.evidence
-    promised = dict(zip(parts, without.promised(list(parts.values())), strict=True))
+    gains = without.promised(list(parts.values()))
+    promised = {name: gain or 0.0 for name, gain in zip(parts, gains, strict=True)}
     sooner, is_lone = without.fits[-1].values.get(LOADING, 0.0), not named.ladder.findings
     left = without.ladder[-1].gap
     names = judge.promising(promised, rows, left, is_lone, sooner)

@@ -18,6 +18,7 @@ from cosim.gap.extended import (
     scatter_numbers,
     started_from,
 )
+from cosim.gap.judge import ONLY_NOISE
 from cosim.gap.report_of_findings import text_of
 from cosim.gap.result import Rung, Score
 from cosim.gap.scatter import Scatter, averaged_over, scatter_text
@@ -33,8 +34,6 @@ from cosim.gap.windows.windows import Windows
 #: A nuisance is a finding where it takes this part of the fitted runs' misfit or more, or brings
 #: their gap down by a hundredth of noise.
 FELT_PART, FELT_GAP = 0.02, 0.01
-#: Gap up to which noise is all that is left: fitted starts take 1 or 2 % of it.
-ONLY_NOISE = 1.02
 #: Findings that make the gap of the user's model so many times as large are none; a right law has
 #: raised it by a twentieth before the contact was fitted.
 LOST = 1.5
@@ -111,7 +110,11 @@ class Models:
     def _add_plain(self) -> None:
         """The user's model; where numbers are written in coarse steps, before and after these."""
         rows = self.system.rung(contact=False, scatter=False)
-        self._add("user's model", "the model as stated", user_model(self.campaign), rows)
+        text, grazing = "the model as stated", [n for n, w in self.windows.items() if w.grazes]
+        if grazing:
+            text += "; where the block reaches the surface's speed without a stick to be seen, it"
+            text += f" is followed anew from there on ({', '.join(grazing)})"
+        self._add("user's model", text, user_model(self.campaign), rows)
         rounding = rounding_of(self.campaign)
         if rounding is None:
             return
@@ -225,7 +228,7 @@ class Models:
         """The same by the runs' distances and what is stated alone: no scatter is averaged over."""
         return self._beside(part)[0].gain_over(self.fits[-1])
 
-    def promised(self, parts: Sequence[Part]) -> list[float]:
+    def promised(self, parts: Sequence[Part]) -> list[float | None]:
         """The same of several to first order, from derivatives at the last model (`ScoreTest`)."""
         numbers, settings, _ = self.free[-1]
         test = ScoreTest.at(

@@ -20,6 +20,24 @@ def unsure(fitting: Fitting, named: Named) -> list[Rejected]:
             for one in named.findings if one.added and one.gain < judge.SURE]  # fmt: skip
 
 
+def unpromising(
+    fitting: Fitting, parts: Sequence[Part], named: Named, asked: Collection[str]
+) -> list[Rejected]:
+    """Findings asked for of which simulated runs ask for nothing that contact and scatter explain.
+
+    Their derivatives tell (`ScoreTest`): no model is fitted with a finding.
+    """
+    asked_for = [part for part in parts if part.finding.name in asked and part.in_kernel]
+    if not asked_for:
+        return []
+    without = fitting.fitted(named, [], is_shown=False)
+    if judge.leaves(without.ladder[-1].gap):
+        return []
+    promised = zip(asked_for, without.promised(asked_for), strict=True)
+    return [Rejected(part.finding.name, part.finding.gain, gain) for part, gain in promised
+            if judge.promise_nothing(gain, part.finding.name)]  # fmt: skip
+
+
 def outdone(
     fitting: Fitting, parts: Sequence[Part], named: Named, asked: Collection[str]
 ) -> list[Rejected]:

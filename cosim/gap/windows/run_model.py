@@ -123,6 +123,7 @@ class RunModel:
         noise = np.array([run.noise[name] for name in windows.channels])
         compared = np.isfinite(data)
         compared[: windows.begin] = False
+        compared[windows.crests] = False
         self.rows, channel = np.nonzero(compared)
         self.axes = np.array([AXES.index(name) for name in windows.channels])[channel]
         self.noise, self.data = noise[channel], data[self.rows, channel]

@@ -54,16 +54,16 @@ class ScoreTest:
 
     def promised(
         self, more: Sequence[Number], settings: Mapping[str, float], starts: Mapping[str, float]
-    ) -> float:
+    ) -> float | None:
         """ln of how much more probable the runs would be with these numbers, too.
 
-        0 of an effect that would have to turn its sign, and of one without a number that says how
+        0 of an effect that would have to turn its sign; None of one without a number that says how
         large it is. Phases stay as given.
         """
         strengths = [n for n in more if n.may_vanish and n.scope != "run"
                      and not n.key.rpartition(".")[2].startswith("static_")]  # fmt: skip
         if not strengths:
-            return 0.0
+            return None
         base = {**settings, **{number.key: number.start for number in more}, **starts}
         change = self._change(base, strengths)
         left = change - self.basis @ (self.basis.T @ change)

@@ -5,6 +5,10 @@ starts where the state is well known: at the beginning of a stick, else in fast 
 the surface's velocity, where a small error would decide between stick and slip. What comes before
 the first fast sliding is simulated and not compared: how long the block had rested before the
 record begins, and what the contact had built up, nobody has measured.
+
+Where a block just reaches the surface's speed at the crest of a swing, and does not stick to be
+seen, a window ends: whether it sticks there hangs on how a contact reverses within micrometres,
+and sticking once, an ideal one holds it for long.
 """
 
 from __future__ import annotations
@@ -35,6 +39,10 @@ REMNANT = 0.5
 FASTEST = 0.8
 #: Least part of a cycle between two swings.
 SWING = 0.6
+#: A block grazes the surface's speed that slides at the crest of a swing by less than this part of
+#: it, in the mean over so many 1 / omega to either side. While it slides there by less than the
+#: last it is not compared: a stick too short to be seen lies within, and no longer one.
+GRAZING, CREST, SLOW, LONGEST_CREST = 0.1, 0.25, 0.2, 2.5
 #: Motion across the surface is seen where its scatter or its mean exceeds that of the noise so much
 #: (a mean, so many standard deviations: 3 of 1000 channels at rest).
 SCATTER, MEAN = 0.5, 3.0
@@ -55,6 +63,8 @@ class Windows:
     led_in : whether the first window is simulated and not compared
     lets_go : (b,) rows in fast sliding, one for every swing: what the contact holds next time may
         differ from there on
+    crests : (n,) whether a row is so near to a crest that grazes the surface's speed that it is
+        not compared
     """
 
     channels: tuple[str, ...]
@@ -64,6 +74,12 @@ class Windows:
     hold_since: np.ndarray
     led_in: bool
     lets_go: np.ndarray
+    crests: np.ndarray
+
+    @property
+    def grazes(self) -> bool:
+        """Whether the block reaches the surface's speed somewhere without a stick to be seen."""
+        return bool(self.crests.any())
 
     @property
     def begin(self) -> int:
@@ -89,7 +105,10 @@ def windows_of(run: MeasuredRun, planar: bool = False, cycles: float = CYCLES) -
     sticks = [s for s in sticks_of(run) if s.duration >= SHORTEST_STICK * period]
     seen = [name for name in (AXES if planar else AXES[:1]) if name in track.channels]
     begin = _begin(track, sticks, run.surface_speed, period)
-    first = _starts(track, sticks, run.surface_speed, period, cycles, begin)
+    crests = _crests(run, period)
+    begun, ended = (np.searchsorted(times, track.time) for times in crests.T)
+    passed = np.searchsorted(track.time, crests[:, 1], side="right")
+    first = _starts(track, sticks, passed, run.surface_speed, period, cycles, begin)
     if begin:
         first = np.concatenate([[0], first])
     states, free = np.full((len(first), 6), np.nan), np.zeros((len(first), 6), dtype=bool)
@@ -111,7 +130,28 @@ def windows_of(run: MeasuredRun, planar: bool = False, cycles: float = CYCLES) -
             hold_since[number] = stick.start
     free[0] &= begin == 0
     lets_go = _swings(run, period) if sticks else np.zeros(0, dtype=int)
-    return Windows(tuple(seen), first, states, free, hold_since, begin > 0, lets_go)
+    return Windows(tuple(seen), first, states, free, hold_since, begin > 0, lets_go, begun > ended)
+
+
+def _crests(run: MeasuredRun, period: float) -> np.ndarray:
+    """(c, 2) from when to when the block just reaches the surface's speed and does not stick, s.
+
+    A crest is half way between where it turns and turns back, which noise hardly moves.
+    """
+    track, sticks, omega = smoothed(run), sticks_of(run), run.natural_frequency
+    time, speed = track.time, track.sliding / run.surface_speed
+    turns = np.diff((speed < 1.0).astype(int))
+    begins, ends = np.flatnonzero(turns == 1), np.flatnonzero(turns == -1)
+    ends, found = ends[ends > begins.min(initial=time.size)], []
+    for begin, end in zip(time[begins], time[ends], strict=False):
+        about = np.abs(time - 0.5 * (begin + end))
+        slow = time[(speed < SLOW) & (about < 0.5 * (end - begin))]
+        if not slow.size or end - begin < 0.25 * period or np.ptp(slow) > LONGEST_CREST / omega:
+            continue
+        is_stick = any(stick.start < end and begin < stick.end for stick in sticks)
+        if not is_stick and np.mean(speed[about < CREST / omega]) < GRAZING:
+            found.append((slow[0], slow[-1]))
+    return np.reshape(found, (-1, 2))
 
 
 def _swings(run: MeasuredRun, period: float) -> np.ndarray:
@@ -138,22 +178,31 @@ def _begin(track: Track, sticks: list[Stick], speed: float, period: float) -> in
 
 
 def _starts(
-    track: Track, sticks: list[Stick], speed: float, period: float, cycles: float, begin: int
-) -> np.ndarray:
-    """(w,) rows, the first is ``begin``; each window has samples enough for its state."""
+    track: Track, sticks: list[Stick], passed: np.ndarray, speed: float, period: float,
+    cycles: float, begin: int,
+) -> np.ndarray:  # fmt: skip
+    """(w,) rows, the first is ``begin``; each window has samples enough for its state.
+
+    passed : rows behind crests at which the block grazes the surface's speed
+    """
     length, time = cycles * period, track.time
     onsets = np.array([s.first for s in sticks if math.isfinite(s.start_sd)], dtype=int)
     seen = np.cumsum(np.isfinite(track.x))
-    starts, due = [begin], time[begin] + length
-    while due < time[-1] - REMNANT * length:
-        near = onsets[np.abs(time[onsets] - due) < max(0.5 * length, 0.5 * period)]
-        near = near[time[near] < time[-1] - REMNANT * length]
-        row = _fastest(track, due, speed, period) if not near.size else None
-        row = int(near[np.abs(time[near] - due).argmin()]) if row is None else row
+    starts, due, last = [begin], time[begin] + length, time[-1] - REMNANT * length
+    crests = passed[(passed > begin) & (passed < time.size)].tolist()
+    while crests or due < last:
+        if crests and (time[crests[0]] < due or due >= last):
+            row, following = crests.pop(0), due
+        else:
+            near = onsets[np.abs(time[onsets] - due) < max(0.5 * length, 0.5 * period)]
+            near = near[time[near] < last]
+            row = _fastest(track, due, speed, period) if not near.size else None
+            row = int(near[np.abs(time[near] - due).argmin()]) if row is None else row
+            following = due + length
         if row > starts[-1] and seen[row] - seen[starts[-1]] > 2 * REACH < seen[-1] - seen[row]:
             starts.append(row)
-            due = time[row]
-        due += length
+            following = time[row] + length
+        due = following
     return np.array(starts)
 
 

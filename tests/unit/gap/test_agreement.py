@@ -91,7 +91,7 @@ def agreed(
             return nearer
 
         def promised(self, parts):
-            return [rows.promises[part.finding.name] for part in parts]
+            return [rows.promises.get(part.finding.name) for part in parts]
 
     fits = Fitting(None, lambda: None, 1)
     monkeypatch.setattr(fits, "fitted", lambda named, parts, **_: Models(parts))
@@ -292,10 +292,10 @@ def overruled(monkeypatch, lone, more, gaps):
 @pytest.mark.parametrize(
     ("sooner", "gained", "nearer", "named"),
     [
-        (0.0105, 51.0, 6.1, 1),
-        (0.0095, 51.0, 6.1, 0),
-        (0.0105, 49.0, 6.1, 0),
-        (0.0105, 51.0, 5.9, 0),
+        (0.0105, 51.0, 12.1, 1),
+        (0.0095, 51.0, 12.1, 0),
+        (0.0105, 49.0, 12.1, 0),
+        (0.0105, 51.0, 11.9, 0),
     ],
 )
 @pytest.mark.parametrize("across", [0, 1])
@@ -309,6 +309,29 @@ def test_a_contact_that_lets_go_soon_has_aged_less(
     gains = {"static_strengthening": gained, "turning_surface": 900.0}
     found, _ = agreed(monkeypatch, rows, gains, sooner=sooner, nearer=nearer)
     assert found == ["turning_surface"] * across + ["static_strengthening"] * named
+
+
+@pytest.mark.parametrize(
+    ("name", "promised", "left", "named"),
+    [
+        ("film_drag", 0.9, 1.09, 0),
+        ("film_drag", 1.1, 1.09, 1),
+        ("film_drag", 0.9, 1.11, 1),  # something is missing without it
+        ("film_drag", None, 1.09, 1),
+        # of these derivatives tell nothing
+        ("load_dependence", 0.0, 1.09, 1),
+        ("static_strengthening", 0.0, 1.09, 1),
+    ],
+)
+def test_what_derivatives_of_the_runs_ask_nothing_of_is_not_fitted(
+    monkeypatch, name, promised, left, named
+):
+    rows = Rows(finding(name, 20.0))
+    rows.promises[name] = promised
+    found, rejected = agreed(
+        monkeypatch, rows, {name: 900.0}, reached=(left, 1.0), halved=(2.0, 1.0), nearer=20.0
+    )
+    assert found == [name] * named and [one.simulated for one in rejected] == [0.9] * (1 - named)
 
 
 def test_beside_coarse_steps_no_promise_is_followed(monkeypatch):

@@ -90,6 +90,9 @@ TWO_NEAR = {"film_drag": -2.9, "other.time": -1.0}
         (["run_in"], 5.0, None, 1.0, {}, ("unknown", ())),
         (["run_in"], 1.2, 1.25, 1.0, {}, ("unknown", ())),
         (["run_in"], 2.0, 2.1, 0.9, {}, ("unknown", ())),
+        # noise before and after is no worse
+        (["run_in"], 1.0, 1.019, 1.0, {}, ("named", ("run_in",))),
+        (["run_in"], 1.0, 1.021, 1.0, {}, ("unknown", ())),
         # two that explain the runs; one of them may be another's
         (["run_in", "film_drag"], 5.0, 1.0, 1.0, {}, ("named", ("run_in", "film_drag"))),
         (
@@ -143,6 +146,10 @@ def test_a_scatter_far_beyond_what_is_stated_stands_for_something_else(low, befo
         ("surface_pattern", 49.0, 2.9, False),
         ("surface_pattern", 51.0, 0.0, True),
         ("load_dependence", 7.0, 0.0, True),
+        # contacts imitate ageing
+        ("static_strengthening", 49.0, 20.0, False),
+        ("static_strengthening", 51.0, 11.9, False),
+        ("static_strengthening", 51.0, 12.1, True),
     ],
 )
 def test_what_scatter_alone_makes_probable_is_not_asked_for(name, gained, nearer, asked):
@@ -321,7 +328,7 @@ def test_parts_of_an_answer_cannot_contradict(names, gaps, share, gains, others)
     if verdict.verdict == "none":
         assert not names and after <= 1.1
     if verdict.effects:
-        assert after < before and names[0] in headline
+        assert (after < before or after <= 1.02) and names[0] in headline
         assert verdict.effects[0] == names[0]
         assert not headline.startswith("The model")
     if verdict.verdict == "class":

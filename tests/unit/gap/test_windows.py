@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from gap_campaigns import KNOWN, NOISE, campaign_with, motion, noisy, seen
 from scipy.optimize import differential_evolution
+from stickslip.packing import GRAVITY
 
 from cosim.gap.windows import (
     Number,
@@ -24,7 +25,7 @@ from cosim.gap.windows.fitted import Leeway
 from cosim.gap.windows.problem import Point, Problem
 from cosim.gap.windows.run_model import UNSEEN, RunModel
 from cosim.gap.windows.start_states import StartStates
-from cosim.gap.windows.windows import cycle
+from cosim.gap.windows.windows import SLOW, cycle
 
 MU_S, MU_K = 0.3, 0.2
 LINEAR = 1.0
@@ -105,7 +106,33 @@ def test_windows_without_sticks_start_in_fast_sliding(tmp_path):
     windows = windows_of(run)
     assert cycle(run) == pytest.approx(2.0 * math.pi / run.natural_frequency, rel=0.02)
     assert np.isnan(windows.hold_since).all() and windows.free[1:, 3].all()
-    assert len(windows.first) > 3
+    assert len(windows.first) > 3 and not windows.grazes
+
+
+@pytest.mark.parametrize(("part", "grazes"), [(1.02, True), (1.25, False)])
+def test_a_block_that_just_reaches_the_surface_is_followed_from_crest_to_crest(
+    tmp_path, part, grazes
+):
+    """Whether it sticks there hangs on micrometres of the contact, and ideal ones hold for long.
+
+    part : the surface's speed in that which an undamped block from rest just reaches
+    """
+    omega = math.sqrt(4.0 * KNOWN["stiffness"] / KNOWN["mass"])
+    campaign = measured(tmp_path, (part * MU_K * GRAVITY / omega,))
+    (run,), windows = campaign.runs, windows_of_campaign(campaign)
+    its = windows[run.name]
+    assert its.grazes == grazes and not sticks_of(run)
+    model, moved = RunModel(campaign, run, its), motion(run.surface_speed, duration=15.0)
+    sliding = 1.0 - np.gradient(moved["x"], run.motion.time) / run.surface_speed
+    compared = np.isin(np.arange(run.motion.time.size), model.rows)[its.begin :]
+    swings = (run.motion.time[-1] - run.motion.time[its.begin]) / cycle(run)
+    if grazes:
+        assert len(its.first) - 1 == pytest.approx(swings, abs=1.5)
+        assert compared.mean() == pytest.approx(1.0 - math.acos(1.0 - SLOW) / math.pi, abs=0.05)
+        assert np.mean(sliding < 0.1) > 0.05
+        assert np.mean(sliding[its.begin :][compared] < 0.1) < 0.02
+    else:
+        assert compared.all() and len(its.first) - 1 == pytest.approx(swings / 3.0, abs=1.5)
 
 
 def test_known_truth_comes_back(found):
