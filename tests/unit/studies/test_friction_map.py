@@ -74,6 +74,7 @@ def test_what_the_command_leaves(tmp_path, capsys):
     assert call(*argv) == 0
     said = capsys.readouterr().out
     assert "-8 degC" in said and "steepest fall: slope -0.5" in said and "4 coupled runs" in said
+    assert "steepest rise" not in said, "it falls at all these speeds"
     found = json.loads((tmp_path / "friction_map.json").read_text())
     assert found["regimes"][0]["steepest_fall"]["slope"] == pytest.approx(-0.55, abs=0.01)
     assert found["regimes"][0]["minimum"] is None
