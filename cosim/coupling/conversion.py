@@ -78,7 +78,8 @@ def conversion(source: Port, sink: Port) -> tuple[Affine, str]:
     if source.unit == sink.unit:
         return IDENTITY, ""
     if NO_UNIT in (source.unit, sink.unit):
-        return IDENTITY, f"{_told(source)} to {_told(sink)} is not checked"
+        side, taken = ("output", sink) if source.unit == NO_UNIT else ("input", source)
+        return IDENTITY, f"units not checked: the {side} states none, {_told(taken)} is taken"
     raise CouplingError(
         f"{_told(source)} does not fit {_told(sink)}: the units must be the same, or be defined by"
         " both (UnitDefinitions of an FMU)"

@@ -146,7 +146,16 @@ function preparePlayer() {
   });
   byId("span").addEventListener("change", () => (stale = true));
   new ResizeObserver(() => (stale = true)).observe(byId("x"));
+  for (const event of ["beforeprint", "afterprint"]) addEventListener(event, fit);
   play(player.playing);
+}
+
+/* Drawn anew at once: paper has another width, and waits for no frame. */
+function fit() {
+  const run = explorer.seen;
+  if (!run) return;
+  redraw(run, shownRange(run, explorer.moment));
+  showMoment(run, explorer.moment);
 }
 
 function play(on) {

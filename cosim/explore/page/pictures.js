@@ -22,7 +22,7 @@ class Pictures {
       this.over[name] = plot(id, title, "time [s]", `${says} [${unit}]`);
     }
     this.phase = plot("phase", "phase portrait", "x [mm]", "velocity along x [mm/s]");
-    this.friction = plot("friction", "friction", "sliding speed [mm/s]", "coefficient");
+    this.friction = plot("friction", "friction", "sliding speed [mm/s]", "coefficient [1]");
     this.columns = new WeakMap(); // run -> what has been taken out of it, and of how many rows
   }
 

@@ -42,6 +42,19 @@ class Plot {
       live.plots.line(this.uplot, "y", this.uplot.valToPos(level, "y", true), AXIS, 1, live.DASH);
     }
     for (const curve of this.spec.curves) live.plots.way(this.uplot, curve);
+    if (live.onPaper()) this.dotsOnPaper();
+  }
+
+  /* There is no front on paper, where what is cleared is white. */
+  dotsOnPaper() {
+    const { ctx } = this.uplot;
+    for (const { x, y, colour, radius = 4 } of this.spec.dots || []) {
+      if (!Number.isFinite(x) || !Number.isFinite(y)) continue;
+      ctx.fillStyle = colour;
+      ctx.beginPath();
+      ctx.arc(this.uplot.valToPos(x, "x", true), this.uplot.valToPos(y, "y", true), radius * live.plots.density(), 0, 2 * Math.PI);
+      ctx.fill();
+    }
   }
 
   /* In front a moment (a line at x) and dots. */

@@ -53,9 +53,10 @@ class RegimeMap {
   }
 
   show() {
+    const here = { x: this.here[0], y: this.here[1], colour: ORANGE, radius: 6 };
     const patches = this.regimes.map((regime, i) => [...this.cells[i], REGIMES[regime][1]]);
-    this.plot.draw({ x: [0, this.tops[0]], y: [0, this.tops[1]], patches, curves: [] });
-    this.plot.show(null, [{ x: this.here[0], y: this.here[1], colour: ORANGE, radius: 6 }]);
+    this.plot.draw({ x: [0, this.tops[0]], y: [0, this.tops[1]], patches, curves: [], dots: [here] });
+    this.plot.show(null);
     const there = REGIMES.filter((_, regime) => this.regimes.includes(regime));
     const computed = Math.floor((100 * this.regimes.length) / (this.cells.length || 1));
     this.legend.replaceChildren(...there.flatMap(([words, colour]) => [live.swatch(colour), `${words}; `]), computed < 100 ? `computing, ${computed} %` : "dot: here; a click goes there");

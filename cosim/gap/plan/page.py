@@ -95,7 +95,7 @@ def _at(size: Size) -> str:
 def draw_sizes(plan: Plan) -> Figure:
     """A row for each effect and direction: its name over its bar, so that a phone can show it."""
     sizes = plan.sizes
-    figure, axes = panels(1, 1, height=1.2 + 0.5 * max(len(sizes), 1), width=5.6)
+    figure, axes = panels(1, 1, height=1.2 + 0.54 * max(len(sizes), 1), width=5.6)
     axis = axes[0, 0]
     label: dict[str, Any] = {"va": "center", "fontsize": 9.5}
     ends = [(size, end) for size in sizes for end in (size.value, size.alone)]
@@ -103,16 +103,16 @@ def draw_sizes(plan: Plan) -> Figure:
     drawn = {"named": axis.barh([0], [0], color=BLUE)}
     left, right = 0.5 * min(every, default=1.0), 8.0 * max(every, default=1.0)
     for place, size in enumerate(sizes):
-        axis.text(1.05 * left, place - 0.34, data.name_of(size, sizes), **label)
+        axis.text(1.05 * left, place - 0.36, data.name_of(size, sizes), **label)
         if size.percent is None:
             axis.text(1.05 * left, place, "not seen, whatever its size", color=RED, **label)
             continue
         alone = math.inf if size.alone is None else size.law.percent(size.alone)
         axis.barh(place, size.percent - left, left=left, height=0.26, color=BLUE)
         if MORE * size.percent < alone < math.inf:
-            bar = axis.barh(place + 0.23, alone - left, left=left, height=0.16, color=ORANGE)
+            bar = axis.barh(place + 0.26, alone - left, left=left, height=0.16, color=ORANGE)
             drawn["named by itself"] = bar
-            axis.text(1.05 * alone, place + 0.24, _value(size.alone, size), **label)
+            axis.text(1.05 * alone, place + 0.28, _value(size.alone, size), **label)
         never = "" if math.isfinite(alone) else ", never by itself"
         axis.text(1.05 * size.percent, place - 0.02, _value(size.value, size) + never, **label)
     logarithmic_x(axis)

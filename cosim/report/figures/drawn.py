@@ -58,7 +58,7 @@ def draw_friction_table(dataset: Data) -> Figure:
     ax.annotate(
         "μ_s", (1.0, friction.mu_s), xycoords=("axes fraction", "data"), va="bottom", ha="right"
     )
-    ax.set(xlabel="sliding speed [m/s]", ylabel="friction coefficient", xlim=(0.0, fastest))
+    ax.set(xlabel="sliding speed [m/s]", ylabel="friction coefficient [1]", xlim=(0.0, fastest))
     ax.set_ylim(bottom=0.0)
     figure.suptitle("Table of friction", x=0.01, ha="left")
     figure.legend(loc="outside right upper")

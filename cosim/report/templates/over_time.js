@@ -3,7 +3,7 @@
 "use strict";
 (() => {
   const HEIGHT = 190, MAP_HEIGHT = 340, PAPER = 0.6, INK = "#222", SOFT = "#5c5c5c";
-  const ON_A_SCREEN = 3, { DASH, FONT } = live, { SHADE, density, shade, line } = live.plots;
+  const ON_A_SCREEN = 3, LONGEST_BESIDE = 10, { DASH, FONT } = live, { SHADE, density, shade, line } = live.plots;
   const plots = [];
   let sharing = false;
 
@@ -127,11 +127,11 @@
   // Room for the names of levels, the same for all panels of a figure.
   function besidePlots(data) {
     const names = data.panels.flatMap((each) => each.levels.map(([, text]) => text.length));
-    return names.length ? Math.max(28, 10 + 6.5 * Math.max(...names)) : 14;
+    return names.length ? Math.max(28, 10 + 7.4 * Math.max(...names)) : 14;
   }
 
-  // A label that is longer than the plot is high stands above it; of plots side by side, all do.
-  const isAbove = (panel, data) => data.columns > 1 || panel.label.length > 20;
+  // A label that is longer than the plot is high on paper stands above it; of plots side by side, all do.
+  const isAbove = (panel, data) => data.columns > 1 || panel.label.length > LONGEST_BESIDE;
 
   function options(panel, data, first, last, onCursor, holder, floor) {
     const series = panel.curves.map((curve) => ({

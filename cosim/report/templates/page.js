@@ -2,6 +2,15 @@
 // scroll can be reached with the keyboard.
 "use strict";
 (() => {
+  const UNIT = /(\d) (?=([µmk]?[msgKNJW](\/[a-z]+)?|Hz|°C?|%)([\s,;:.)]|$))/g;
+  // a number keeps its unit on its line; a long name breaks between its words
+  for (const { childNodes } of document.querySelectorAll("#content h1, #content .tiles b")) {
+    for (const node of [...childNodes].filter((each) => each.nodeType === Node.TEXT_NODE)) {
+      const bound = node.data.replace(UNIT, "$1\u00a0");
+      const [first, ...others] = bound.split(/(?<=[a-z][._])(?=[a-z])/);
+      node.replaceWith(first, ...others.flatMap((part) => [document.createElement("wbr"), part]));
+    }
+  }
   // of more columns than two, where the window is narrow each row is a list
   for (const table of document.querySelectorAll("#content table:has(thead th:nth-child(3))")) {
     table.classList.add("listed");
@@ -27,7 +36,7 @@
     for (const box of boxes) {
       if (box.scrollWidth > box.clientWidth + 1) {
         box.tabIndex = 0;
-        box.setAttribute("role", "group");
+        if (box.tagName !== "FIGURE") box.setAttribute("role", "group"); // which a figure is anyway
         box.setAttribute("aria-label", `${words[box.tagName] || "table"}, scrolls sideways`);
       } else {
         for (const name of ["tabindex", "role", "aria-label"]) box.removeAttribute(name);

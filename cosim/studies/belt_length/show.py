@@ -69,7 +69,9 @@ def printed(study: Study) -> str:
     # what is asked for is printed as it is, what is found with as much as it is worth
     exact = {name: "{:g}".format for name in ("length [m]", "speed [m/s]")}
     style: Any = {"index": False, "formatters": exact, "float_format": two_digits}
-    table = study.table()[PRINTED].to_string(**style) if study.rows else ""
+    # no columns of an uncertainty that was not asked for
+    asked = study.table()[PRINTED].dropna(axis=1, how="all") if study.rows else None
+    table = "" if asked is None else asked.to_string(**style)
     return str(macros().printed(study, verdict(study), table))
 
 
@@ -88,6 +90,12 @@ def span(values: Iterable[float]) -> str:
     """The smallest and the largest of some figures, one where they are the same."""
     values = sorted(values)
     return " to ".join(dict.fromkeys(map(two_digits, (values[0], values[-1]))))
+
+
+def listed(values: Iterable[float]) -> str:
+    """Different figures, growing, the last behind an "and"."""
+    *others, last = (f"{value:g}" for value in sorted(set(values)))
+    return f"{', '.join(others)} and {last}" if others else last
 
 
 def percent(share: float) -> str:

@@ -74,6 +74,8 @@ def draw_overview(entries: Sequence[Entry]) -> Figure:
         ax.set_title(entry.effect.id, fontsize=8.0)
         for axis in (ax.xaxis, ax.yaxis):
             axis.label.set_size(7.0)
+        # no longer than the panel is high
+        ax.set_ylabel(ax.get_ylabel().replace("friction coefficient", "µ"))
         ax.tick_params(labelsize=6.5)
     return figure
 
@@ -146,7 +148,7 @@ def _draw_law(ax: Axes, curves: Sequence[LawCurve | None]) -> None:
         ax.plot(curve.x, curve.y, color=colour)
         ax.set(
             xlabel=f"{curve.axis} [{unit_text(curve.unit)}]",
-            ylabel=curve.quantity + (f" [{unit_text(curve.of)}]" if curve.of != "1" else ""),
+            ylabel=f"{curve.quantity} [{unit_text(curve.of)}]",
             title="law",
         )
         if curve.logarithmic:

@@ -46,7 +46,7 @@ def draw_pretension_map(found: PretensionMap, case: Case) -> Figure:
         ylabel="pretension [mm]",
         title=f"Growth of small disturbances: {case.name}",
     )
-    bar = figure.colorbar(mesh, ax=ax, label="multiplier of a cycle")
+    bar = figure.colorbar(mesh, ax=ax, label="multiplier of a cycle [1]")
     ticks = {"≤ 0.5": 0.5, "0.7": 0.7, "1": 1.0, "1.4": 1.4, "≥ 2": 2.0}
     bar.set_ticks(np.log2([*ticks.values()]).tolist(), labels=[*ticks])
     return figure
@@ -72,7 +72,7 @@ def draw_regime_map(found: RegimeMap, case: Case) -> Figure:
         friction = case.parameters.friction
         _cross(ax, abs(case.parameters.surface.speed), friction.mu_s / friction.mu_k)
         ax.set(xlabel="speed of the surface [m/s]", title=TITLES[start])
-    axes[0, 0].set_ylabel("µ_s / µ_k")
+    axes[0, 0].set_ylabel("µ_s / µ_k [1]")
     handles = [Patch(facecolor=colour, label=name) for name, colour in KINDS.items()]
     if not np.isin(list(found.simulated.values()), kinds).all():
         handles.append(Patch(facecolor=OTHER, label="other, or not followed"))

@@ -133,9 +133,10 @@ def _places(coordinate: xr.DataArray) -> Array:
 
 
 def titled(coordinate: xr.DataArray) -> str:
-    """A dimension with its unit."""
-    unit = unit_of(coordinate).strip()
-    return f"{coordinate.name} [{unit}]" if unit else str(coordinate.name)
+    """A dimension with its unit, if it has numbers."""
+    if not _is_numeric(coordinate):
+        return str(coordinate.name)
+    return f"{coordinate.name} [{unit_text(coordinate.attrs['units'])}]"
 
 
 def unit_of(coordinate: xr.DataArray) -> str:

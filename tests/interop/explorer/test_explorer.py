@@ -367,6 +367,18 @@ def test_no_serious_barrier(page, width):
         browser.command("Emulation.clearDeviceMetricsOverride")
 
 
+def test_paper_is_drawn_for_anew(page):
+    """On a sheet, narrower than the window, no plot is squeezed, cut or covered by its front."""
+    width = "return [explorer.top.canvas.width, explorer.pictures.over.x.uplot.width]"
+    wide = page.tell(width)
+    page.tell("dispatchEvent(new Event('beforeprint'))")
+    narrow = page.tell(width)
+    front = page.tell("return getComputedStyle(document.querySelector('.front')).display")
+    page.tell("dispatchEvent(new Event('afterprint'))")
+    assert narrow == [703, 703] and front == "none"
+    assert page.tell(width) == wide and wide[0] > 703
+
+
 # --- the heat, and the regimes around a run ---
 
 SETTLED = """

@@ -83,7 +83,8 @@ def test_spellings_that_nobody_defines_must_be_the_same():
 
 
 def test_a_side_without_a_unit_is_said():
-    assert conversion(port("1", False), port("K")) == (Affine(), "no unit to K is not checked")
+    remark = "units not checked: the output states none, K is taken"
+    assert conversion(port("1", False), port("K")) == (Affine(), remark)
 
 
 def test_rounding_of_the_definitions_is_no_conversion():

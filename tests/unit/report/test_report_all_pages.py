@@ -48,6 +48,8 @@ PAGES = {
     "gap": (["gap", "measured"], ["gap", "--write-example", "measured"], "report.html"),
 }
 QUICK = ("effects",)
+#: A sheet between its margins, CSS pixels: how wide, and how high a picture may be.
+SHEET, HIGHEST = 703, 760
 #: Those that write no page, and the explorer, whose page has a room of its own (interop/explorer).
 WITHOUT = "build campaign completion docs effect explore keys new plot schema".split()
 
@@ -72,10 +74,27 @@ def test_page_for_every_eye_and_screen(browser, tmp_path, command):
         assert browser.overhang() <= 0
         assert browser.barriers() == []
         assert browser.outside() == [] and browser.errors() == []
+    runs_off, highest = paper(browser)
+    assert runs_off == [] and highest <= HIGHEST
     alive = browser.all("figure.live")
     assert len(browser.all("figure.live.on .stage")) == len(alive)
     assert page.stat().st_size < 3_000_000
     assert all(picture.get_attribute("alt") for picture in browser.all("img"))
+
+
+def paper(browser):
+    """Heads of tables that are wider than a sheet, and the height of the highest picture, px."""
+    browser.resize(SHEET)
+    browser.command("Emulation.setEmulatedMedia", media="print")
+    found = browser.js(
+        "const width = document.documentElement.clientWidth; return ["
+        "[...document.querySelectorAll('table')]"
+        ".filter((each) => each.getBoundingClientRect().right > width + 1)"
+        ".map((each) => each.rows[0].textContent), "
+        "Math.max(0, ...[...document.querySelectorAll('img')].map((each) => each.height))]"
+    )
+    browser.command("Emulation.setEmulatedMedia", media="")
+    return found
 
 
 def test_no_command_is_forgotten():

@@ -62,6 +62,11 @@ def test_it_is_small_asks_for_nothing_and_draws_everything_for_everybody(browser
     assert browser.overhang() <= 0 and browser.barriers() == []
 
 
+def test_a_label_longer_than_its_plot_stands_above_it(opened):
+    labels = [key.text.strip() for key in opened.all(f"{figure('friction_force')} .key")]
+    assert labels[0] == "friction along x [N]" and all("[" in label for label in labels)
+
+
 def test_pointing_tells_the_value(opened):
     dataset = coupled_dataset()
     plot = opened.one(f"{figure('motion')} .plot")

@@ -127,6 +127,7 @@ def test_files_and_words(coarse, tmp_path, capsys):
     words = ("--length", 1, 2, "--speed", 0.15, 0.82, "--h", 15, "--ramp", 0)
     assert call(*words, "-o", tmp_path, *FAST) == 0
     said = capsys.readouterr().out
+    assert "NaN" not in said, "columns of an uncertainty that nobody asked for"
     for words in (
         "For a belt that meets the ice less than 0.07 K above the air, 1 m: suffices at 0.15"
         " m/s; does not suffice at 0.82 m/s.",

@@ -74,6 +74,7 @@ def test_what_the_command_leaves(tmp_path, capsys):
     assert call(*argv) == 0
     said = capsys.readouterr().out
     assert "-8 degC" in said and "steepest fall: slope -0.5" in said and "4 coupled runs" in said
+    assert "steepest rise" not in said, "it falls at all these speeds"
     found = json.loads((tmp_path / "friction_map.json").read_text())
     assert found["regimes"][0]["steepest_fall"]["slope"] == pytest.approx(-0.55, abs=0.01)
     assert found["regimes"][0]["minimum"] is None
@@ -209,4 +210,8 @@ def test_the_page_begins_with_a_sentence_a_picture_and_figures():
         text.index(each) for each in ("<h1>Friction falls", "<figure", 'class="tiles"', "<h2")
     ]
     assert places == sorted(places) and 2 <= len(tiles(found)) <= 4
+    # one minimum: that between the speeds
+    (name, value), least = tiles(found)[0], found.regimes(-8.0)["minimum"]
+    assert name == f"least friction, at {least['speed']:.3g} m/s" and f"{value} at " in text
+    assert float(value) == pytest.approx(least["friction"], rel=1e-2) and float(value) < 0.1
     assert "rises to 0.2 at 9 m/s, in air of −8\u00a0°C." in text

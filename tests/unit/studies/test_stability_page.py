@@ -76,6 +76,11 @@ def test_one_sentence_then_a_picture_then_four_figures():
     assert places == sorted(places)
     assert study.tiles(found)[0] == ("size of a disturbance after a cycle", "1.42 times")
     assert '<td class="start">' in page and "td.start { min-width" in page
+    # one that would be unstable with other numbers is no warning
+    assert '<p class="warning">It is' not in page
+    numbers["stability"]["verdict"] = "stable"
+    sentences[1] = "It is unstable with a pretension of 0 to 8.32 mm."
+    assert 'class="warning"' not in study.page(found)[0]
     windows = {"ramp": [(None, 0.15708)], "rest": [(None, 0.18)]}
     numbers["stick_slip_range"] = {"key": "surface.speed", "unit": "m/s", "stick_slip": windows}
     first, *others = study.tiles(found)

@@ -116,7 +116,7 @@ def test_what_is_not_said_is_told(chain):
     done = result_of(chain(step=("macro_step = 0.01", "")))
     assert done.assembly.macro_step == 0.01
     assert done.assembly.remarks == (
-        "first.y -> second.u: m to no unit is not checked",
+        "first.y -> second.u: units not checked: the input states none, m is taken",
         "coupling.macro_step is not given: 0.01 s, as a unit advises",
     )
 
