@@ -63,6 +63,7 @@ class Models:
     is_scattered : whether friction has been let scatter, if it is to
     known : what was fitted to these windows before, by its numbers, settings and scatter
     set_out_from : the model from next to which that has been fitted, too
+    tests : id of a fit of this ladder -> its score test
     work : of all fits to these windows
     """
 
@@ -79,6 +80,7 @@ class Models:
     is_scattered: bool = False
     known: dict[frozenset[object], Fitted] = field(default_factory=dict)
     set_out_from: dict[frozenset[object], Fitted] = field(default_factory=dict)
+    tests: dict[int, ScoreTest] = field(default_factory=dict)
     work: Work = field(default_factory=Work)
 
     @classmethod
@@ -230,10 +232,11 @@ class Models:
 
     def promised(self, parts: Sequence[Part]) -> list[float | None]:
         """The same of several to first order, from derivatives at the last model (`ScoreTest`)."""
-        numbers, settings, _ = self.free[-1]
-        test = ScoreTest.at(
-            self.campaign, self.windows, numbers, settings, self.fits[-1], self.jobs
-        )  # fmt: skip
+        (numbers, settings, _), last = self.free[-1], self.fits[-1]
+        if id(last) not in self.tests:
+            test = ScoreTest.at(self.campaign, self.windows, numbers, settings, last, self.jobs)
+            self.tests[id(last)] = test
+        test = self.tests[id(last)]
         return [test.promised(part.numbers, part.settings, part.starts) for part in parts]
 
     def _beside(self, part: Part) -> tuple[Fitted, float]:

@@ -30,7 +30,7 @@ def unpromising(
     asked_for = [part for part in parts if part.finding.name in asked and part.in_kernel]
     if not asked_for:
         return []
-    without = fitting.fitted(named, [], is_shown=False)
+    without = fitting.fitted(named, [])
     if judge.leaves(without.ladder[-1].gap):
         return []
     promised = zip(asked_for, without.promised(asked_for), strict=True)
