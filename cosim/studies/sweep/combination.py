@@ -18,7 +18,6 @@ from typing import Any, NamedTuple
 from stickslip import Parameters, simulate
 from stickslip.catalogue import CATALOGUE, Catalogue
 
-from cosim.processes import stop_if_told
 from cosim.report import contents, heat_numbers, run_summary
 from cosim.report.dataset import run_columns, trajectory_columns
 from cosim.scenario import Scenario, ScenarioError
@@ -185,14 +184,13 @@ def _simulated(parameters: Parameters, run: Run) -> tuple[dict[str, float], str]
         if run.coupled:
             from cosim.coupling.case import run_scenario
 
-            result = run_scenario(parameters, progress=stop_if_told).result
+            result = run_scenario(parameters).result
             if result.status != "complete":
                 return {}, result.reason
             return features(run_columns(result, parameters, "")), ""
         temperature, mechanics = parameters.ambient.temperature_degC, parameters.mechanics
-    trajectory = simulate(
-        mechanics, *run.of(parameters)[:2], interface_temperature=temperature, progress=stop_if_told
-    )
+    times = run.of(parameters)[:2]
+    trajectory = simulate(mechanics, *times, interface_temperature=temperature)
     if trajectory.reason:
         return {}, trajectory.reason
     return features(trajectory_columns(trajectory, mechanics, "")), ""
