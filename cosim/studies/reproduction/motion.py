@@ -38,9 +38,8 @@ class Motion:
     @classmethod
     def of_trajectory(cls, run: Trajectory) -> Motion:
         """The motion of a run of the exact model."""
-        edges = np.concatenate([run.time[:1], run.events[:, 0], run.time[-1:]])
-        modes = np.concatenate([run["mode"][:1], run.events[:, 1]])
-        phases = np.stack([edges[:-1], edges[1:], modes], axis=1)
+        begins, modes = run.phases
+        phases = np.stack([begins, np.append(begins[1:], run.time[-1]), modes], axis=1)
         x, y, phi, force = (run[name] for name in ("x", "y", "phi", "friction_force_x"))
         return cls(run.time, x, y, phi, force, run["mode"], phases)
 
