@@ -8,11 +8,10 @@ import math
 from typing import NamedTuple
 
 from stickslip.packaged import packaged_tables
-from stickslip.packing import GRAVITY
 
 from cosim.report import heat_numbers as heat
 from cosim.report.columns import Data
-from cosim.report.contents import ramp_end, slip_intervals, value_of
+from cosim.report.contents import ramp_end, slip_intervals
 from cosim.report.run_summary import after_ramp, mean_of_cubics, mechanics_ledger, whole_run
 
 
@@ -52,8 +51,7 @@ def features(dataset: Data) -> dict[str, float]:
 
 def _motion(dataset: Data) -> dict[str, float | None]:
     """Of the constant-speed part; None where there is none, or nothing of the kind in it."""
-    begin, normal = ramp_end(dataset), GRAVITY * value_of(dataset, "rig", "mass")
-    late = dataset.sel(time=slice(begin, None))
+    late = dataset.sel(time=slice(ramp_end(dataset), None))
     if late.sizes["time"] < 2:
         return {name: None for name in FEATURES}
     motion, slips = after_ramp(dataset), slip_intervals(dataset)
@@ -73,7 +71,7 @@ def _motion(dataset: Data) -> dict[str, float | None]:
         "slip_time": heat.mean_of(whole[:, 1] - whole[:, 0]),
         "slip_share": motion["slip_share"],
         # the force jumps at re-stick, so the rows' mean is first order
-        "friction_coefficient": (motion["mean_friction_force_x"] or 0.0) / normal,
+        "friction_coefficient": (motion["mean_friction_force_x"] or 0.0) / heat.normal_force(late),
         "kinetic_coefficient": heat.mean_of(heat.friction_coefficient(late)),
     }
 
