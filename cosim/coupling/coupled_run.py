@@ -147,8 +147,8 @@ def _march(
                     if interrupt.requested:
                         keeper.save()
                         return "interrupted", None, reached
-                    reached = control.step(stepper, goal)
-                    exchange.statistics.steps += 1
+                    began, reached = reached, control.step(stepper, goal)
+                    exchange.statistics.count(reached - began)
                     keeper.add(reached, control.is_row())
                     observe(reached)
                     keeper.look()

@@ -41,20 +41,28 @@ class Effort:
 class Statistics:
     """Of a coupled run.
 
-    participants: name -> its effort. steps: macro steps accepted; rejected: taken back by the step
-    control; iterations: of the scheme, over all steps made; most_iterations: of one step; events:
-    steps that a participant ended early; unconverged: starts of accepted steps whose iteration had
-    not converged, s; above_tolerance: of those accepted at the smallest size with a larger error.
+    participants: name -> its effort. steps: macro steps accepted; shortest, longest: their sizes,
+    s; rejected: taken back by the step control; iterations: of the scheme, over all steps made;
+    most_iterations: of one step; events: steps that a participant ended early; unconverged: starts
+    of accepted steps whose iteration had not converged, s; above_tolerance: of those accepted at
+    the smallest size with a larger error.
     """
 
     participants: dict[str, Effort] = field(default_factory=dict)
     steps: int = 0
+    shortest: float = 0.0
+    longest: float = 0.0
     rejected: int = 0
     iterations: int = 0
     most_iterations: int = 0
     events: int = 0
     unconverged: list[float] = field(default_factory=list)
     above_tolerance: list[float] = field(default_factory=list)
+
+    def count(self, size: float) -> None:
+        """A macro step of a size, s, is accepted."""
+        self.steps += 1
+        self.shortest, self.longest = min(size, self.shortest or size), max(size, self.longest)
 
 
 class History:

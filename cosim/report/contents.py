@@ -14,6 +14,7 @@ from stickslip.packing import GRAVITY
 from stickslip.quantity import details
 from stickslip.steady_motion import Assessment
 from stickslip.trajectory import counted_break_aways
+from stickslip.trajectory import slip_share as share_of_slip
 
 from cosim.report.columns import Array, Data
 
@@ -177,10 +178,7 @@ def slip_intervals(dataset: Data) -> Array:
 
 def slip_share(dataset: Data, begin: float, end: float) -> float | None:
     """Fraction of begin ... end (s) in slip; None for an empty window."""
-    if not end > begin:
-        return None
-    clipped = np.clip(slip_intervals(dataset), begin, end)
-    return float(np.sum(clipped[:, 1] - clipped[:, 0]) / (end - begin))
+    return share_of_slip(*mode_changes(dataset), begin, end) if end > begin else None
 
 
 def break_aways(dataset: Data) -> Array:

@@ -70,15 +70,10 @@ def run_columns(
     scenario: BaseModel,
     toml: str,
     *,
-    mechanics: str = "mechanics",
-    thermal: str = "thermal",
     snapshots: BeltSnapshots | None = None,
 ) -> Columns:
-    """A coupled run over ``time`` (n,).
-
-    scenario: the model that ``toml`` was read into; mechanics, thermal: the participants' names.
-    """
-    columns, units = _columns(result, mechanics, thermal)
+    """A coupled run over ``time`` (n,); scenario: the model that ``toml`` was read into."""
+    columns, units = _columns(result)
     columns["coupling_residual"] = result.ledger.residual
     dataset = _dataset(result.time, columns, units)
     outcome = {"status": result.status, "reason": result.reason}
@@ -109,11 +104,9 @@ def trajectory_columns(
     return dataset.merge(_events(trajectory.events))
 
 
-def _columns(
-    result: CoupledResult, mechanics: str, thermal: str
-) -> tuple[dict[str, Array], dict[str, str]]:
+def _columns(result: CoupledResult) -> tuple[dict[str, Array], dict[str, str]]:
     """Columns by port name. An input repeats the output that feeds it: the output is kept."""
-    owners = {name: mechanics for name in MECHANICAL} | {name: thermal for name in THERMAL}
+    owners = dict.fromkeys(MECHANICAL, "mechanics") | dict.fromkeys(THERMAL, "thermal")
     addresses: dict[str, str] = {}
     for address in result.values:
         participant, _, port = address.partition(".")

@@ -6,7 +6,7 @@ import json
 import math
 import os
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from datetime import UTC, datetime
 from functools import cache
@@ -128,11 +128,11 @@ def plain_data(tree: Any) -> Any:
     return None if isinstance(tree, float) and not math.isfinite(tree) else tree
 
 
-def json_text(content: Mapping[str, Any]) -> str:
+def json_text(content: Mapping[str, Any] | Sequence[Any]) -> str:
     """JSON for a file; NaN is refused, a missing number is null."""
     return json.dumps(content, indent=2, allow_nan=False, ensure_ascii=False) + "\n"
 
 
-def write_json(content: Mapping[str, Any], path: Path) -> Path:
+def write_json(content: Mapping[str, Any] | Sequence[Any], path: Path) -> Path:
     """A JSON file, as `json_text` has it."""
     return write_text(json_text(content), path)

@@ -203,11 +203,16 @@ def melting_begins(dataset: Data) -> float:
     return float(dataset["time"].values[max(0, int(np.argmax(melted)) - 1)])
 
 
+def normal_force(dataset: Data) -> float:
+    """Of the block as it is, with what its mass departs by, N."""
+    return float(mechanics_of(dataset).pack()[P_NORMAL_FORCE])
+
+
 def friction_coefficient(dataset: Data) -> Array:
     """Friction over normal force, (n,); not a number where the block sticks."""
     force = np.hypot(dataset["friction_force_x"].values, dataset["friction_force_y"].values)
     slips = dataset["mode"].values == SLIP
-    return np.where(slips, force / mechanics_of(dataset).pack()[P_NORMAL_FORCE], np.nan)
+    return np.where(slips, force / normal_force(dataset), np.nan)
 
 
 def film_of(dataset: Data) -> Film:

@@ -1,4 +1,8 @@
-"""The numbers of a run: what `summary.json` and the page show."""
+"""The numbers of a run: what `summary.json` and the page show, and what a sweep tells of each run.
+
+Rows carry velocities: means and extremes of a position are those of the cubics through positions
+and velocities of two neighbouring rows, of fourth order in their distance.
+"""
 
 import json
 from typing import Any
@@ -37,11 +41,11 @@ def after_ramp(dataset: Data) -> dict[str, float | None]:
         "frequency": frequency if reached else None,
         "mean_period": 1.0 / frequency if frequency > 0.0 else None,
         "slip_share": slip_share(dataset, begin, end),
-        "mean_x": time_mean(late, "x"),
-        **_extremes(late, "x"),
-        "mean_y": time_mean(late, "y"),
-        **_extremes(late, "y"),
-        "max_rotation_deg": _largest(np.degrees(late["phi"].values)),
+        "mean_x": time_mean(late, "x", "vx"),
+        **_extremes(late, "x", "vx"),
+        "mean_y": time_mean(late, "y", "vy"),
+        **_extremes(late, "y", "vy"),
+        "max_rotation_deg": _rotation(late),
         "mean_friction_force_x": time_mean(late, "friction_force_x"),
         "mean_heat_flow": heat.growth(late, "heat") / window if heats else None,
     }
@@ -53,34 +57,51 @@ def whole_run(dataset: Data) -> dict[str, float | None]:
     return {
         "break_aways": int(break_aways(dataset).size),
         "slip_share": slip_share(dataset, float(time[0]), float(time[-1])),
-        **_extremes(dataset, "x"),
-        **_extremes(dataset, "y"),
-        "max_rotation_deg": _largest(np.degrees(dataset["phi"].values)),
-        "max_friction_force_x": _largest(dataset["friction_force_x"].values),
+        **_extremes(dataset, "x", "vx"),
+        **_extremes(dataset, "y", "vy"),
+        "max_rotation_deg": _rotation(dataset),
+        "max_friction_force_x": heat.extremes(np.abs(dataset["friction_force_x"].values))[1],
         "surface_travel": heat.growth(dataset, "surface_travel"),
         "sliding_distance": heat.growth(dataset, "sliding_distance"),
     }
 
 
-def time_mean(dataset: Data, name: str) -> float | None:
-    """Mean over time by the trapezoidal rule, gaps left out; None without values."""
-    time, values = dataset["time"].values, dataset[name].values
+def time_mean(dataset: Data, name: str, rate: str = "") -> float | None:
+    """Mean over time, gaps left out; None without values. rate: variable that it changes by."""
+    rates = dataset[rate].values if rate else np.zeros(dataset.sizes["time"])
+    return mean_of_cubics(dataset["time"].values, dataset[name].values, rates)
+
+
+def mean_of_cubics(time: Array, values: Array, rates: Array) -> float | None:
+    """Mean over time (n,) s of values with rates of change; with rates of 0, of trapezoids."""
     known = np.isfinite(values)
-    time, values = time[known], values[known]
-    if values.size == 0:
-        return None
-    if values.size == 1:
-        return float(values[0])
-    return float(np.trapezoid(values, time) / (time[-1] - time[0]))
+    time, values, rates = time[known], values[known], rates[known]
+    if values.size < 2:
+        return float(values[0]) if values.size else None
+    bulge = np.sum(np.diff(time) ** 2 * -np.diff(rates)) / 12.0
+    return float((np.trapezoid(values, time) + bulge) / (time[-1] - time[0]))
 
 
-def _extremes(dataset: Data, name: str) -> dict[str, float | None]:
-    low, high = heat.extremes(dataset[name].values)
+def _extremes(dataset: Data, name: str, rate: str) -> dict[str, float | None]:
+    """Also between the rows."""
+    values, size = dataset[name].values, np.diff(dataset["time"].values)
+    rates, rise = dataset[rate].values, np.diff(values)
+    first, last = size * rates[:-1], size * rates[1:]
+    # first + 2 square s + 3 cube s2 = 0 at a part s of an interval
+    square, cube = 3.0 * rise - 2.0 * first - last, first + last - 2.0 * rise
+    root = np.sqrt(np.maximum(square**2 - 3.0 * cube * first, 0.0))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        turns = -first / np.stack([square + root, square - root])
+    s = np.where((turns > 0.0) & (turns < 1.0), turns, 0.0)
+    between = values[:-1] + s * (first + s * (square + s * cube))
+    low, high = heat.extremes(np.append(values, between))
     return {f"min_{name}": low, f"max_{name}": high}
 
 
-def _largest(values: Array) -> float | None:
-    return heat.extremes(np.abs(values))[1]
+def _rotation(dataset: Data) -> float | None:
+    """The largest, either way, deg."""
+    ends = [end for end in _extremes(dataset, "phi", "omega").values() if end is not None]
+    return max((float(np.degrees(abs(end))) for end in ends), default=None)
 
 
 def summary(dataset: Data) -> dict[str, Any]:

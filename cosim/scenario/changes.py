@@ -1,15 +1,17 @@
 """`--set key=value`: what is said on the command line in place of what a file has."""
 
 import copy
+import re
 import tomllib
 from collections.abc import Collection, Iterable, Mapping
+from contextlib import suppress
 from typing import Any
 
 from cosim.scenario.validation import ScenarioError
 
 
 def changes_of(settings: Iterable[str], example: str = "run.duration=10") -> dict[str, Any]:
-    """`key=value` texts as `table.key` -> value; a value is as TOML has it, or a text unquoted.
+    """`key=value` texts as `table.key` -> value, each as `value_of` reads it.
 
     Of a key that comes twice the last counts. Raises ScenarioError, in which ``example`` is what
     would be allowed.
@@ -22,16 +24,26 @@ def changes_of(settings: Iterable[str], example: str = "run.duration=10") -> dic
         key, equals, text = setting.partition("=")
         if not equals or not key.strip():
             raise ScenarioError(f"--set {setting}: allowed is KEY=VALUE, as {example}")
-        found[key.strip()] = _value(text)
+        found[key.strip()] = value_of(text)
     return found
 
 
-def _value(text: str) -> Any:
-    try:
+def value_of(text: str) -> Any:
+    """As TOML has it; else a number as Python has it, a list of such or of words, or a text.
+
+    >>> value_of(".5"), value_of("[x, phi]"), value_of("disc")
+    (0.5, ['x', 'phi'], 'disc')
+    """
+    text = text.strip()
+    with suppress(ValueError, RecursionError):  # TOMLDecodeError is a ValueError
         tables = tomllib.loads(f"value = {text}")
-    except (ValueError, RecursionError):  # TOMLDecodeError is a ValueError
-        return text.strip()
-    return tables["value"] if set(tables) == {"value"} else text.strip()
+        if set(tables) == {"value"}:
+            return tables["value"]
+    if words := re.fullmatch(r"\[([^][{}]*)\]", text):
+        return [value_of(part) for part in words[1].split(",") if part.strip()]
+    with suppress(ValueError):
+        return float(text)
+    return text
 
 
 def changes_named(named: Mapping[str, Any], tables: Collection[str]) -> dict[str, Any]:

@@ -47,6 +47,8 @@ from cosim.systems.specification import (
 WITH_UNIT = (*REALS, *INTEGERS)
 #: More macro steps than this are a slip of the unit, and have no end.
 MOST_STEPS = 1_000_000_000
+#: The step control without one.
+FIXED = "fixed"
 #: Of a run where nobody names a step.
 STEPS_OF_A_RUN = 1000
 
@@ -312,7 +314,7 @@ def _step(
 def record_every(specification: SystemSpecification, macro_step: float) -> int:
     """Macro steps from one row of the results to the next; SystemFault where rows fall between."""
     interval = specification.run.output_interval
-    if interval == NOT_GIVEN or specification.coupling.step_control != "fixed":
+    if interval == NOT_GIVEN or specification.coupling.step_control != FIXED:
         return 1
     ratio = interval / macro_step
     if round(ratio) < 1 or abs(ratio - round(ratio)) > 1e-9 * ratio:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -19,7 +18,7 @@ from cosim.coupling.methods import smallest_step
 from cosim.coupling.record import Keep, RunFolder
 from cosim.names import unknown_name
 from cosim.result import RunResult
-from cosim.systems.assembly import Assembly, assemble, record_every
+from cosim.systems.assembly import FIXED, Assembly, assemble, record_every
 from cosim.systems.specification import Settings, Start, SystemFault, SystemSpecification, naming
 from cosim.systems.ssp.reader import read_ssp
 from cosim.systems.toml_file import read_toml
@@ -28,75 +27,21 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-#: Groups of steps that are kept; of more, neighbours become one.
-MOST_GROUPS = 2000
-
-
-class StepLog:
-    """Sizes of the steps over time, each entry of one step or of some neighbouring ones.
-
-    start: of the run, s. `add` is what a run calls with the time that it has reached.
-    """
-
-    def __init__(self, start: float):
-        self._reached = start
-        self._each, self._inside = 1, 0
-        #: End, shortest and longest of each group.
-        self._groups: list[list[float]] = []
-        self.count: int = 0
-
-    def add(self, reached: float) -> None:
-        """A step has come to a time, s; the run's start, or that of a part of it, is none."""
-        if reached <= self._reached:
-            return
-        size, self._reached = reached - self._reached, reached
-        self.count += 1
-        group = [reached, size, size]
-        if self._inside:
-            group = _as_one(self._groups.pop(), group)
-        elif len(self._groups) >= MOST_GROUPS:
-            self._groups = [*map(_as_one, self._groups[::2], self._groups[1::2])]
-            self._each *= 2
-        self._groups.append(group)
-        self._inside = (self._inside + 1) % self._each
-
-    def save_state(self) -> bytes:
-        """All of it, for a run that is cut off."""
-        return json.dumps(vars(self)).encode("utf-8")
-
-    def load_state(self, saved: bytes) -> None:
-        """Go on from what `save_state` gave."""
-        vars(self).update(json.loads(saved))
-
-    @property
-    def groups(self) -> NDArray[np.float64]:
-        """Time at which each group of steps ends, its smallest and its largest step, s: (3, k)."""
-        return np.reshape(self._groups, (-1, 3)).T
-
-
-def _as_one(before: list[float], after: list[float]) -> list[float]:
-    """Two neighbours."""
-    return [after[0], min(before[1], after[1]), max(before[2], after[2])]
-
-
 #: What a run is drawn by, which knows the run: asked for by name, by who wants it drawn, so that
 #: nothing here waits for matplotlib.
 SHOW = "cosim.systems.show"
-#: What a checkpoint has the log of the steps as; no unit has a name with a dot.
-STEPS = "steps.log"
 
 
 @dataclass(frozen=True)
 class SystemRun(RunResult):
     """What was run, and what came out; by name, as `run["unit.port"]`, what `to_xarray` has.
 
-    assembly: its participants are closed, their ports can be asked for. steps: their sizes.
+    assembly: its participants are closed, their ports can be asked for.
     """
 
     specification: SystemSpecification
     assembly: Assembly
     result: CoupledResult
-    steps: StepLog
 
     def __repr__(self) -> str:
         """How far it came, in one line."""
@@ -112,6 +57,14 @@ class SystemRun(RunResult):
     @cached_property
     def _columns(self) -> Any:
         return import_module(f"{SHOW}.summary").system_columns(self)
+
+    @property
+    def steps(self) -> NDArray[np.float64]:
+        """Size of the macro steps that lead to each row but the first, s, (n - 1,): their mean."""
+        since, control = np.diff(self.result.time), self.specification.coupling.step_control
+        return (
+            since / np.ceil(since / self.assembly.macro_step - 1e-6) if control == FIXED else since
+        )
 
     def summary(self) -> dict[str, Any]:
         """The numbers of ``summary.json``: status, ledger, outputs, how it was coupled."""
@@ -199,7 +152,6 @@ def run_system(
     """
     assembly = assemble(specification, debug)
     settings = specification.coupling
-    steps = StepLog(specification.run.start)
     with assembly.system as system:
         if heard is not None:
             system.listen(heard)
@@ -213,11 +165,10 @@ def run_system(
                 on_divergence=settings.on_divergence,
                 smallest_step=smallest_step(settings, assembly.macro_step),
                 record_every=record_every(specification, assembly.macro_step),
-                keep=_kept(specification, folder, steps),
-                observe=steps.add,
+                keep=_kept(specification, folder),
                 progress=progress,
             )
-    return SystemRun(specification, assembly, result, steps)
+    return SystemRun(specification, assembly, result)
 
 
 def check_system(specification: SystemSpecification) -> None:
@@ -227,9 +178,7 @@ def check_system(specification: SystemSpecification) -> None:
         pass
 
 
-def _kept(
-    specification: SystemSpecification, folder: RunFolder | None, steps: StepLog
-) -> Keep | None:
+def _kept(specification: SystemSpecification, folder: RunFolder | None) -> Keep | None:
     """What is on disk meanwhile; a checkpoint is of the same system with the same units."""
     if folder is None:
         return None
@@ -244,7 +193,7 @@ def _kept(
     }
     run = specification.run
     how_often = {"seconds": run.checkpoint_seconds, "steps": run.checkpoint_steps}
-    return Keep(folder, setup=setup, also={STEPS: steps}, **how_often)  # type: ignore[arg-type]
+    return Keep(folder, setup=setup, **how_often)  # type: ignore[arg-type]
 
 
 def _is_zip(path: Path) -> bool:

@@ -59,7 +59,13 @@ class Trajectory:
     @property
     def slip_share(self) -> float:
         """Fraction of the time spent in slip."""
-        return slip_share(self.time, self.columns["mode"], self.events)
+        return slip_share(*self.phases, self.time[0], self.time[-1])
+
+    @property
+    def phases(self) -> tuple[np.ndarray, np.ndarray]:
+        """Times (k,), s, of the start and of every event, and the modes (k,) from then on."""
+        times = np.append(self.time[:1], self.events[:, 0])
+        return times, np.append(self.columns["mode"][:1], self.events[:, 1])
 
     @property
     def slip_starts(self) -> np.ndarray:
@@ -105,13 +111,17 @@ class Trajectory:
         return xarray.Dataset(variables, coordinates, attributes)
 
 
-def slip_share(time: np.ndarray, mode: np.ndarray, events: np.ndarray) -> float:
-    """Fraction of ``time[0] ... time[-1]`` in slip, from the exact events."""
-    inside = events[(events[:, 0] > time[0]) & (events[:, 0] < time[-1])]
-    edges = np.concatenate([[time[0]], inside[:, 0], [time[-1]]])
-    modes = np.concatenate([[mode[0]], inside[:, 1]])
-    duration = time[-1] - time[0]
-    return float(np.sum(np.diff(edges) * modes) / duration) if duration > 0.0 else 0.0
+def slip_share(times: np.ndarray, modes: np.ndarray, begin: float, end: float) -> float:
+    """Fraction of ``begin ... end`` (s) in slip, 0 of no time at all.
+
+    times (k,), s, in order, and modes (k,) from then on: of phases, the first from ``begin`` or
+    before.
+
+    >>> slip_share(np.array([0.0, 1.0, 3.0]), np.array([0.0, 1.0, 0.0]), 0.0, 4.0)
+    0.5
+    """
+    edges = np.clip(np.append(times, end), begin, end)
+    return float(np.sum(np.diff(edges) * modes) / (end - begin)) if end > begin else 0.0
 
 
 def break_away_frequency(starts: np.ndarray) -> float:

@@ -177,7 +177,7 @@ def test_a_process_whose_unit_has_put_away_the_output_ends_at_once(tmp_path):
     program = """
 import os, sys
 from multiprocessing import Pipe
-from cosim.coupling.isolated.child import serve
+from cosim.processes import serve
 ours, theirs = Pipe()
 ours.close()
 sys.stdout = None

@@ -83,7 +83,8 @@ KNOWN_BY = {
     # and the results of whoever works in a notebook, which show themselves
     "cosim.report": (
         *("cosim.report", "cosim.cli", "cosim.coupling.case", "cosim.simulated"),
-        "cosim.studies.stability.study",
+        # a sweep tells of each run what its summary tells
+        *("cosim.studies.stability.study", "cosim.studies.sweep"),
     ),
     "cosim.coupling.case": ("cosim.coupling.case", "cosim.gap", "cosim.studies", "cosim.cli"),
     "stickslip.kernel": ("stickslip",),

@@ -1,11 +1,11 @@
 """`stickslip keys`: what a scenario can say."""
 
-import json
 from argparse import Namespace
 
 from cosim.cli import DONE, BadInput
 from cosim.cli.numbers import numbers_asked
 from cosim.names import unknown_name
+from cosim.report.files import json_text
 from cosim.scenario.keys import Key, all_keys, found, shown
 
 
@@ -16,7 +16,7 @@ def execute(arguments: Namespace) -> int:
     if not chosen:
         raise BadInput(unknown_name("key", arguments.word, [key.key for key in keys]))
     asked = numbers_asked(arguments, ("key", "default", "plain", "unit"))
-    if not asked.give(json.dumps([key._asdict() for key in chosen], indent=1)):
+    if not asked.give(json_text([key._asdict() for key in chosen])):
         for key in chosen:
             _print(key)
     return DONE

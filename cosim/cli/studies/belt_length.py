@@ -1,6 +1,5 @@
 """`stickslip belt-length`: its arguments, what it runs, what it leaves behind."""
 
-import json
 import sys
 import time
 from argparse import Namespace
@@ -15,6 +14,7 @@ from cosim.cli.console import note
 from cosim.cli.numbers import Numbers, numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
+from cosim.report.files import json_text
 from cosim.report.page import write_page
 from cosim.scenario import Scenario
 from cosim.studies.belt_length import figures as figures  # which draws: loaded once and for all
@@ -136,7 +136,7 @@ def _protocol(base: Case, arguments: Namespace) -> Protocol:
 
 
 def _print(study: Study, asked: Numbers, folder: Path, wall_time: float) -> None:
-    if asked.give(json.dumps(study.summary(), indent=1)):
+    if asked.give(json_text(study.summary())):
         return
     print(show.printed(study), end="")
     cases = f"{len(study.rows)} case{'s' * (len(study.rows) != 1)}"

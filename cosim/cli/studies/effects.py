@@ -1,6 +1,5 @@
 """`stickslip effects`: the catalogue, printed, and as a page with figures."""
 
-import json
 from argparse import Namespace
 from pathlib import Path
 from typing import Any
@@ -11,6 +10,7 @@ from cosim.cli.numbers import numbers_asked
 from cosim.files import writable, write_bytes, write_text
 from cosim.interrupts import held_interrupts
 from cosim.manifest import made_by, results_in
+from cosim.report.files import json_text, write_json
 from cosim.report.page import Picture
 from cosim.studies.effects import Entry, chosen, described, written
 
@@ -28,7 +28,7 @@ def execute(arguments: Namespace) -> int:
         writable(folder, names)
         with results_in(folder, made_by(), names, arguments.force):
             _write(entries, told, folder)
-    if not asked.give(json.dumps(entries, indent=1)):
+    if not asked.give(json_text(entries)):
         print(written().printed(entries), end="")
     return DONE
 
@@ -45,7 +45,7 @@ def _write(entries: list[dict[str, Any]], told: list[Entry], folder: Path) -> No
             with held_interrupts():
                 pictures[name] = effect_figure(entry)
                 write_bytes(pictures[name].png, folder / f"{name}.png")
-        write_text(json.dumps(entries, indent=1), folder / RESULT)
+        write_json(entries, folder / RESULT)
         write_text(page(told, pictures), folder / PAGE)
     except KeyboardInterrupt:
         raise Failed(

@@ -1,6 +1,5 @@
 """`stickslip friction-map`: its arguments, what it runs, what it leaves behind."""
 
-import json
 import sys
 import time
 from argparse import Namespace
@@ -11,6 +10,7 @@ from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.fmu.build import own_fmu
 from cosim.manifest import made_by, own_folder, results_in
+from cosim.report.files import json_text
 from cosim.studies.friction_map import friction_map
 from cosim.studies.friction_map.page import printed
 
@@ -36,7 +36,7 @@ def execute(arguments: Namespace) -> int:
     made = made_by(scenario=scenario.to_toml())
     with results_in(folder, made, force=arguments.force):
         found.save(folder, made["command"])
-    if asked.give(json.dumps(found.summary(), indent=1)):
+    if asked.give(json_text(found.summary())):
         return DONE
     print(printed(found), end="")
     for reason in found.failed:

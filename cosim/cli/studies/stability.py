@@ -1,6 +1,5 @@
 """`stickslip stability`: its arguments, what it runs, what it leaves behind."""
 
-import json
 import sys
 import time
 from argparse import Namespace
@@ -10,6 +9,7 @@ from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
+from cosim.report.files import json_text
 from cosim.studies.stability import NotAMotion, Stability, case_of, stick_slip_range
 from cosim.studies.stability.study import PAGE, RESULT, printed
 
@@ -43,7 +43,7 @@ def execute(arguments: Namespace) -> int:
     with results_in(folder, made, force=arguments.force) as results:
         found.save(folder)
         results.complete = status == DONE
-    if not asked.give(json.dumps(found.summary(), indent=1)):
+    if not asked.give(json_text(found.summary())):
         print(printed(found), end="")
         print(f"{time.perf_counter() - began:.1f} s; {folder / PAGE}, {folder / RESULT}")
     return status

@@ -1,6 +1,5 @@
 """`stickslip sweep`: its arguments, what it runs, what it leaves behind."""
 
-import json
 import sys
 import time
 from argparse import Namespace
@@ -14,6 +13,7 @@ from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.files import OutputError, not_taken
 from cosim.fmu.build import own_fmu
 from cosim.manifest import made_by, require_own, results_in
+from cosim.report.files import json_text
 from cosim.scenario import Scenario
 from cosim.studies.sweep import Grid, SweepError, SweepStopped, product_grid, run_grid
 from cosim.studies.sweep.axis import parse_vary
@@ -69,7 +69,7 @@ def execute(arguments: Namespace) -> int:
             write(datasets, folder, arguments.show, made["command"])
     except OutputError as error:
         raise OutputError(f"{error}; all runs are kept, the same command goes on") from error
-    if not numbers.give(json.dumps(summary(datasets), indent=1)):
+    if not numbers.give(json_text(summary(datasets))):
         _report(datasets, folder, time.perf_counter() - began)
     some = any((each["status"] == COMPLETE).any() for each in datasets.values())
     return DONE if some else FAILED

@@ -1,42 +1,28 @@
 """A participant that lives in a process of its own, and looks from here as if it did not.
 
-The process is started unheard by signals, heard in all it says, ended whatever happens.
+All that the process says and writes is heard.
 """
 
 import contextlib
 import itertools
 import math
-import os
 import pickle
-import signal
 import subprocess
-import sys
-import tempfile
 import threading
-import time
-import weakref
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
-from multiprocessing import Pipe
-from multiprocessing.connection import Connection
 from typing import Any
 
-from cosim.coupling.isolated.child import CLOSE, DONE, MESSAGE, START, packed, waiter
+from cosim.coupling.isolated.child import CLOSE, START, Told, carry_out
 from cosim.coupling.messages import KEPT, LONGEST, Messages
 from cosim.coupling.participant import Closing, CouplingError, port_table
 from cosim.coupling.waveform import Waveform
-from cosim.interrupts import held_interrupts, unheard_by_children
+from cosim.processes import Ended, OutOfTime, Process, packed
 
 #: Time (s) that Python and the imports of a participant may take, beyond the time limit of a call.
 START_SECONDS = 60.0
-#: Time (s) that a process has to end by itself after its last answer.
+#: Time (s) within which all that an ended process has written has been read.
 END_SECONDS = 5.0
-#: Time (s) within which one that has hung up has died of it, if it has.
-HUNG_UP_SECONDS = 1.0
-PROGRAM = (
-    "import sys; sys.path[:] = {path!r}; from cosim.coupling.isolated.child import serve; "
-    "serve({handle}, {parent}, {scratch!r})"
-)
 
 
 class IsolatedError(RuntimeError):
@@ -55,7 +41,7 @@ class Lines:
         self.newest.append(line)
 
 
-class Process:
+class ItsProcess(Process):
     """One process with one participant.
 
     time_limit: for every call, s. messages: what the participant says, as it comes, and behind each
@@ -63,86 +49,39 @@ class Process:
     """
 
     def __init__(self, time_limit: float, messages: Messages) -> None:
-        from stickslip.scratch import scratch_folder  # whoever couples units loads no model
-
-        self._limit, self._messages = time_limit, messages
-        self._scratch = scratch_folder("isolated")
-        self._line, theirs = Pipe()
-        self._wait = waiter(self._line)
-        with held_interrupts(), unheard_by_children():
-            self._process = _started(theirs, self._scratch.name)
-        theirs.close()
-        self._lines = Lines()
+        super().__init__("isolated", subprocess.PIPE)
+        self._limit, self._messages, self._lines = time_limit, messages, Lines()
         heard = (self._process, self._lines)
         self._reader = threading.Thread(target=_listen, args=heard, daemon=True)
         self._reader.start()
-        self._end = weakref.finalize(self, _end, self._process, self._line, self._scratch)
 
-    @property
-    def pid(self) -> int:
-        """Its number."""
-        return self._process.pid
-
-    @property
-    def is_over(self) -> bool:
-        """Whether it can be asked no more."""
-        return not self._end.alive
-
-    def ask(
-        self, told: Sequence[tuple[str, tuple[Any, ...]]], call: str, arguments: tuple[Any, ...]
-    ) -> Any:
+    def call(self, told: Sequence[Told], call: str, arguments: tuple[Any, ...]) -> Any:
         """What a call returns there, or raises; IsolatedError where no answer comes."""
-        deadline = time.monotonic() + self._limit + (START_SECONDS if call == START else 0.0)
+        limit = self._limit + (START_SECONDS if call == START else 0.0)
         try:
-            self._line.send_bytes(packed((told, call, arguments)))
-            while True:
-                if not self._wait(deadline - time.monotonic()):
-                    raise TimeoutError
-                kind, what = pickle.loads(self._line.recv_bytes())
-                if kind != MESSAGE:
-                    break
-                self._messages.keep(what)
-        except TimeoutError:
-            self.end()
+            return self.ask(
+                carry_out, told, call, arguments, limit=limit, heard=self._messages.keep
+            )
+        except OutOfTime:
             raise IsolatedError(
                 f"did not answer to the call of {call} within {self._limit:g} s, its time limit; "
                 "its process was ended"
             ) from None
-        except (EOFError, OSError, pickle.UnpicklingError, ValueError) as error:
-            raise IsolatedError(f"{self._obituary()} in the call of {call}") from error
-        except BaseException:  # an interrupt: the answer would be taken for that to the next call
-            self.end()
-            raise
+        except Ended as error:
+            raise IsolatedError(f"{error} in the call of {call}") from error
         finally:
             self._take_lines()
-        if kind == DONE:
-            return what
-        raise what
-
-    def _obituary(self) -> str:
-        """How it ended; it is ended where it only hung up."""
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self._process.wait(HUNG_UP_SECONDS)
-        status = self._process.poll()
-        self.end()
-        if status is None:
-            return "its process closed the line to this one"
-        if status >= 0:
-            return f"its process ended with status {status}"
-        number = signal.Signals(-status)
-        return f"its process was ended by {number.name} ({signal.strsignal(number)})"
 
     def close(self) -> None:
         """Let the participant close, and the process end; never raises."""
         if not self.is_over:
             with contextlib.suppress(Exception):
-                self.ask((), CLOSE, ())
-                self._process.wait(END_SECONDS)
+                self.call((), CLOSE, ())
         self.end()
 
     def end(self) -> None:
         """At once; nothing of it is left."""
-        self._end()
+        super().end()
         self._reader.join(END_SECONDS)
         self._take_lines()
 
@@ -156,42 +95,12 @@ class Process:
         lines.dropped = 0
 
 
-def _started(theirs: Connection, scratch: str) -> subprocess.Popen[bytes]:
-    handle = theirs.fileno()
-    program = PROGRAM.format(path=sys.path, handle=handle, parent=os.getpid(), scratch=scratch)
-    how: dict[str, Any] = {}
-    if sys.platform == "win32":
-        os.set_handle_inheritable(handle, True)
-        how["startupinfo"] = subprocess.STARTUPINFO(lpAttributeList={"handle_list": [handle]})
-    else:
-        how["pass_fds"] = (handle,)
-    return subprocess.Popen(
-        [sys.executable, "-c", program],
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        # so that this process can remove what that one leaves behind when it is killed
-        env={**os.environ, "TMPDIR": scratch, "TEMP": scratch, "TMP": scratch},
-        **how,
-    )
-
-
 def _listen(process: subprocess.Popen[bytes], lines: Lines) -> None:
     """Take what a process writes, so that it never waits for a reader; its line may never end."""
     assert process.stdout is not None
     with process.stdout as stream:
         while line := stream.readline(LONGEST):
             lines.add(line.decode("utf-8", errors="replace").rstrip())
-
-
-def _end(
-    process: subprocess.Popen[bytes], line: Connection, scratch: tempfile.TemporaryDirectory[str]
-) -> None:
-    if process.poll() is None:
-        process.kill()
-    process.wait()
-    line.close()
-    scratch.cleanup()
 
 
 #: Calls without an answer that wait for the next with one; no more than these.
@@ -228,12 +137,12 @@ class IsolatedParticipant(Closing):
             raise CouplingError(f"time_limit = {time_limit:g} s: must be greater than 0, finite")
         self._made_by = _checked(factory, arguments, named)
         self._limit = time_limit
-        self._told: list[tuple[str, tuple[Any, ...]]] = []
+        self._told: list[Told] = []
         self._states: set[State] = set()
         self._gives_states = False
         self._outputs: dict[str, float] | None = None
         self.messages: Messages = Messages("")
-        self._process: Process | None = None
+        self._process: ItsProcess | None = None
         self.name, ports, self.capabilities = self._begin()
         self.messages.source = self.name
         self.ports = port_table(ports)
@@ -332,7 +241,7 @@ class IsolatedParticipant(Closing):
     def _begin(self) -> Any:
         """A new process with the participant in it."""
         self.close()
-        self._process = Process(self._limit, self.messages)
+        self._process = ItsProcess(self._limit, self.messages)
         try:
             return self._ask(START, *self._made_by)
         except BaseException:
@@ -347,9 +256,9 @@ class IsolatedParticipant(Closing):
     def _ask(self, call: str, *arguments: Any) -> Any:
         process = self._alive()
         told, self._told = self._told, []
-        return process.ask(told, call, arguments)
+        return process.call(told, call, arguments)
 
-    def _alive(self) -> Process:
+    def _alive(self) -> ItsProcess:
         if self._process is None or self._process.is_over:
             raise IsolatedError("its process has ended")
         return self._process

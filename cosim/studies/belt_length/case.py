@@ -7,7 +7,6 @@ from functools import lru_cache
 from typing import Any, NamedTuple, Self
 
 from cosim.coupling.case.thermal_participant import prepared_block
-from cosim.processes import stop_if_told
 from cosim.scenario.changes import changed_tables
 from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
 from thermal.belt.air import convection, heated_belt, laminar_span, radiation
@@ -248,7 +247,6 @@ class Case:
 
         sensitivity: part of the friction lost for each kelvin of the interface's rise, 1/K.
         """
-        stop_if_told()
         parameters = self.thermal()
         block = _block(parameters)
         per_metre = max(WAVES_PER_METRE, WAVES_PER_CONTACT / block[0].length)
@@ -259,7 +257,6 @@ class Case:
 
     def follow(self, sliding: SteadySliding) -> tuple[SlidingState, SlidingState]:
         """Through all runs of the protocol: the state where the last ramp ends, and at the end."""
-        stop_if_told()
         for run in range(self.protocol.runs):
             if run > 0:
                 self.rest(sliding, self.protocol.pause)

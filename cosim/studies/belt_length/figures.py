@@ -7,14 +7,13 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from cosim.report.palette import BLUE, GREY, INK, RED, SERIES
-from cosim.report.style import panels, picture
+from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
 from cosim.studies import FIGURES
 from thermal.arrays import Array
 
@@ -111,7 +110,7 @@ def draw_drift(study: Study, curves: Sequence[Curves]) -> Figure:
         _bars(ax, study, each.case, colour, _ASIDE ** (i - 0.5 * (len(curves) - 1)))
     ax.set(ylabel="belt's rise at entry [K]")
     ax.set_ylim(bottom=_FLOOR)
-    _plain_ticks(ax.yaxis, (1e-3, 1e-2, 0.1, 1, 10), _FLOOR, 100.0)
+    logarithmic_y(ax)
     figure.legend(handles=_key(curves, study), ncols=3, loc="outside lower center")
     return figure
 
@@ -126,7 +125,7 @@ def draw_interface(study: Study, curves: Sequence[Curves]) -> Figure:
         _band(ax, 1, study, each.case, colour)
     ax.set(ylabel="interface's rise at constant speed [K]")
     ax.set_ylim(bottom=max(_FLOOR, ax.get_ylim()[0]))
-    _plain_ticks(ax.yaxis, (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2), *ax.get_ylim())
+    logarithmic_y(ax)
     figure.legend(ncols=len(curves), loc="outside lower center")
     return figure
 
@@ -139,8 +138,8 @@ def _over_length(study: Study, curves: Sequence[Curves]) -> tuple[Figure, Axes]:
     ax.axhline(limit, color=INK, linewidth=1.0)
     ax.text(1.01, limit, f"limit\n{limit:g} K", va="center", transform=ax.get_yaxis_transform())
     ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", xlim=(low, high))
+    logarithmic_x(ax)
     ax.set(title=_title([each.case for each in curves]))
-    _plain_ticks(ax.xaxis, (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50), low, high)
     for length in sorted({row.case.length for row in study.rows}) if study.answers else ():
         ax.axvline(length, color=GREY, linestyle="-.", linewidth=1.0)
     return figure, ax
@@ -185,12 +184,6 @@ def _key(curves: Sequence[Curves], study: Study) -> list[Artist]:
     if study.most_doubted:
         handles.append(Patch(color=GREY, alpha=0.35, label="5–95 %, after the runs"))
     return handles
-
-
-def _plain_ticks(axis: Axis, places: Sequence[float], low: float, high: float) -> None:
-    inside = [place for place in places if low <= place <= high]
-    axis.set_ticks(inside, [f"{place:g}" for place in inside])
-    axis.set_ticks([], minor=True)
 
 
 @picture("doubt", **FIGURES["doubt"])
@@ -247,9 +240,9 @@ def draw_map(drift: DriftMap, case: Case, limit: float) -> Figure:
     film = "of still air" if case.h is None else f"{case.h:g} W/(m² K)"
     said = f"friction {case.force:.2f} N, h {film}, {case.protocol.in_words()}"
     ax.set_title(f"{said}\nwhite: {limit:g} K; dashed: one loop in all")
-    ax.set(xscale="log", yscale="log", xlabel="length of the belt [m]", ylabel="speed [m/s]")
-    _plain_ticks(ax.xaxis, (0.3, 0.5, 1, 2, 5, 10), drift.lengths[0], drift.lengths[-1] * 1.001)
-    _plain_ticks(ax.yaxis, (0.05, 0.1, 0.2, 0.5, 1), drift.speeds[0] * 0.999, drift.speeds[-1])
+    ax.set(xlabel="length of the belt [m]", ylabel="speed [m/s]")
+    logarithmic_x(ax)
+    logarithmic_y(ax)
     ax.grid(False)
     figure.colorbar(colours, ax=ax, label="belt's rise at entry [K]", extend="min")
     return figure

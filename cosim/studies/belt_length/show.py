@@ -4,18 +4,17 @@
 asked, the answer first, its figures, how sure it is, and why; beside it numbers and tables.
 """
 
-import json
 import math
 import re
 import tomllib
 from collections.abc import Iterable, Iterator
-from functools import cache, partial
+from functools import cache
 from html import escape
 from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
-from cosim.files import write_atomically, write_text
+from cosim.report.files import write_json, write_table
 from cosim.report.material import of_material, page_of_material
 from cosim.report.page import Picture, render, sentences, texts, tiles_of
 
@@ -137,10 +136,10 @@ def shares(doubt: Uncertainty) -> list[str]:
 
 def write_numbers(study: Study, folder: Path) -> None:
     """What there is, be it complete or not."""
-    write_text(json.dumps(study.summary(), indent=1), folder / RESULT)
+    write_json(study.summary(), folder / RESULT)
     for name, table in ((TABLE, study.table()), (CHANGES, study.changes()), (DOUBT, study.doubt())):
         if name == TABLE or not table.empty:
-            write_atomically(folder / name, partial(table.to_csv, index=False))
+            write_table(table, folder / name, index=False)
 
 
 def page(study: Study, command: str = "") -> tuple[str, list[Picture]]:

@@ -13,10 +13,10 @@ from matplotlib.figure import Figure, FigureBase
 from stickslip import Parameters, Trajectory, simulate
 from stickslip.friction.law_curves import LawCurve, axis_of, law_curve
 
-from cosim.report.live import Curve, Live, Panel, Series, TimeFigure, panels_on_one_axis
+from cosim.report.live import Curve, Panel, Series, TimeFigure, panels_on_one_axis
 from cosim.report.page import Picture, render, unit_text
 from cosim.report.palette import BLUE, GREY
-from cosim.report.style import panels, picture
+from cosim.report.style import draw_panel, panels, picture
 from cosim.studies import FIGURES
 from cosim.studies.effects import Entry, allowed, described, written
 
@@ -70,7 +70,8 @@ def draw_overview(entries: Sequence[Entry]) -> Figure:
         if curves[1] is not None:
             _draw_law(ax, curves)
         else:
-            _draw_motion(ax, entry, channels_shown(entry)[0])
+            shown = motions(entry)
+            _draw_panel(ax, shown, shown.panels[0])
         ax.set_title(entry.effect.id, fontsize=8.0)
         for axis in (ax.xaxis, ax.yaxis):
             axis.label.set_size(7.0)
@@ -85,18 +86,21 @@ def effect_figure(entry: Entry) -> Picture:
     curve = "its law, and " if axis_of(entry.effect) else ""
     caption = str(written().caption(entry.effect.case, curve))
     alt = f"{entry.effect.id}: {curve}the motion without and with it"
-    return replace(picture(entry.effect.id, caption, alt=alt)(_draw)(entry), live=_live(entry))
+    # the page has the law as a drawing above the motions
+    live = motions(entry).live()
+    return replace(picture(entry.effect.id, caption, alt=alt)(_draw)(entry), live=live)
 
 
-def _live(entry: Entry) -> Live:
-    """The motions for the page, which has the law as a drawing above them."""
+@cache
+def motions(entry: Entry) -> TimeFigure:
+    """Without the effect and with it, in the channels that show it."""
+    runs = [("without", motion(entry, False), GREY), ("with", motion(entry, True), BLUE)]
     panels = []
     for name in channels_shown(entry):
         label, factor = CHANNELS[name]
-        runs = _runs(entry)
         series = [Series(run.time, Curve(said, factor * run[name], hue)) for said, run, hue in runs]
         panels.append((Panel(label, []), series))
-    return TimeFigure(*panels_on_one_axis(panels, entry.effect.case.window)).live()
+    return TimeFigure(*panels_on_one_axis(panels, entry.effect.case.window))
 
 
 def law_figure(entry: Entry) -> Picture | None:
@@ -116,29 +120,26 @@ def law_figure(entry: Entry) -> Picture | None:
 
 
 def _draw(entry: Entry) -> Figure:
-    channels, curves = channels_shown(entry), _curves(entry)
-    figure = Figure(figsize=(10.0, max(2.6, 0.6 + 1.8 * len(channels))), layout="constrained")
+    shown, curves = motions(entry), _curves(entry)
+    figure = Figure(figsize=(10.0, max(2.6, 0.6 + 1.8 * len(shown.panels))), layout="constrained")
     right: FigureBase = figure
     if curves[1] is not None:
         halves: Any = figure.subfigures(1, 2, width_ratios=(2, 3))
         left, right = halves
         _draw_law(left.subplots(), curves)
-    axes = right.subplots(len(channels), 1, sharex=True, squeeze=False)[:, 0]
-    for ax, name in zip(axes, channels, strict=True):
-        _draw_motion(ax, entry, name)
+    axes = right.subplots(len(shown.panels), 1, sharex=True, squeeze=False)[:, 0]
+    for ax, panel in zip(axes, shown.panels, strict=True):
+        _draw_panel(ax, shown, panel)
         ax.label_outer()
     axes[0].set_title("motion")
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=2)
+    names = [curve.label for curve in shown.panels[0].curves]
+    figure.legend(axes[0].lines, names, loc="outside upper right", ncols=2)
     return figure
 
 
-def _draw_motion(ax: Axes, entry: Entry, channel: str) -> None:
-    begin, end = entry.effect.case.window
-    label, factor = CHANNELS[channel]
-    for said, run, colour in _runs(entry):
-        late = run.time >= begin
-        ax.plot(run.time[late], factor * run[channel][late], color=colour, label=said)
-    ax.set(xlabel="time [s]", ylabel=label, xlim=(begin, end))
+def _draw_panel(ax: Axes, shown: TimeFigure, panel: Panel) -> None:
+    draw_panel(ax, shown.time, panel)
+    ax.set(xlabel="time [s]", ylabel=panel.label, xlim=shown.time[[0, -1]])
 
 
 def _draw_law(ax: Axes, curves: Sequence[LawCurve | None]) -> None:
@@ -155,11 +156,6 @@ def _draw_law(ax: Axes, curves: Sequence[LawCurve | None]) -> None:
             ax.set_xscale("log")
     if curves[1] is not None and curves[1].of == "1" and ax.get_ylim()[0] > 0.0:
         ax.set_ylim(bottom=0.0)
-
-
-def _runs(entry: Entry) -> list[tuple[str, Trajectory, str]]:
-    """Name, motion and colour, without the effect and with it."""
-    return [("without", motion(entry, False), GREY), ("with", motion(entry, True), BLUE)]
 
 
 def _curves(entry: Entry) -> list[LawCurve | None]:

@@ -1,6 +1,5 @@
 """A friction map drawn, on logarithmic axes, one curve a temperature; and its page."""
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -12,8 +11,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke
 from stickslip import friction_coefficient
 
-from cosim.files import write_text
-from cosim.report.files import write_table
+from cosim.report.files import write_json, write_table
 from cosim.report.page import Picture, render, sentences, texts, tiles_of
 from cosim.report.palette import GREY, INK, PALE_GREY, SERIES
 from cosim.report.style import logarithmic_x, logarithmic_y, panels, picture
@@ -183,7 +181,7 @@ def slope_in_words(slope: float, digits: int = 3) -> str:
 
 def write_numbers(found: FrictionMap, folder: Path) -> None:
     """The map as JSON, and its points as a table."""
-    write_text(json.dumps(found.summary(), indent=1), folder / "friction_map.json")
+    write_json(found.summary(), folder / "friction_map.json")
     write_table(pd.DataFrame(found.points), folder / "friction_map.csv", index=False)
 
 

@@ -38,9 +38,8 @@ class Motion:
     @classmethod
     def of_trajectory(cls, run: Trajectory) -> Motion:
         """The motion of a run of the exact model."""
-        edges = np.concatenate([run.time[:1], run.events[:, 0], run.time[-1:]])
-        modes = np.concatenate([run["mode"][:1], run.events[:, 1]])
-        phases = np.stack([edges[:-1], edges[1:], modes], axis=1)
+        begins, modes = run.phases
+        phases = np.stack([begins, np.append(begins[1:], run.time[-1]), modes], axis=1)
         x, y, phi, force = (run[name] for name in ("x", "y", "phi", "friction_force_x"))
         return cls(run.time, x, y, phi, force, run["mode"], phases)
 
@@ -67,7 +66,7 @@ class Motion:
         return float(np.abs(self.phi_deg).max())
 
 
-def figures(*motions: Motion, between_rows: bool = False, visible: float = 0.0) -> dict[str, float]:
+def figures(*motions: Motion, visible: float = 0.0) -> dict[str, float]:
     """Figures of all of a motion, or the mean of those of several, by name; NaN: it has none.
 
     Cut motions to their steady part first. mean_x, mean_y, amplitude_x (half range), and
@@ -76,18 +75,18 @@ def figures(*motions: Motion, between_rows: bool = False, visible: float = 0.0) 
     whole phases, s; hold: median stick, s; max_rotation: either way, deg; friction: mean size of
     the force along x in slip, N; swing_rate: angle by duration of the fastest swing of phi, deg/s.
 
-    between_rows: of `upward_crossings`; visible: half range of x (m) of the least oscillation.
+    visible: half range of x (m) of the least oscillation.
     """
-    each = [_figures(one, between_rows, visible) for one in motions]
+    each = [_figures(one, visible) for one in motions]
     known = {name: np.array([one[name] for one in each]) for name in each[0]}
     found = {name: mean(values[np.isfinite(values)]) for name, values in known.items()}
     return found | {"oscillations": WINDOW * found["frequency"]}
 
 
-def _figures(motion: Motion, between_rows: bool, visible: float) -> dict[str, float]:
+def _figures(motion: Motion, visible: float) -> dict[str, float]:
     time, x = motion.time, motion.x
     half_range = 0.5 * float(np.ptp(x))
-    upward = upward_crossings(time, x, between_rows) if half_range > visible else np.empty(0)
+    upward = upward_crossings(time, x) if half_range > visible else np.empty(0)
     lasting, slips = motion.phases[:, 1] - motion.phases[:, 0], motion.phases[:, 2] == 1
     whole = slice(1, -1)  # the first and the last are cut
     held = lasting[~slips & (lasting > 0.0)]  # the scheme has sticks that end as they begin
@@ -119,18 +118,16 @@ def time_mean(time: np.ndarray, values: np.ndarray) -> float:
     return float(np.trapezoid(values, time) / (time[-1] - time[0]))
 
 
-def upward_crossings(time: np.ndarray, x: np.ndarray, between_rows: bool = False) -> np.ndarray:
+def upward_crossings(time: np.ndarray, x: np.ndarray) -> np.ndarray:
     """Times at which x has risen through a band about its mean, one an oscillation.
 
-    between_rows: interpolated, so that a figure does not jump with the rows; else the row after.
+    Between the rows, so that a figure does not jump with them.
     """
     away = x - time_mean(time, x)
     band = BAND * float(np.ptp(x))
     side = np.where(away > band, 1, np.where(away < -band, -1, 0))
     seen = np.flatnonzero(side)
     after = seen[1:][np.diff(side[seen]) > 0]
-    if not between_rows:
-        return np.asarray(time[after])
     share = (band - away[after - 1]) / (away[after] - away[after - 1])
     return np.asarray(time[after - 1] + share * (time[after] - time[after - 1]))
 

@@ -9,8 +9,7 @@ from typing import Any
 
 from stickslip.reference.scheme_options import DESCRIPTIONS
 
-from cosim.files import write_text
-from cosim.report.files import json_text, plain_data
+from cosim.report.files import plain_data, write_json
 from cosim.report.page import render, texts, write_page
 from cosim.result import Result
 
@@ -64,7 +63,7 @@ class Reproduction(list[Claim], Result):
 
     def _write(self, folder: Path) -> None:
         """Numbers first, then figures, then the page."""
-        write_text(json_text(self.summary()), folder / RESULT)
+        write_json(self.summary(), folder / RESULT)
         write_page(self._page(), [one for claim in self for one in claim.pictures], folder)
 
 

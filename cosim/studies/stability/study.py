@@ -3,7 +3,6 @@
 And in which range of one number it sticks and slips: from rest, riding, and from a speed ramp.
 """
 
-import json
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,8 +16,7 @@ from stickslip.steady_motion.borders import FARTHEST, all_borders, follower
 from stickslip.steady_motion.regimes import STICK_SLIP
 from stickslip.steady_motion.starts import RAMP, REST, STARTS, disturbed, other_starts
 
-from ...files import write_text
-from ...report.files import plain_data
+from ...report.files import plain_data, write_json
 from ...report.page import PageResult, Picture, render, sentences, texts, tiles_of
 from ...report.run_text import border_sentence, regime_sentence, stability_sentence
 from ...scenario import Scenario
@@ -173,7 +171,7 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
 
 def write_numbers(found: Stability, folder: Path) -> None:
     """All numbers."""
-    write_text(json.dumps(found.summary(), indent=1), folder / RESULT)
+    write_json(found.summary(), folder / RESULT)
 
 
 def printed(found: Stability) -> str:

@@ -4,7 +4,6 @@ import math
 import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any, get_args
@@ -16,6 +15,7 @@ from stickslip import Parameters
 
 from cosim.names import nearest_key
 from cosim.scenario import Scenario
+from cosim.scenario.changes import value_of
 from cosim.scenario.validation import known_keys, unit_of
 
 LINK = "+"
@@ -230,14 +230,6 @@ def _value(text: str, part: str) -> Any:
     """A number, true or false, a list, a table, or a word with or without quotation marks."""
     part = part.strip()
     try:
-        return _plain(tomllib.loads(f"value = {part}")["value"])
+        return _plain(tomllib.loads(f"value = {part}")["value"] if "{" in part else value_of(part))
     except tomllib.TOMLDecodeError as error:
-        if "{" in part:
-            raise SweepError(f"--vary {text}: {part} is no TOML: {error}") from None
-    if part.startswith("[") and part.endswith("]"):
-        entries = _split(text, part[1:-1], ",")
-        return tuple(_value(text, entry) for entry in entries if entry.strip())
-    for number in (int, float):
-        with suppress(ValueError):
-            return number(part)
-    return part
+        raise SweepError(f"--vary {text}: {part} is no TOML: {error}") from None

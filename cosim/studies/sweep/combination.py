@@ -15,13 +15,11 @@ from importlib import resources
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
-from stickslip import Parameters, Trajectory, simulate
+from stickslip import Parameters, simulate
 from stickslip.catalogue import CATALOGUE, Catalogue
-from stickslip.trajectory import break_away_frequency, counted_break_aways
 
-from cosim.coupling import CoupledResult
-from cosim.processes import stop_if_told
+from cosim.report import contents, heat_numbers, run_summary
+from cosim.report.dataset import run_columns, trajectory_columns
 from cosim.scenario import Scenario, ScenarioError
 from cosim.scenario.changes import changed_tables
 
@@ -95,8 +93,9 @@ def model_version(catalogue: Catalogue = CATALOGUE) -> str:
     package = resources.files("stickslip")
     files = sorted(file.name for file in package.iterdir() if file.name.endswith(".py"))
     texts = [(package / name).read_text(encoding="utf-8") for name in files]
+    own = (feature_module, run_summary, contents, heat_numbers)
     # rows are kept without the names of their numbers
-    texts += [catalogue.text, inspect.getsource(feature_module), repr(list(ALL))]
+    texts += [catalogue.text, *map(inspect.getsource, own), repr(list(ALL))]
     plain = "\n".join(ast.unparse(ast.parse(text)) for text in texts)
     return hashlib.sha256(plain.encode()).hexdigest()[:KEY_DIGITS]
 
@@ -180,55 +179,18 @@ def compute(work: Work, key: str, changes: Mapping[str, Any]) -> Row:
 
 def _simulated(parameters: Parameters, run: Run) -> tuple[dict[str, float], str]:
     """Features by name; or why there are none."""
-    times, temperature = run.of(parameters)[:2], None
+    temperature, mechanics = None, parameters
     if isinstance(parameters, Scenario):
         if run.coupled:
-            return _coupled(parameters)
-        temperature, parameters = parameters.ambient.temperature_degC, parameters.mechanics
-    trajectory = simulate(
-        parameters, *times, interface_temperature=temperature, progress=stop_if_told
-    )
-    return ({}, trajectory.reason) if trajectory.reason else (features(trajectory), "")
+            from cosim.coupling.case import run_scenario
 
-
-def _coupled(scenario: Scenario) -> tuple[dict[str, float], str]:
-    """Features of motion and heat of a coupled run; and why it is not complete, "" where it is."""
-    from cosim.coupling.case import run_scenario
-
-    result = run_scenario(scenario, progress=stop_if_told).result
-    if result.status != "complete":
-        return {}, result.reason
-    trajectory = as_trajectory(result, scenario)
-    numbers = features(trajectory) | _heat(result, scenario)
-    late = trajectory.time >= scenario.surface.run_up_time
-    if np.count_nonzero(late) > 1:
-        # the unit counts break-aways that fall between two rows, too
-        starts = counted_break_aways(trajectory.time, trajectory["slip_count"])
-        begin, end = scenario.surface.run_up_time, trajectory.time[-1]
-        numbers["frequency"] = break_away_frequency(starts[(starts >= begin) & (starts <= end)])
-    return numbers, ""
-
-
-def as_trajectory(result: CoupledResult, scenario: Scenario) -> Trajectory:
-    """The block's motion of a coupled run; its events to one row."""
-    of_block = [name for name in result.values if name.startswith("mechanics.")]
-    columns = {name.removeprefix("mechanics."): np.asarray(result[name]) for name in of_block}
-    mode = columns["mode"]
-    changed_at = np.flatnonzero(np.diff(mode)) + 1
-    events = np.column_stack((result.time[changed_at], mode[changed_at], columns["x"][changed_at]))
-    return Trajectory(result.time, columns, events, scenario.mechanics)
-
-
-def _heat(result: CoupledResult, scenario: Scenario) -> dict[str, float]:
-    air = scenario.ambient.temperature_degC
-    interface = result["thermal.interface_temperature"] - air
-    late = interface[result.time >= scenario.surface.run_up_time]
-    return {
-        "interface_rise": float(interface[-1]),
-        "interface_drift": float(late[-1] - late[0]) if late.size > 1 else math.nan,
-        "belt_entry_rise": float(result["thermal.belt_entry_temperature"][-1] - air),
-        "ice_face_rise": float(result["thermal.ice_face_temperature"][-1] - air),
-        "belt_share": float(result["thermal.belt_share"][-1]),
-        "melted_mass": float(result["thermal.melted_mass"][-1]),
-        "heat_residual": float(np.max(np.abs(result["thermal.heat_residual"]))),
-    }
+            result = run_scenario(parameters).result
+            if result.status != "complete":
+                return {}, result.reason
+            return features(run_columns(result, parameters, "")), ""
+        temperature, mechanics = parameters.ambient.temperature_degC, parameters.mechanics
+    times = run.of(parameters)[:2]
+    trajectory = simulate(mechanics, *times, interface_temperature=temperature)
+    if trajectory.reason:
+        return {}, trajectory.reason
+    return features(trajectory_columns(trajectory, mechanics, "")), ""

@@ -1,23 +1,18 @@
 """What a researcher wants to know of one run, as a row of numbers.
 
 Means, extremes and spread are those of the constant-speed part: from the end of the surface's
-speed ramp to the end of the run. The samples carry velocities, so integrals and extremes come from
-the cubic through positions and velocities of two neighbouring rows (fourth order in their
-distance); slip times, shares and the frequency come from the located events.
+speed ramp to the end of the run. They are the numbers of its summary, with some more.
 """
 
 import math
 from typing import NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
-from stickslip import Trajectory
 from stickslip.packaged import packaged_tables
-from stickslip.packing import GRAVITY
-from stickslip.trajectory import break_away_frequency, slip_share
 
-Array = NDArray[np.float64]
+from cosim.report import heat_numbers as heat
+from cosim.report.columns import Data
+from cosim.report.contents import ramp_end, slip_intervals
+from cosim.report.run_summary import after_ramp, mean_of_cubics, mechanics_ledger, whole_run
 
 
 class Feature(NamedTuple):
@@ -38,78 +33,58 @@ ALL = {name: Feature(**entries) for name, entries in _TABLES.items()}
 FEATURES = {name: one for name, one in ALL.items() if not one.coupled}
 
 
-def features(run: Trajectory) -> dict[str, float]:
-    """`FEATURES` of a complete run; NaN where there is nothing to take one from.
+def features(dataset: Data) -> dict[str, float]:
+    """`FEATURES` of a complete run, of a coupled one `ALL`; NaN where there is nothing to take.
 
     A run that ends before the surface has its speed has no constant-speed part.
     """
-    numbers = dict.fromkeys(FEATURES, math.nan)
-    numbers |= {
-        "heat": float(run["heat"][-1]),
-        "sliding_distance": float(run["sliding_distance"][-1]),
-        "energy_residual": float(np.max(np.abs(run["energy_residual"]))),
+    found = _motion(dataset) | {
+        "heat": mechanics_ledger(dataset)["friction_heat"],
+        "sliding_distance": whole_run(dataset)["sliding_distance"],
+        "energy_residual": heat.largest_of(dataset, "energy_residual"),
     }
-    begin = run.parameters.surface.run_up_time
-    late = run.time >= begin
-    if np.count_nonzero(late) < 2:
-        return numbers
-    return numbers | _positions(run, late) | _phases(run, late) | _coefficients(run, late)
+    if "heat_received" in dataset:
+        found |= _heat(dataset)
+    known = {name: number for name, number in found.items() if number is not None}
+    return {name: float(known.get(name, math.nan)) for name in ALL if name in found}
 
 
-def _positions(run: Trajectory, late: NDArray[np.bool_]) -> dict[str, float]:
-    time, x, vx = run.time[late], run["x"][late], run["vx"][late]
-    mean = _mean(time, x, vx)
-    away = x - mean  # the variance by its definition: no difference of large numbers
-    low, high = _extremes(time, x, vx)
-    turned = _extremes(time, run["phi"][late], run["omega"][late])
+def _motion(dataset: Data) -> dict[str, float | None]:
+    """Of the constant-speed part; None where there is none, or nothing of the kind in it."""
+    late = dataset.sel(time=slice(ramp_end(dataset), None))
+    if late.sizes["time"] < 2:
+        return {name: None for name in FEATURES}
+    motion, slips = after_ramp(dataset), slip_intervals(dataset)
+    time, mean = late["time"].values, motion["mean_x"]
+    # slips with both ends in the window
+    whole = slips[(slips[:, 0] >= time[0]) & (slips[:, 1] < time[-1])]
+    away = late["x"].values - mean  # the variance by its definition: no difference of large numbers
+    variance = mean_of_cubics(time, away * away, 2.0 * away * late["vx"].values)
     return {
         "x_mean": mean,
-        "x_min": low,
-        "x_max": high,
-        "x_std": math.sqrt(max(_mean(time, away * away, 2.0 * away * vx), 0.0)),
-        "y_mean": _mean(time, run["y"][late], run["vy"][late]),
-        "phi_max": max(abs(angle) for angle in turned),
+        "x_min": motion["min_x"],
+        "x_max": motion["max_x"],
+        "x_std": math.sqrt(max(variance or 0.0, 0.0)),
+        "y_mean": motion["mean_y"],
+        "phi_max": math.radians(motion["max_rotation_deg"] or 0.0),
+        "frequency": motion["frequency"],
+        "slip_time": heat.mean_of(whole[:, 1] - whole[:, 0]),
+        "slip_share": motion["slip_share"],
+        # the force jumps at re-stick, so the rows' mean is first order
+        "friction_coefficient": (motion["mean_friction_force_x"] or 0.0) / heat.normal_force(late),
+        "kinetic_coefficient": heat.mean_of(heat.friction_coefficient(late)),
     }
 
 
-def _phases(run: Trajectory, late: NDArray[np.bool_]) -> dict[str, float]:
-    time, mode = run.time[late], run["mode"][late]
-    times, modes = run.events[:, 0], run.events[:, 1]
-    inside = (times >= time[0]) & (times <= time[-1])
-    times, modes = times[inside], modes[inside]
-    # slip phases with both ends in the window
-    whole = np.diff(times)[(modes[:-1] == 1.0) & (modes[1:] == 0.0)]
+def _heat(dataset: Data) -> dict[str, float | None]:
+    rises = heat.temperatures(dataset)
+    late = dataset["interface_temperature"].values[dataset["time"].values >= ramp_end(dataset)]
     return {
-        "frequency": break_away_frequency(times[modes == 1.0]),
-        "slip_time": float(whole.mean()) if whole.size else math.nan,
-        "slip_share": slip_share(time, mode, run.events),
+        "interface_rise": rises["interface"]["end_rise"],
+        "interface_drift": float(late[-1] - late[0]) if late.size > 1 else None,
+        "belt_entry_rise": rises["belt_entry"]["end_rise"],
+        "ice_face_rise": rises["ice_face"]["end_rise"],
+        "belt_share": heat.last(dataset, "belt_share"),
+        "melted_mass": heat.last(dataset, "melted_mass"),
+        "heat_residual": heat.largest_of(dataset, "heat_residual"),
     }
-
-
-def _coefficients(run: Trajectory, late: NDArray[np.bool_]) -> dict[str, float]:
-    """Friction over normal force; the force jumps at re-stick, so the rows' mean is first order."""
-    normal = run.parameters.rig.mass * GRAVITY
-    time, along = run.time[late], run["friction_force_x"][late]
-    size = np.hypot(along, run["friction_force_y"][late])
-    slipping = run["mode"][late] == 1.0
-    return {
-        "friction_coefficient": float(np.trapezoid(along, time) / (time[-1] - time[0]) / normal),
-        "kinetic_coefficient": float(size[slipping].mean() / normal)
-        if slipping.any()
-        else math.nan,
-    }
-
-
-def _extremes(time: Array, value: Array, slope: Array) -> tuple[float, float]:
-    """Smallest and largest value of the cubics through values and slopes (n,)."""
-    cubic = CubicHermiteSpline(time, value, slope)
-    turns = cubic.derivative().roots(discontinuity=False, extrapolate=False)
-    # NaN stands for a flat stretch, whose value is that of its rows
-    every = np.append(value, cubic(turns[np.isfinite(turns)]))
-    return float(every.min()), float(every.max())
-
-
-def _mean(time: Array, value: Array, slope: Array) -> float:
-    """Mean over time (n,) of the cubics through values and slopes (n,)."""
-    cubic = CubicHermiteSpline(time, value, slope)
-    return float(cubic.integrate(time[0], time[-1]) / (time[-1] - time[0]))

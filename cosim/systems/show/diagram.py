@@ -1,8 +1,8 @@
 """A system as an N2 chart: units on the diagonal, and what one gives to another where the row of
 the one meets the column of the other."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -25,7 +25,13 @@ EACH, SMALLEST, LARGEST, NAME_LETTER = 0.13, 4.0, 16.0, 0.062
 #: Letters of a name; points of a square's number.
 LONGEST_NAME, NUMBER = 26, 8.0
 
-Lines = Mapping[tuple[int, int], Sequence[str]]
+
+class Cell(NamedTuple):
+    """Lines of words in a box: of a unit, the first is its name."""
+
+    lines: Sequence[str]
+    edge: str
+    face: str
 
 
 @picture(
@@ -38,56 +44,64 @@ Lines = Mapping[tuple[int, int], Sequence[str]]
 def chart(system: CoupledSystem, order: Sequence[str]) -> Figure:
     """Who gives what to whom."""
     place = {name: number for number, name in enumerate(order)}
-    cells: dict[tuple[int, int], list[Connection]] = {}
+    across: dict[tuple[int, int], list[Connection]] = {}
     for each in system.connections:
         pair = place[each.source.participant], place[each.sink.participant]
-        cells.setdefault(pair, []).append(each)
-    in_words = len(order) <= MOST_IN_WORDS
-    lines = {pair: _lines(system, some, in_words) for pair, some in cells.items()}
-    units = {(n, n): _unit(system, name) for name, n in place.items()} if in_words else {}
-    widths, heights = _sizes(len(order), {**lines, **units} if in_words else {})
+        across.setdefault(pair, []).append(each)
+    count, in_words = len(order), len(order) <= MOST_IN_WORDS
+    told = _in_words if in_words else _in_a_square
+    cells = {
+        **{(n, n): _unit(system, name, in_words) for name, n in place.items()},
+        **{pair: told(system, some) for pair, some in across.items()},
+    }
+    side = min(max(EACH * count, SMALLEST), LARGEST) / count
+    widths, heights = np.full((2, count), 0.0 if in_words else side)
+    for (row, column), cell in cells.items() if in_words else ():
+        widths[column] = max(widths[column], 2.0 * ASIDE + LETTER * max(map(len, cell.lines)))
+        heights[row] = max(heights[row], 2.0 * ASIDE + LINE * len(cell.lines))
     names = MARGIN + (0.0 if in_words else NAME_LETTER * min(max(map(len, order)), LONGEST_NAME))
     size = np.array([widths.sum(), heights.sum()]) + names + MARGIN
     figure = Figure(figsize=tuple(size))
     axes = figure.add_axes((0.0, 0.0, 1.0, 1.0))
     axes.set(xlim=(-names, size[0] - names), ylim=(size[1] - names, -names))
     axes.axis("off")
-    corners = [np.cumsum(each) - each for each in (widths, heights)]
-    for row, column in {(n, n) for n in place.values()} | set(cells):
-        corner = corners[0][column], corners[1][row]
-        room = Rectangle(corner, widths[column], heights[row])
-        if (row, column) in cells:
-            colour, told = _colour(system, cells[row, column]), lines[row, column]
-            _cell(axes, room, told, edgecolor=colour, facecolor="white" if in_words else colour)
-        else:
-            _cell(axes, room, units.get((row, column), ()), edgecolor=GREY, facecolor=PALE_GREY)
+    left, top = (np.cumsum(each) - each for each in (widths, heights))
+    for (row, column), cell in cells.items():
+        _draw(axes, cell, left[column], top[row], widths[column], heights[row])
     if not in_words:
-        _names(axes, order, float(widths[0]))
+        _names(axes, order, side)
     return figure
 
 
-def _lines(system: CoupledSystem, connections: Sequence[Connection], in_words: bool) -> list[str]:
-    """What stands in a cell: each value, what it is there, and how it is changed on its way."""
-    if not in_words:
-        return [str(len(connections))] if len(connections) > 1 else []
+def _in_words(system: CoupledSystem, connections: Sequence[Connection]) -> Cell:
+    """Each value, what it is there, and how it is changed on its way."""
     found = []
     for each in connections:
         unit, affine = find_port(system.participants, each.source).unit, system.conversions[each]
         ends = dict.fromkeys(clipped(end.port, LONGEST_NAME) for end in (each.source, each.sink))
         told = " → ".join(ends) + ("" if unit == NO_UNIT else f" [{unit_text(unit)}]")
         found.append(told if affine.is_identity else f"{told}, {affine}")
-    return found
+    return Cell(found, _colour(system, connections), "white")
 
 
-def _unit(system: CoupledSystem, name: str) -> list[str]:
-    """What stands in a unit's cell: its name, and ports that nothing is connected to, in words."""
+def _in_a_square(system: CoupledSystem, connections: Sequence[Connection]) -> Cell:
+    """How many there are, where there are several."""
+    colour = _colour(system, connections)
+    return Cell([str(len(connections))] if len(connections) > 1 else [], colour, colour)
+
+
+def _unit(system: CoupledSystem, name: str, in_words: bool) -> Cell:
+    """A unit's name, and ports that nothing is connected to, in words."""
+    if not in_words:
+        return Cell((), GREY, PALE_GREY)
     ends = {end for each in system.connections for end in (each.source, each.sink)}
     joined = {end.port for end in ends if end.participant == name}
     ports = system.participants[name].ports.values()
     free = [port.causality for port in ports if port.name not in joined]
     counts = {kind: free.count(kind) for kind in Causality}
     parts = [f"{count} {kind}{'s' * (count > 1)}" for kind, count in counts.items() if count]
-    return [clipped(name, LONGEST_NAME), *([f"also {' and '.join(parts)}"] if parts else [])]
+    also = [f"also {' and '.join(parts)}"] if parts else []
+    return Cell([clipped(name, LONGEST_NAME), *also], GREY, PALE_GREY)
 
 
 def _colour(system: CoupledSystem, connections: Sequence[Connection]) -> str:
@@ -98,29 +112,18 @@ def _colour(system: CoupledSystem, connections: Sequence[Connection]) -> str:
     return ORANGE if any(watts(source) is not None for source in sources) else BLUE
 
 
-def _sizes(count: int, lines: Lines) -> tuple[np.ndarray, np.ndarray]:
-    """Widths of columns and heights of rows, (count,) inches each: their words, or all alike."""
-    side = min(max(EACH * count, SMALLEST), LARGEST) / count
-    widths, heights = (np.full(count, 0.0 if lines else side) for _ in range(2))
-    for (row, column), told in lines.items():
-        widths[column] = max(widths[column], 2.0 * ASIDE + LETTER * max(map(len, told)))
-        heights[row] = max(heights[row], 2.0 * ASIDE + LINE * len(told))
-    return widths, heights
-
-
-def _cell(axes: Axes, room: Rectangle, told: Sequence[str], **look: Any) -> None:
-    """A box in its room, with lines of words in its middle: of a unit, the first is its name."""
-    (x, y), width, height = room.get_xy(), room.get_width(), room.get_height()
+def _draw(axes: Axes, cell: Cell, x: float, y: float, width: float, height: float) -> None:
+    """A box in its room, with its words in the middle."""
     between = min(BETWEEN, 0.1 * width)
-    size = width - 2.0 * between, height - 2.0 * between
-    axes.add_patch(Rectangle((x + between, y + between), *size, linewidth=1.4, **look))
-    is_unit, is_square = look["facecolor"] == PALE_GREY, look["facecolor"] == look["edgecolor"]
+    inside = (x + between, y + between), width - 2.0 * between, height - 2.0 * between
+    axes.add_patch(Rectangle(*inside, linewidth=1.4, edgecolor=cell.edge, facecolor=cell.face))
+    is_square = cell.face == cell.edge
     how: Any = {"ha": "center", "va": "center", "color": "white" if is_square else INK}
-    for number, line in enumerate(told):
-        down = y + 0.5 * height + LINE * (number - 0.5 * (len(told) - 1))
-        how["weight"] = "bold" if is_unit and number == 0 else "normal"
-        points = min(50.0 * width, NUMBER) if is_square else NUMBER
-        axes.text(x + 0.5 * width, down, line, fontsize=points, **how)
+    how["fontsize"] = min(50.0 * width, NUMBER) if is_square else NUMBER
+    for number, line in enumerate(cell.lines):
+        down = y + 0.5 * height + LINE * (number - 0.5 * (len(cell.lines) - 1))
+        is_name = cell.face == PALE_GREY and number == 0
+        axes.text(x + 0.5 * width, down, line, weight="bold" if is_name else "normal", **how)
 
 
 def _names(axes: Axes, order: Sequence[str], side: float) -> None:

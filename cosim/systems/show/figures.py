@@ -11,7 +11,7 @@ from cosim.names import unknown_name
 from cosim.report.columns import Column, Columns
 from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.page import Picture, number, unit_text
-from cosim.report.palette import BLUE, FAINT_BLUE, INK, SERIES, Scaled, readable
+from cosim.report.palette import BLUE, INK, SERIES, Scaled, readable
 from cosim.report.style import displayed, draw_over_time, picture_over_time, shown
 from cosim.systems.run import SystemRun
 from cosim.systems.show.diagram import chart
@@ -57,7 +57,7 @@ def described(run: SystemRun, columns: Columns) -> dict[str, TimeFigure]:
         found["more_signals"] = signals(columns, more=True)
     if run.result.ledger.flows:
         found["energy"] = _energy(run.result.time, run.result.ledger)
-    if run.steps.count:
+    if run.steps.size:
         found["steps"] = _steps(columns, run.specification.run.start)
     return found
 
@@ -135,18 +135,9 @@ def _energy(time: NDArray[np.float64], ledger: Ledger) -> TimeFigure:
 
 def _steps(columns: Columns, start: float) -> TimeFigure:
     """Step size over time, on a logarithmic scale where the steps differ much."""
-    edges = np.append(start, columns["step_time"].values)
-    longest, shortest = (
-        np.append(columns[name].values[:1], columns[name].values)
-        for name in ("longest_step", "shortest_step")
-    )
-    if np.any(longest > shortest * (1.0 + 1e-6)):
-        curves = [
-            Curve("longest of neighbours", longest, BLUE, steps=True),
-            Curve("shortest of them", shortest, FAINT_BLUE, steps=True),
-        ]
-    else:
-        curves = [Curve("macro step", longest, BLUE, steps=True)]
-    differ = bool(longest.max() > 5.0 * shortest.min())
-    panel = Panel("macro step [s]", curves, logarithmic=differ, from_zero=not differ)
+    sizes = columns["macro_step"].values
+    differ = bool(sizes.max() > 5.0 * sizes.min())
+    edges, curve = np.append(start, columns["step_time"].values), np.append(sizes[:1], sizes)
+    shown = [Curve("macro step", curve, BLUE, steps=True)]
+    panel = Panel("macro step [s]", shown, logarithmic=differ, from_zero=not differ)
     return TimeFigure(edges, [panel])

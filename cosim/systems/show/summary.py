@@ -26,7 +26,8 @@ OF_ALIKE, OF_NOMINAL = 1e-11, 1e-13
 
 
 def system_columns(run: SystemRun) -> Columns:
-    """All outputs and connected inputs as `unit.port` over ``time`` (n,), steps over ``step_time``.
+    """All outputs and connected inputs as `unit.port` over ``time`` (n,), ``macro_step`` over
+    ``step_time``.
 
     Attributes of a variable: units, participant, causality, nominal, fed_by for an input; where its
     unit is defined, base_units, si_factor and si_offset (value in them = factor * value + offset).
@@ -40,16 +41,11 @@ def system_columns(run: SystemRun) -> Columns:
     if result.ledger.flows or result.ledger.residuals:
         said = "energy handed over and not taken up, and what units state to be off by"
         variables[RESIDUAL] = Column(("time",), result.ledger.residual, _told("J", said))
-    # an entry is one step or, in a long run, some neighbouring ones
-    ends, shortest, longest = run.steps.groups
-    for name, values, said in (
-        ("shortest_step", shortest, "smallest macro step up to this time"),
-        ("longest_step", longest, "largest macro step up to this time"),
-    ):
-        variables[name] = Column(("step_time",), values, _told("s", said))
+    said = "size of the macro steps since the recorded time before"
+    variables["macro_step"] = Column(("step_time",), run.steps, _told("s", said))
     axes = {
         "time": Column(("time",), np.asarray(result.time), _told("s", "time")),
-        "step_time": Column(("step_time",), ends, _told("s", "end of a macro step")),
+        "step_time": Column(("step_time",), result.time[1:], _told("s", "end of a macro step")),
     }
     attributes = {
         "title": run.specification.name,
@@ -233,16 +229,15 @@ def _power(run: SystemRun, connection: Connection) -> dict[str, Any] | None:
 
 
 def _coupling(run: SystemRun) -> dict[str, Any]:
-    settings = run.specification.coupling
-    _, shortest, longest = run.steps.groups
+    settings, done = run.specification.coupling, run.result.statistics
     return {
         "scheme": settings.scheme,
         "order": list(run.assembly.scheme.order),
         "step_control": settings.step_control,
         "macro_step": run.assembly.macro_step,
         **step_numbers(run.result),
-        "shortest_step": _picked(np.min, shortest),
-        "longest_step": _picked(np.max, longest),
+        "shortest_step": done.shortest or None,
+        "longest_step": done.longest or None,
     }
 
 

@@ -9,7 +9,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from ..arrays import inputs
@@ -23,6 +23,8 @@ from ..parameters import Parameters
 from .law import friction_coefficient
 
 Array = NDArray[np.float64]
+#: x and y of a curve.
+Points = tuple[Array, ArrayLike]
 POINTS = 300
 #: Temperature, which is over what an effect of it is a curve; others say so by their axis.
 TEMPERATURE = "temperature"
@@ -51,37 +53,24 @@ class LawCurve:
     logarithmic: bool = False
 
 
-@dataclass(frozen=True)
-class _Asked:
-    """What a curve is asked of: parameters, the kernel's arrays, and where the interface is."""
+class _Law:
+    """The kernel as a law is asked of it: p, u and w of a block at rest at the start."""
 
-    effect: Effect
-    parameters: Parameters
-    temperature: float
-    film: float
+    def __init__(self, effect: Effect, parameters: Parameters, temperature: float, film: float):
+        self.effect, self.parameters = effect, parameters
+        self.interface = temperature, film
+        self.kernel: Any = parameters.catalogue.kernel
+        self.p = parameters.pack()
+        self.u = list(inputs(parameters.surface.speed, *self.interface))
+        self.w = [0.0] * self.kernel.W_SIZE
 
-    @property
-    def kernel(self) -> Any:
-        """Of the parameters' effects."""
-        return self.parameters.catalogue.kernel
-
-    def arrays(self) -> tuple[list[float], list[float], list[float]]:
-        """p, u and w of a block at rest at the start."""
-        u = list(inputs(self.parameters.surface.speed, self.temperature, self.film))
-        return self.parameters.pack(), u, [0.0] * self.kernel.W_SIZE
-
-    def over(self, place: int, values: Array, ask: Callable[..., float]) -> Array:
-        """What is asked of p, u, w with each of the values in a place of w."""
-        p, u, w = self.arrays()
-        found = np.empty(values.size)
-        for i, value in enumerate(values):
-            w[place] = float(value)
-            found[i] = ask(p, u, w)
+    def over(self, array: list[float], place: int, x: Array, ask: Callable[..., float]) -> Array:
+        """What is asked of p, u, w with each of the values in a place of u or w."""
+        found = np.empty(x.size)
+        for i, value in enumerate(x.tolist()):
+            array[place] = value
+            found[i] = ask(self.p, self.u, self.w)
         return found
-
-    def coefficient(self, speeds: Array) -> Array:
-        """Friction of a slip, 1."""
-        return friction_coefficient(self.parameters, speeds, self.temperature, self.film)
 
 
 def law_curve(
@@ -97,10 +86,14 @@ def law_curve(
     to where, in the axis's unit, for axes without a range of their own (a memory, a way, a time)
     """
     axis = axis_of(effect)
+    if axis == SPEED and effect.states:
+        axis = STEADY
     if axis not in _CURVES:
         return None
     temperature = temperature_of(parameters, interface_temperature)
-    return _CURVES[axis](_Asked(effect, parameters, temperature, film_thickness), reach)
+    follow, over, unit, quantity, of = _CURVES[axis]
+    x, y = follow(_Law(effect, parameters, temperature, film_thickness), reach)
+    return LawCurve(over, unit, x, quantity, of, np.asarray(y), axis == HOLD)
 
 
 def axis_of(effect: Effect) -> str:
@@ -111,100 +104,93 @@ def axis_of(effect: Effect) -> str:
     return TEMPERATURE if TEMPERATURE in taken else ""
 
 
-def _over_speed(asked: _Asked, reach: float) -> LawCurve:
-    x = np.linspace(0.0, reach or 0.5, POINTS + 1)[1:]
-    if asked.effect.states:
-        y = np.array([_settled(asked, float(speed)) for speed in x])
-        return LawCurve("speed of steady sliding", "m/s", x, "friction coefficient", "1", y)
-    return LawCurve("sliding speed", "m/s", x, "friction coefficient", "1", asked.coefficient(x))
+def _speeds(reach: float) -> Array:
+    return np.linspace(0.0, reach or 0.5, POINTS + 1)[1:]
 
 
-def _settled(asked: _Asked, speed: float) -> float:
+def _over_speed(law: _Law, reach: float) -> Points:
+    x = _speeds(reach)
+    return x, friction_coefficient(law.parameters, x, *law.interface)
+
+
+def _over_steady_sliding(law: _Law, reach: float) -> Points:
+    x = _speeds(reach)
+    return x, [_settled(law, speed) for speed in x.tolist()]
+
+
+def _settled(law: _Law, speed: float) -> float:
     """Friction of a slip that has gone on for so long that what the effect remembers stays."""
-    p, u, w = asked.arrays()
-    table = getattr(asked.parameters, asked.effect.id)
-    for state in asked.effect.states:
+    table, w = getattr(law.parameters, law.effect.id), list(law.w)
+    for state in law.effect.states:
         own = {name: getattr(table, name) for name in type(table).model_fields}
         taken = {k: v for k, v in (own | {"speed": speed}).items() if k in arguments(state.rate)}
         if {*taken, state.name} == set(arguments(state.rate)):  # else it stays as at the start
-            place = W_STATE + getattr(asked.kernel, state_slot(asked.effect, state.name))
+            place = W_STATE + getattr(law.kernel, state_slot(law.effect, state.name))
             w[place] = brentq(
                 lambda q, state=state, taken=taken: state.rate(**taken, **{state.name: q}), 0.0, 1e9
             )
-    asked.kernel.friction_in_slip(p, u, w, speed, 0.0, 0.0)
-    friction: float = w[asked.kernel.W_FRICTION]
-    return -friction / p[P_NORMAL_FORCE]
+    law.kernel.friction_in_slip(law.p, law.u, w, speed, 0.0, 0.0)
+    friction: float = w[law.kernel.W_FRICTION]
+    return -friction / law.p[P_NORMAL_FORCE]
 
 
-def _over_hold(asked: _Asked, reach: float) -> LawCurve:
+def _over_hold(law: _Law, reach: float) -> Points:
     x = np.geomspace(1e-2, 1e3, POINTS)
-    y = asked.over(W_STATE + TIME, x, asked.kernel.static_coefficient)  # held since the start
-    return LawCurve("time at rest", "s", x, "static friction coefficient", "1", y, True)
+    return x, law.over(law.w, W_STATE + TIME, x, law.kernel.static_coefficient)  # since the start
 
 
-def _over_memory(asked: _Asked, reach: float) -> LawCurve:
+def _over_memory(law: _Law, reach: float) -> Points:
     """Of what an effect remembers first."""
-    first = state_slot(asked.effect, asked.effect.states[0].name)
-    return _over(getattr(asked.kernel, first), "remembered heat", "J", asked, reach)
+    first = state_slot(law.effect, law.effect.states[0].name)
+    return _over(getattr(law.kernel, first), law, reach)
 
 
-def _over(place: int, axis: str, unit: str, asked: _Asked, reach: float) -> LawCurve:
-    """Kinetic friction over a number of the instant."""
+def _over(place: int, law: _Law, reach: float) -> Points:
+    """Over a number of the instant."""
     x = np.linspace(0.0, reach or 1.0, POINTS)
-    y = asked.over(W_STATE + place, x, asked.kernel.kinetic_coefficient)
-    return LawCurve(axis, unit, x, "kinetic friction coefficient", "1", y)
+    return x, law.over(law.w, W_STATE + place, x, law.kernel.kinetic_coefficient)
 
 
-def _over_load(asked: _Asked, reach: float) -> LawCurve:
-    x, y = np.linspace(1.0, 20.0, POINTS // 10), []
-    for load in x:
-        loaded = asked.parameters.with_values("rig", mass=float(load) / GRAVITY)
-        (mu,) = friction_coefficient(loaded, [SLIDING], asked.temperature, asked.film)
-        y.append(mu)
-    return LawCurve("normal force", "N", x, "friction coefficient", "1", np.array(y))
+def _over_load(law: _Law, reach: float) -> Points:
+    x = np.linspace(1.0, 20.0, POINTS // 10)
+    masses = (x / GRAVITY).tolist()
+    loaded = (law.parameters.with_values("rig", mass=mass) for mass in masses)
+    return x, [friction_coefficient(one, [SLIDING], *law.interface)[0] for one in loaded]
 
 
-def _over_extension(asked: _Asked, reach: float) -> LawCurve:
-    p, _, _ = asked.arrays()
+def _over_extension(law: _Law, reach: float) -> Points:
     x = np.linspace(-(reach or 0.1), reach or 0.1, POINTS)
-    y = np.array([asked.kernel.spring_tension(p, float(extension)) for extension in x])
-    return LawCurve("extension of a spring", "m", x, "force of it", "N", y)
+    return x, [law.kernel.spring_tension(law.p, extension) for extension in x.tolist()]
 
 
-def _over_velocity(asked: _Asked, reach: float) -> LawCurve:
-    p, _, _ = asked.arrays()
+def _over_velocity(law: _Law, reach: float) -> Points:
     x = np.linspace(-0.5, 0.5, POINTS)
-    y = np.array([-asked.kernel.damping_per_speed(p, float(v), 0.0) * v for v in x])
-    return LawCurve("velocity of the block", "m/s", x, "force on it", "N", y)
+    return x, [-law.kernel.damping_per_speed(law.p, v, 0.0) * v for v in x.tolist()]
 
 
-def _over_time(asked: _Asked, reach: float) -> LawCurve:
-    p, u, w = asked.arrays()
+def _over_time(law: _Law, reach: float) -> Points:
     x = np.linspace(0.0, reach or 4.0, POINTS)
-    y = np.array([asked.kernel.surface_speed(p, u, w, float(t)) for t in x])
-    return LawCurve("time", "s", x, "speed of the surface", "m/s", y)
+    return x, [law.kernel.surface_speed(law.p, law.u, law.w, t) for t in x.tolist()]
 
 
-def _over_temperature(asked: _Asked, reach: float) -> LawCurve:
-    p, u, w = asked.arrays()
-    x, y = np.linspace(asked.temperature - 12.0, 0.0, POINTS), []
-    for degrees in x:
-        u[U_TEMPERATURE] = float(degrees)
-        y.append(asked.kernel.kinetic_coefficient(p, u, w))
-    return LawCurve(
-        "interface temperature", "degC", x, "kinetic friction coefficient", "1", np.array(y)
-    )
+def _over_temperature(law: _Law, reach: float) -> Points:
+    x = np.linspace(law.interface[0] - 12.0, 0.0, POINTS)
+    return x, law.over(law.u, U_TEMPERATURE, x, law.kernel.kinetic_coefficient)
 
 
-_CURVES: dict[str, Callable[[_Asked, float], LawCurve]] = {
-    "sliding speed": _over_speed,
-    "hold time": _over_hold,
-    "heat memory": _over_memory,
-    "distance": partial(_over, DISTANCE, "distance slid", "m"),
-    "place": partial(_over, X, "place on the surface", "m"),
-    "load": _over_load,
-    "position": _over_extension,
-    "velocity": _over_velocity,
-    "time": _over_time,
-    TEMPERATURE: _over_temperature,
+SPEED, STEADY, HOLD = "sliding speed", "steady sliding", "hold time"
+MU, MU_S, MU_K = (f"{kind}friction coefficient" for kind in ("", "static ", "kinetic "))
+#: Axis of an effect -> what follows it, what it is and its unit, what is over it and its unit.
+_CURVES: dict[str, tuple[Callable[[_Law, float], Points], str, str, str, str]] = {
+    SPEED: (_over_speed, SPEED, "m/s", MU, "1"),
+    STEADY: (_over_steady_sliding, "speed of steady sliding", "m/s", MU, "1"),
+    HOLD: (_over_hold, "time at rest", "s", MU_S, "1"),
+    "heat memory": (_over_memory, "remembered heat", "J", MU_K, "1"),
+    "distance": (partial(_over, DISTANCE), "distance slid", "m", MU_K, "1"),
+    "place": (partial(_over, X), "place on the surface", "m", MU_K, "1"),
+    "load": (_over_load, "normal force", "N", MU, "1"),
+    "position": (_over_extension, "extension of a spring", "m", "force of it", "N"),
+    "velocity": (_over_velocity, "velocity of the block", "m/s", "force on it", "N"),
+    "time": (_over_time, "time", "s", "speed of the surface", "m/s"),
+    TEMPERATURE: (_over_temperature, "interface temperature", "degC", MU_K, "1"),
 }

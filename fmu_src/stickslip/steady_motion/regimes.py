@@ -248,7 +248,7 @@ def _numbers(run: Trajectory, begin: float, end: float) -> dict[str, float]:
         cycles = time >= begin
     return {
         "frequency": 0.0 if math.isnan(frequency) else frequency,
-        "slip_share": slip_share(time, run["mode"][seen], run.events),
+        "slip_share": slip_share(*run.phases, begin, end),
         "mean_x": float(np.trapezoid(x[cycles], time[cycles]) / np.ptp(time[cycles])),
         "half_range_x": 0.5 * float(np.ptp(x)),
         "max_y": float(np.abs(run["y"][seen]).max()),

@@ -8,15 +8,13 @@ from importlib.util import find_spec
 import pytest
 from process_ids import is_soon, lives
 
-from cosim.processes import STOP_SECONDS, apart, as_finished, processes
+from cosim.processes import apart, as_finished, processes
 
-# two calls under way that do not look whether they are to end, six that wait
+# two calls under way, six that wait
 INTERRUPTED = """
 import time
-import cosim.processes as processes
 from cosim.processes import pool
 
-processes.STOP_SECONDS = 1.0
 if __name__ == "__main__":
     try:
         with pool(2) as submit:
@@ -110,7 +108,7 @@ def test_workers_end_with_a_parent_that_was_killed(tmp_path):
         is_soon(lambda: len(list(place.iterdir())) == 2)
         parent.kill()
     workers = [int(file.name) for file in place.iterdir()]
-    is_soon(lambda: not any(map(lives, workers)), STOP_SECONDS / 2)
+    is_soon(lambda: not any(map(lives, workers)), 5.0)
 
 
 def test_apart_looks_for_nothing_in_a_unit_that_was_left_on_the_path(tmp_path, monkeypatch):

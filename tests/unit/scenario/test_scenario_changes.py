@@ -34,9 +34,12 @@ pytestmark = pytest.mark.usefixtures("elsewhere")
         ("'slab'", "slab"),
         ("[160, 20]", [160, 20]),
         ("[{thickness = 1e-3}]", [{"thickness": 1e-3}]),
+        ("[x, phi]", ["x", "phi"]),
+        (".5", 0.5),
         ("a=b", "a=b"),
         ("1\nother = 2", "1\nother = 2"),
         ("[" * 5000, "[" * 5000),
+        ("[" * 5000 + "x" + "]" * 5000, "[" * 5000 + "x" + "]" * 5000),
     ],
 )
 def test_a_value_is_as_toml_has_it_or_a_text(text, value):

@@ -11,6 +11,7 @@ import xarray as xr
 from stickslip import Friction, Parameters, Rig, Surface, simulate
 from stickslip.catalogue import CATALOGUE
 
+from cosim.report import trajectory_columns
 from cosim.studies.sweep import SweepError, SweepStopped, features, product_grid, sweep
 from cosim.studies.sweep import combination as combination_module
 from cosim.studies.sweep import run as run_module
@@ -43,7 +44,7 @@ def test_the_varied_keys_are_the_dimensions():
     for name in done.variables:
         assert done[name].attrs["units"] and done[name].attrs["long_name"]
     one = combination_module.with_changes(BASE, {"rig.mass": 0.9, "surface.speed": 0.1})
-    alone = features(simulate(one, 2.0, 0.02))
+    alone = features(trajectory_columns(simulate(one, 2.0, 0.02), one, ""))
     here = done.sel({"rig.mass": 0.9, "surface.speed": 0.1})
     for name, value in alone.items():
         assert here[name].item() == pytest.approx(value, abs=0.0, rel=0.0, nan_ok=True)

@@ -23,6 +23,10 @@ MIDDLE = MU_K * GRAVITY / RATE**2
 SWING = math.hypot(JUMP, SPEED / RATE)
 
 
+def numbers_of(run):
+    return features(trajectory_columns(run, run.parameters, ""))
+
+
 @pytest.fixture(scope="module")
 def coulomb():
     """The Coulomb oscillator, begun where it re-sticks: in its cycle from the start."""
@@ -34,7 +38,7 @@ def coulomb():
         surface=Surface(speed=SPEED),
         initial=Initial(x=MIDDLE - JUMP, vx=SPEED),
     )
-    return features(simulate(case, 60.0, 0.01))
+    return numbers_of(simulate(case, 60.0, 0.01))
 
 
 def test_every_feature_is_there_with_unit_and_words(coulomb):
@@ -73,14 +77,14 @@ def test_heat_is_force_times_way(coulomb):
 
 def test_a_run_without_constant_speed_has_totals_only():
     run = simulate(Parameters(surface=Surface(run_up_time=10.0)), 5.0, 0.1)
-    numbers = features(run)
+    numbers = numbers_of(run)
     assert math.isnan(numbers["x_mean"]) and math.isnan(numbers["frequency"])
     assert numbers["heat"] >= 0.0
 
 
 def test_a_block_that_rests_has_no_slip_time():
     held = Parameters(surface=Surface(speed=0.001), initial=Initial(vx=0.001))
-    numbers = features(simulate(held, 2.0, 0.1))
+    numbers = numbers_of(simulate(held, 2.0, 0.1))
     assert numbers["frequency"] == numbers["slip_share"] == 0.0
     assert math.isnan(numbers["slip_time"]) and math.isnan(numbers["kinetic_coefficient"])
 
@@ -89,7 +93,7 @@ def test_the_frequency_is_that_of_a_summary():
     """One definition, from whatever it is read: events, counts in rows, a summary."""
     case = Parameters(surface=Surface(speed=SPEED), initial=Initial(vx=SPEED))
     run = simulate(case, 7.3, 0.01)
-    found = features(run)["frequency"]
+    found = numbers_of(run)["frequency"]
     starts = run.slip_starts
     assert found == break_away_frequency(starts) == pytest.approx(1.0 / np.diff(starts).mean())
     assert after_ramp(trajectory_columns(run, case, "").to_xarray())["frequency"] == found

@@ -13,7 +13,6 @@ from cosim.cli.studies import sweep as sweep_command
 from cosim.fmu.build import ensure_fmu
 from cosim.studies.sweep import SweepError, features, result, sweep
 from cosim.studies.sweep.axis import parse_vary
-from cosim.studies.sweep.combination import as_trajectory
 from cosim.studies.sweep.grid import product_grid
 
 LAYERS = [
@@ -41,11 +40,12 @@ def coupled():
 def test_a_coupled_sweep_has_the_numbers_of_its_runs(coupled):
     assert coupled.attrs["coupled"] == 1
     one = SHORT.changed({"belt.layers": [LAYERS[0], LAYERS[1] | {"conductivity": 5.0}]})
-    run = run_scenario(one).result
+    done = run_scenario(one)
+    run = done.result
     rise = run["thermal.interface_temperature"][-1] - one.ambient.temperature_degC
     assert coupled["interface_rise"].values[1] == pytest.approx(rise, rel=1e-12)
     assert coupled["interface_rise"].values[0] != coupled["interface_rise"].values[1]
-    alone = features(as_trajectory(run, one))
+    alone = features(done.to_xarray())
     assert coupled["x_mean"].values[1] == pytest.approx(alone["x_mean"], rel=1e-12)
     starts = counted_break_aways(run.time, run["mechanics.slip_count"])
     starts = starts[starts >= 0.2]

@@ -9,6 +9,7 @@ from lag_unit import lag_unit
 
 from cosim.cli import main
 from cosim.coupling import FmuParticipant
+from cosim.coupling.exchange import Statistics
 
 LOOP = """
 [units.a]
@@ -143,20 +144,18 @@ def test_what_does_not_fit_is_refused_by_file_and_key(loop, capsys, coupling, a,
 
 def test_a_folder_that_is_removed_in_mid_run_is_said_in_one_line(loop, capsys, monkeypatch):
     """As who cleans up does it: the run's own folder, or that of the results with all in it."""
-    from cosim.systems import run as runs
-
     path = loop("macro_step = 0.01")
     for gone, said in (("unfinished", "it was removed while it was written"), (".", "was removed")):
-        made = runs.StepLog.add
+        made = Statistics.count
 
-        def add(self, reached, gone=gone, made=made):
-            made(self, reached)
-            if self.count == 20:
+        def count(self, size, gone=gone, made=made):
+            made(self, size)
+            if self.steps == 20:
                 shutil.rmtree(Path(path).parent / "out" / gone)
 
         # the table looks every second; here at every row
         monkeypatch.setattr("cosim.coupling.record.table.LOOK_EVERY", -1.0)
-        monkeypatch.setattr(runs.StepLog, "add", add)
+        monkeypatch.setattr(Statistics, "count", count)
         assert main(["couple", path, "--force", "-o", str(Path(path).parent / "out")]) == 1
         monkeypatch.undo()
         lines = [x for x in capsys.readouterr().err.splitlines() if x.startswith("error: ")]

@@ -207,7 +207,7 @@ def test_the_command_leaves_what_run_leaves(chain, tmp_path, capsys):
     with xr.open_dataset(folder / "result.nc", engine="h5netcdf") as dataset:
         assert dataset["first.y"].attrs["units"] == "m"
         assert dataset["second.u"].attrs["fed_by"] == "first.y"
-        np.testing.assert_allclose(dataset["longest_step"], 0.01, rtol=1e-9)
+        np.testing.assert_allclose(dataset["macro_step"], 0.01, rtol=1e-9)
     page = (folder / "report.html").read_text()
     assert "times 1000" in page and "first.y" in page
 

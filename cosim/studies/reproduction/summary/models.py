@@ -43,7 +43,7 @@ def figures(motion: Motion) -> dict[str, float]:
 
     As `motion.figures` has them; a frequency of 0: x does not come back.
     """
-    found = read_off(motion, between_rows=True, visible=VISIBLE)
+    found = read_off(motion, visible=VISIBLE)
     frequency = float(np.nan_to_num(found["frequency"]))
     return found | {"frequency": frequency, "max_rotation_deg": found["max_rotation"]}
 
