@@ -180,7 +180,7 @@ def draw_residuals(gap: Gap, channel: str) -> Figure:
 
 
 def _rows(gap: Gap, channel: str, draw: Callable[[Axes, Gap, MeasuredRun, str], None]) -> Figure:
-    runs = [run for run in shown_runs(gap) if channel in channels_of(run, gap.plain.run(run.name))]
+    runs = [run for run in shown_runs(gap) if channel in channels_of(gap.plain.run(run.name))]
     figure, axes = panels(len(runs), 1, height=1.7, width=WIDTH)
     for axis, run in zip(axes[:, 0], runs, strict=True):
         draw(axis, gap, run, channel)
@@ -215,7 +215,7 @@ def _motion(axis: Axes, gap: Gap, run: MeasuredRun, channel: str, size: float) -
     for name, model, colour in models(gap):
         values = factor * modelled(run, model.run(run.name), channel)
         axis.plot(time, values, color=colour, label=name, linewidth=min(1.3, 0.5 * size))
-    for start in time[starts(run, gap.plain.run(run.name))]:
+    for start in time[starts(gap.plain.run(run.name))]:
         axis.axvline(start, color=GREY, linewidth=0.6, linestyle=":")
     axis.set_title(title(run))
     axis.set_ylabel(label)

@@ -146,7 +146,7 @@ def largest_difference(gap: Gap, fmu: Path) -> float:
     """Between FMU and fitted model along x until the fit sets out anew, in units of the noise."""
     run = shown_run(gap)
     scenario, fitted = scenario_of(gap, run), gap.extended.run(run.name)
-    time = camera.true_time(run.motion.time[: next(iter(starts(run, fitted)), None)], fitted.values)
+    time = camera.true_time(run.motion.time[: next(iter(starts(fitted)), None)], fitted.values)
     speed = {"surface_speed": scenario.surface.speed}
     with FmuParticipant(fmu, parameters=scenario.mechanics.flat(), inputs=speed) as block:
         block.enter_initialisation(float(time[0]), float(time[-1]))

@@ -19,46 +19,38 @@ def shown_runs(gap: Gap) -> list[MeasuredRun]:
     return [run for run in gap.campaign.runs if run.name in names]
 
 
-def channels_of(run: MeasuredRun, fitted: FittedRun) -> tuple[str, ...]:
+def channels_of(fitted: FittedRun) -> tuple[str, ...]:
     """Those that the model is compared with: x alone where the block only moves along it."""
-    return _compared(run, fitted)[0]
-
-
-def _compared(run: MeasuredRun, fitted: FittedRun) -> tuple[tuple[str, ...], np.ndarray]:
-    """The channels, and (n, c) which of their samples there are."""
-    names = tuple(name for name in AXES if name in run.motion.channels)
-    there = np.isfinite(np.column_stack([run.motion[name] for name in names]))
-    there[: fitted.begin] = False
-    if np.count_nonzero(there) == fitted.residuals.size:
-        return names, there
-    return AXES[:1], there[:, :1]
+    return tuple(AXES[axis] for axis in np.unique(fitted.axes))
 
 
 def channels(gap: Gap) -> list[str]:
     """Those that the models are compared with in some run."""
-    found = {c for run in shown_runs(gap) for c in channels_of(run, gap.plain.run(run.name))}
+    found = {c for run in shown_runs(gap) for c in channels_of(gap.plain.run(run.name))}
     return [name for name in AXES if name in found]
 
 
 def residuals(run: MeasuredRun, fitted: FittedRun, channel: str) -> np.ndarray:
     """(n,) model less data in units of the noise; NaN where nothing was compared."""
-    names, there = _compared(run, fitted)
-    left = np.full(there.shape, np.nan)
-    left[there] = fitted.residuals
-    return left[:, names.index(channel)] if channel in names else np.full(len(left), np.nan)
+    left, here = np.full(run.motion.time.size, np.nan), fitted.axes == AXES.index(channel)
+    left[fitted.rows[here]] = fitted.residuals[here]
+    return left
 
 
-def starts(run: MeasuredRun, fitted: FittedRun) -> np.ndarray:
+def starts(fitted: FittedRun) -> np.ndarray:
     """(w - 1,) samples at which the model sets out anew from the data, the first left out."""
-    rows, _ = np.nonzero(_compared(run, fitted)[1])
     first = [fitted.begin] * (fitted.begin > 0)
-    return np.concatenate([first, rows[np.flatnonzero(np.diff(fitted.window)) + 1]]).astype(int)
+    return np.append(first, fitted.rows[np.flatnonzero(np.diff(fitted.window)) + 1]).astype(int)
 
 
 def modelled(run: MeasuredRun, fitted: FittedRun, channel: str) -> np.ndarray:
-    """(n,) of the model, m or rad; cut where it sets out anew."""
+    """(n,) of the model, m or rad; cut where it sets out anew, and where a block that just reaches
+    the surface's speed is not compared."""
     values = fitted.track[:, AXES.index(channel)].copy()
-    values[starts(run, fitted) - 1] = np.nan
+    is_left_out = np.isfinite(run.motion.x) & (np.arange(values.size) >= fitted.begin)
+    is_left_out[fitted.rows] = False
+    values[is_left_out] = np.nan
+    values[starts(fitted) - 1] = np.nan
     return values
 
 
@@ -71,7 +63,7 @@ def worst(gap: Gap) -> tuple[MeasuredRun, str, float, float]:
     first = np.flatnonzero(time + length <= time[-1] + 1e-9)
     last = np.searchsorted(time, time[first] + length)
     found = []
-    for channel in channels_of(run, fitted):
+    for channel in channels_of(fitted):
         squares = np.nan_to_num(residuals(run, fitted, channel)) ** 2
         total = np.append(0.0, np.cumsum(squares))
         mean = (total[last] - total[first]) / np.maximum(last - first, 1)

@@ -32,7 +32,7 @@ class FittedRun:
         the logarithm of the factor on mu_s
     residuals : (m,) model less data in units of the noise, one for each sample seen
     window : (m,) number of the window that each belongs to
-    begin : first row of the data that is compared
+    rows, axes : (m,) the sample that each belongs to, and which of `windows.AXES`
     rounding : (m,) factor by which the noise of each is larger than stated
     """
 
@@ -43,8 +43,14 @@ class FittedRun:
     residuals: np.ndarray = field(repr=False)
     window: np.ndarray = field(repr=False)
     hold_out: bool
-    begin: int = 0
+    rows: np.ndarray = field(repr=False)
+    axes: np.ndarray = field(repr=False)
     rounding: np.ndarray | float = field(default=1.0, repr=False)
+
+    @property
+    def begin(self) -> int:
+        """First sample that is compared."""
+        return int(self.rows[0])
 
     @property
     def gap(self) -> float:

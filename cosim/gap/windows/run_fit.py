@@ -155,7 +155,7 @@ class RunFit:
         return FittedRun(
             self.model.run.name, values, self.model.track(values, at.states), at.states,
             at.residuals[:size], self.model.owner[:size], self.model.run.hold_out,
-            self.model.windows.begin, self.model.rounding,
+            self.model.rows, self.model.axes, self.model.rounding,
         )  # fmt: skip
 
 

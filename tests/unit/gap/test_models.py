@@ -87,8 +87,9 @@ def test_a_rung_of_what_moves_the_block_across_has_the_evidence_of_the_plane(mon
 
 
 def fitted(residual, cost, held_out=0.0):
-    run = FittedRun("a", {}, np.zeros((4, 3)), np.zeros((1, 6)), np.full(4, residual),
-                    np.zeros(4, dtype=int), False)  # fmt: skip
+    rows, zeros = np.arange(4), np.zeros(4, dtype=int)
+    run = FittedRun("a", {}, np.zeros((4, 3)), np.zeros((1, 6)), np.full(4, residual), zeros,
+                    False, rows, zeros)  # fmt: skip
     return Fitted({}, {}, {}, (run,), cost + held_out, held_out_cost=held_out)
 
 

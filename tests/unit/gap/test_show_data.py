@@ -77,7 +77,7 @@ def test_model_moves_as_the_fitted_one_did(gap, tmp_path):
     scenario, run = read_scenario(tmp_path / "model.toml"), shown_run(gap)
     assert run.hold_out and scenario == scenario_of(gap, run)
     fitted = gap.extended.run(run.name)
-    end = starts(run, fitted)[0]
+    end = starts(fitted)[0]
     state = scenario.initial
     assert (state.x, state.vx) == pytest.approx(fitted.states[0, [0, 3]], rel=1e-11)
     x = simulate(scenario.mechanics, run.motion.time[-1], 0.01)["x"][:end]
@@ -119,7 +119,9 @@ def test_residuals_stand_at_their_samples(gap):
     fitted = gap.extended.run(run.name)
     left = residuals(run, fitted, "x")
     expected = (fitted.track[:, 0] - run.motion.x) / NOISE
-    assert left[fitted.begin :] == pytest.approx(expected[fitted.begin :], abs=1e-6)
+    there = np.isfinite(left)
+    assert left[there] == pytest.approx(expected[there], abs=1e-6)
+    assert there[fitted.begin :].mean() > 0.98  # but for crests that graze the surface's speed
     assert fitted.begin > 0 and np.isnan(left[: fitted.begin]).all()
     assert np.isnan(residuals(run, fitted, "y")).all()
 
