@@ -1,4 +1,4 @@
-"""Scenarios, campaigns and systems that nobody would write, and what must hold of each answer.
+"""Scenarios and campaigns that nobody would write, and what must hold of each answer.
 
 Whatever is given, the command ends in time with exit status 0, 1 or 2; it shows no traceback and no
 library's inside; a status other than 0 has said why in one line. Status 0 means that what came out
@@ -220,8 +220,6 @@ def called(*argv, figures=True):
         stack.enter_context(warnings.catch_warnings())
         # whether a motion is stable is another question, which takes seconds
         stack.enter_context(mock.patch("cosim.cli.runs.running.MOST_STEPS", 2e4))
-        # what is asked for may be a run of days
-        stack.enter_context(mock.patch("cosim.systems.assembly.MOST_STEPS", 20_000))
         if not figures:
             stack.enter_context(mock.patch("cosim.report.figures.plates_of", return_value=()))
             stack.enter_context(mock.patch("cosim.report.style.png", return_value=b""))

@@ -1,4 +1,4 @@
-"""Scenarios, campaigns and systems that nobody would write, the same ones each time.
+"""Scenarios and campaigns that nobody would write, the same ones each time.
 
 Of campaigns only the reading: finding takes seconds each. `STICKSLIP_FUZZ=50 pytest -m "" FILE`
 draws fifty times as many, other ones each time.
@@ -10,7 +10,6 @@ from unittest import mock
 
 import pytest
 from fuzzed import called, campaigns, fault_of, scenarios, toml, write_campaign
-from fuzzed_systems import packages, settings_of, systems, write_package, write_system
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -33,13 +32,6 @@ def drawn(count):
 @pytest.fixture(scope="module")
 def place(tmp_path_factory):
     return tmp_path_factory.mktemp("fuzz")
-
-
-def fresh(folder):
-    """An empty folder of that name."""
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir()
-    return folder
 
 
 def check(status, out, err, folder=None):
@@ -71,21 +63,3 @@ def test_any_campaign_is_read_or_refused(place, command, computes, data):
         status, out, err = called(command, path, "-o", place / command)
     assert status == 2 or err.endswith(READ), err
     check(status, out, err)
-
-
-@drawn(20)
-@given(tables=systems())
-def test_any_system_gets_a_sensible_answer(place, tables):
-    folder = fresh(place / "system")
-    if (path := write_system(folder, tables)) is None:
-        return
-    check(*called("couple", path, "-o", folder / "out", figures=False), folder / "out")
-
-
-@drawn(20)
-@given(case=packages())
-def test_any_package_gets_a_sensible_answer(place, case):
-    folder = fresh(place / "package")
-    text, changes = case
-    argv = ["couple", write_package(folder, text), *settings_of(changes), "-o", folder / "out"]
-    check(*called(*argv, figures=False), folder / "out")

@@ -1,13 +1,10 @@
 """The decision: every threshold where it is, and parts of an answer that cannot contradict."""
 
 from dataclasses import dataclass, field, replace
-from itertools import chain
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from stickslip.catalogue import CATALOGUE
 from stickslip.effects.contact.static_strengthening import EFFECT
 from stickslip.effects.effect import Scales
@@ -27,8 +24,8 @@ from cosim.gap.judge import (
 from cosim.gap.laws import Context, FreeCurve, laws_of
 from cosim.gap.models import Models
 from cosim.gap.plan.next_run import NextRun
-from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
-from cosim.gap.result import VERDICTS, Doubt, Rates, Rung, Score
+from cosim.gap.report_of_findings import exponents_of, law_of, sentence_of
+from cosim.gap.result import Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.ladder import Finding, Search, _is_better
 from cosim.gap.weak_form.unknowns import Unknown
@@ -287,72 +284,6 @@ def test_what_has_no_name_goes_for_a_name_that_is_as_probable(old, new, gained, 
 )
 def test_what_rows_ask_for(unknowns, found):
     assert climbed(**unknowns) == list(found)
-
-
-GAPS = st.floats(0.9, 10.0)
-NAMES = st.lists(st.sampled_from([*sorted(PHYSICS), "other.time"]), max_size=3, unique=True)
-
-
-@settings(max_examples=200)
-@given(
-    names=NAMES, gaps=st.lists(st.tuples(GAPS, st.none() | GAPS), min_size=4, max_size=4),
-    share=st.floats(0.0, 1.0), gains=st.lists(st.floats(6.0, 1e3), min_size=3, max_size=3),
-    others=st.dictionaries(st.sampled_from(sorted(PHYSICS)), st.floats(-50.0, 5.0)),
-)  # fmt: skip
-def test_parts_of_an_answer_cannot_contradict(names, gaps, share, gains, others):
-    """Headline, verdict, ladder and ranking, whatever was found."""
-    findings = [
-        Finding(name, (), gain, {k: v for k, v in others.items() if k not in names})
-        for name, gain in zip(names, gains, strict=False)
-    ]
-    ladder = [rung(*pair, share) for pair in gaps[: len(names) + 1]]
-    verdict = judge(findings, names, ladder, PHYSICS)
-    parts = [part(each) for each in findings]
-    answer = SimpleNamespace(
-        **vars(verdict), ladder=ladder, share=share, exponents=(), doubts=(),
-        extended=SimpleNamespace(values={}),
-    )  # fmt: skip
-    headline = sentence_of(answer, parts)
-    before, after = (one.gap.of_verdict for one in (ladder[0], ladder[-1]))
-    assert verdict.verdict in VERDICTS
-    assert bool(verdict.effects) == (verdict.verdict in ("named", "class", "partial"))
-    assert set(verdict.effects) <= PHYSICS
-    assert ("No effect is missing" in headline) == (verdict.verdict == "none")
-    if verdict.verdict == "none":
-        assert not names and after <= 1.1
-    if verdict.effects:
-        assert after < before and names[0] in headline
-        assert verdict.effects[0] == names[0]
-        assert not headline.startswith("The model")
-    if verdict.verdict == "class":
-        assert set(verdict.effects) <= {*names, *chain(*verdict.classes)}
-        assert all(set(group) & set(verdict.effects) for group in verdict.classes)
-        assert "cannot tell" in headline
-    if verdict.verdict == "named":
-        assert verdict.effects == tuple(names) and not verdict.classes
-    if findings:
-        ladders = SimpleNamespace(first_offers={})
-        model = SimpleNamespace(values={}, sd={}, at_bound=())
-        rows = ranking_of(ladders, parts, model, ladder[-1].gap)
-        probable = [row.probability for row in rows]
-        assert probable == sorted(probable, reverse=True)
-        assert sum(probable) == pytest.approx(1.0)
-        if verdict.verdict == "class" and len(names) == 1:
-            # nobody outside the class is as probable as the least of its members
-            least = min(r.evidence for r in rows if r.effect in verdict.effects)
-            rest = [r.evidence for r in rows if r.effect not in verdict.effects]
-            assert max(rest, default=-1e9) <= least
-        elif not verdict.classes and verdict.effects:
-            assert rows[0].effect == names[0]
-
-
-def part(each):
-    unknown = SimpleNamespace(variant="", curve=None)
-    found = SimpleNamespace(
-        name=each.name, gain=each.gain, others=each.others, added=(),
-        main=SimpleNamespace(unknown=unknown), variant="",
-    )  # fmt: skip
-    return SimpleNamespace(finding=found, effect=each.name, curve=None, fits=(), numbers=())
 
 
 def test_what_moves_the_block_across_has_a_name_and_no_curve():

@@ -2,7 +2,6 @@
 
 import json
 import re
-from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -13,22 +12,15 @@ from cosim.cli.studies import belt_length as belt_length_command
 from cosim.scenario import read_scenario
 from cosim.studies.belt_length import (
     Case,
-    Options,
-    Study,
     StudyError,
-    answer_all,
-    empty_map,
-    fill_map,
     how_long,
     scenario_case,
     shortest_belt,
     with_ranges,
-    work_off,
 )
 from cosim.studies.belt_length.drift import interface_drift, run_drift
 from cosim.studies.belt_length.lengths import rounded_up
 from cosim.studies.belt_length.show import answered
-from cosim.studies.belt_length.study import steps
 from cosim.studies.belt_length.unknowns import UNKNOWNS, unknowns_of
 
 STEEL = """
@@ -117,20 +109,6 @@ def test_a_run_and_its_belt_length_have_one_heat_transfer():
     assert any("`stickslip run` takes the same." in one for one in said)
     said = answered(how_long(Case(1.0, 0.15, h=10.0), samples=0))
     assert "The belt of 1 m gives 10 W/m2K to the air on each face, as given." in said
-
-
-def test_the_bar_goes_to_the_runs_cases_and_places_of_the_map():
-    slow = replace(scenario_case(read_scenario("reference")), speed=0.03)
-    for case in (slow, replace(slow, ambient_degC=-0.001)):  # whose sampled rigs melt
-        study = Study(Options(0.07, samples=32))
-        study.grid = empty_map(2, case)
-        wanted, done = [case, case.with_length(2.0)], []
-        answer_all(study, wanted, 1, done.append)
-        assert sum(done) == 40 and (len(done) > 4 or case is not slow)
-        work_off(study, wanted, 1, done.append)
-        fill_map(study.grid, case, 1, done.append)
-        assert sum(done) == steps(study, wanted, True) == 40 + 2 + 4
-    assert steps(study, wanted, False) == 2 * 40 + 2 + 4
 
 
 @pytest.mark.parametrize("speed", [0.15, 0.82])
