@@ -4,12 +4,10 @@ import json
 import os
 import shutil
 import signal
-import sys
 from dataclasses import asdict
 
 import numpy as np
 import pytest
-from command_line import python
 from saved_pendulums import ORDER, pendulums
 
 from cosim.coupling import GaussSeidel, run
@@ -104,27 +102,6 @@ def test_goes_on_as_if_it_had_never_been_cut_off(tmp_path, how):
         folder = RunFolder.found(tmp_path)
     same(go(how, kept(folder)), whole)
     np.testing.assert_array_equal(np.load(folder.record)[:, 0], whole.time)
-
-
-@pytest.mark.parametrize("how", ["quadratic", "doubling"])
-def test_from_many_steps(tmp_path, how):
-    """Whatever row, event or rejected step comes next; every one of the first, some of the rest."""
-    whole = go(how, stop=1.5)
-    results = tmp_path / "whole"
-    results.mkdir()
-    folder = RunFolder.begun(results, ASKED, {})
-    copies = [tmp_path / str(n) for n in range(whole.steps)]
-    chosen = {*copies[:6], *copies[6 :: max(1, whole.steps // 12)], copies[-1]}
-    to_come = iter(copies)
-
-    def keep_a_copy(_):
-        if (copy := next(to_come)) in chosen:
-            shutil.copytree(folder.results, copy)
-
-    go(how, kept(folder, steps=1), keep_a_copy, stop=1.5)
-    assert next(to_come, None) is None
-    for copy in chosen:
-        same(go(how, kept(RunFolder.found(copy), steps=0), stop=1.5), whole)
 
 
 def test_every_row_is_on_disk_at_once(tmp_path):
@@ -241,28 +218,3 @@ def test_a_folder_that_is_removed_ends_the_run_with_all_that_it_had(tmp_path):
     whole = go("held")
     kept_rows = len(result.time) - 1  # the last may be one that is thinned out later
     np.testing.assert_array_equal(result.time[:kept_rows], whole.time[:kept_rows])
-
-
-LONG = """
-import resource, sys
-from pathlib import Path
-from saved_pendulums import ORDER, pendulums
-from cosim.coupling import GaussSeidel, run
-from cosim.coupling.record import Keep, RunFolder
-peak = lambda: resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-seen = []
-def progress(time):
-    if int(time) % 100 == 0:
-        seen.append(peak())
-run(pendulums(), GaussSeidel(ORDER, "quadratic"), stop=3600.0, macro_step=0.1, progress=progress,
-    keep=Keep(RunFolder.begun(Path(sys.argv[1]), {}, {}), steps=1000))
-print(seen[0], seen[len(seen) // 10], seen[-1])
-"""
-
-
-def test_memory_is_flat_over_an_hour(tmp_path):
-    """36 000 steps of 11 columns, 3 MB on disk; what Python itself moves is below 1 MB."""
-    paths = {"PYTHONPATH": os.pathsep.join(sys.path)}
-    _, early, late = map(int, python(LONG, tmp_path, env=os.environ | paths).split())
-    assert late - early < 1024  # kB
-    assert (tmp_path / "unfinished" / "record.npy").stat().st_size > 3e6

@@ -1,7 +1,6 @@
 """What a system's run has to say of its settings and its steps: on the terminal, in the summary."""
 
 import json
-import shutil
 from pathlib import Path
 
 import pytest
@@ -139,29 +138,6 @@ def test_what_does_not_fit_is_refused_by_file_and_key(loop, capsys, coupling, a,
     err = capsys.readouterr().err
     assert said in err and err.count("\n") == 1
     assert not (Path(path).parent / "out").exists()
-
-
-def test_a_folder_that_is_removed_in_mid_run_is_said_in_one_line(loop, capsys, monkeypatch):
-    """As who cleans up does it: the run's own folder, or that of the results with all in it."""
-    from cosim.systems import run as runs
-
-    path = loop("macro_step = 0.01")
-    for gone, said in (("unfinished", "it was removed while it was written"), (".", "was removed")):
-        made = runs.StepLog.add
-
-        def add(self, reached, gone=gone, made=made):
-            made(self, reached)
-            if self.count == 20:
-                shutil.rmtree(Path(path).parent / "out" / gone)
-
-        # the table looks every second; here at every row
-        monkeypatch.setattr("cosim.coupling.record.table.LOOK_EVERY", -1.0)
-        monkeypatch.setattr(runs.StepLog, "add", add)
-        assert main(["couple", path, "--force", "-o", str(Path(path).parent / "out")]) == 1
-        monkeypatch.undo()
-        lines = [x for x in capsys.readouterr().err.splitlines() if x.startswith("error: ")]
-        assert len(lines) == 1 and said in lines[0] and "debug" not in lines[0]
-    assert "rows until then, checkpoints and messages are lost" in lines[0]
 
 
 def test_many_units_are_drawn_as_squares(tmp_path):
