@@ -173,6 +173,21 @@ def test_an_interrupt_in_the_middle_of_a_call_leaves_nothing(path, place, ctrl_c
     unit.close()
 
 
+def test_a_process_whose_unit_has_put_away_the_output_ends_at_once(tmp_path):
+    program = """
+import os, sys
+from multiprocessing import Pipe
+from cosim.coupling.isolated.child import serve
+ours, theirs = Pipe()
+ours.close()
+sys.stdout = None
+serve(theirs.fileno(), os.getppid(), sys.argv[1])
+"""
+    command = [sys.executable, "-c", program, str(tmp_path / "scratch")]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60.0)
+    assert (done.returncode, done.stderr) == (1, "")
+
+
 def test_what_it_writes_and_logs_is_kept(path, place, capfd):
     with started(isolated(path, PRINTS, at=0.0)) as unit:
         unit.step(0.0, 0.25)

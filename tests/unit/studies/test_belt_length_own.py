@@ -12,15 +12,23 @@ from cosim.cli.studies import belt_length as belt_length_command
 from cosim.scenario import read_scenario
 from cosim.studies.belt_length import (
     Case,
+    Options,
+    Protocol,
+    Study,
     StudyError,
+    answer_all,
+    empty_map,
+    fill_map,
     how_long,
     scenario_case,
     shortest_belt,
     with_ranges,
+    work_off,
 )
 from cosim.studies.belt_length.drift import interface_drift, run_drift
 from cosim.studies.belt_length.lengths import rounded_up
 from cosim.studies.belt_length.show import answered
+from cosim.studies.belt_length.study import steps
 from cosim.studies.belt_length.unknowns import UNKNOWNS, unknowns_of
 
 STEEL = """
@@ -138,6 +146,19 @@ def test_the_page_says_the_answer_first_and_fetches_nothing(results, numbers):
     assert np.shape(numbers["map"]["drift"]) == (2, 2)
     made = json.loads((results / "made_by.json").read_text())
     assert {"report.html", "belt_length.json"} <= set(made["files"])
+
+
+def test_the_bar_goes_to_the_runs_cases_and_places_of_the_map():
+    """Also where runs are not needed, as the sampled rigs melt."""
+    case = Case(1.0, 0.03, ambient_degC=-0.001, protocol=Protocol(ramp=0.0, run=3.0))
+    study, wanted, done = Study(Options(0.07, samples=32)), [case, case.with_length(2.0)], []
+    study.grid = empty_map(2, case)
+    answer_all(study, wanted, 1, done.append)
+    assert sum(done) == 40
+    work_off(study, wanted, 1, done.append)
+    fill_map(study.grid, case, 1, done.append)
+    assert sum(done) == steps(study, wanted, True) == 40 + 2 + 4
+    assert steps(study, wanted, False) == 2 * 40 + 2 + 4
 
 
 def test_what_the_scenario_says_is_drawn_from_about_it(steel):

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 from c_units import made
-from command_line import refusal
+from command_line import python, refusal
 
 from cosim.cli import main
 
@@ -112,6 +112,17 @@ def test_after_a_crash_of_the_whole_process_it_is_there(system, tmp_path):
     done = subprocess.run([*command, "-o", str(tmp_path / "out")], capture_output=True)
     assert done.returncode < 0  # by a signal
     assert rows(tmp_path / "out") == WARNINGS[:2]
+
+
+def test_a_system_runs_without_the_models_of_this_package(system, tmp_path):
+    """They cost two seconds of processor, more than a small system's run."""
+    program = (
+        "import sys; from cosim.cli import main; code = main(sys.argv[1:]);"
+        "heavy = {'stickslip.compiled', 'skfem', 'meshio', 'scipy.optimize'};"
+        "print(sorted(heavy & set(sys.modules)), code)"
+    )
+    told = python(program, "couple", system(0), "--json", "-o", tmp_path / "out")
+    assert told.splitlines()[-1] == "[] 0"
 
 
 def test_a_log_of_somebody_else_is_left_alone(system, tmp_path, capsys):

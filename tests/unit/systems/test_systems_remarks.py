@@ -1,6 +1,7 @@
 """What a system's run has to say of its settings and its steps: on the terminal, in the summary."""
 
 import json
+import shutil
 from pathlib import Path
 
 import pytest
@@ -8,6 +9,7 @@ from lag_unit import lag_unit
 
 from cosim.cli import main
 from cosim.coupling import FmuParticipant
+from cosim.systems.run import StepLog
 
 LOOP = """
 [units.a]
@@ -138,6 +140,22 @@ def test_what_does_not_fit_is_refused_by_file_and_key(loop, capsys, coupling, a,
     err = capsys.readouterr().err
     assert said in err and err.count("\n") == 1
     assert not (Path(path).parent / "out").exists()
+
+
+def test_a_folder_that_is_removed_in_mid_run_is_said_in_one_line(loop, capsys, monkeypatch):
+    path, add = loop("macro_step = 0.01"), StepLog.add
+
+    def removing(log, reached):
+        add(log, reached)
+        if log.count == 20:
+            shutil.rmtree(Path(path).parent / "out")
+
+    # the table looks every second; here at every row
+    monkeypatch.setattr("cosim.coupling.record.table.LOOK_EVERY", -1.0)
+    monkeypatch.setattr(StepLog, "add", removing)
+    assert couple(path) == (1, None)
+    (line,) = [x for x in capsys.readouterr().err.splitlines() if x.startswith("error: ")]
+    assert "was removed" in line and "rows until then, checkpoints and messages are lost" in line
 
 
 def test_many_units_are_drawn_as_squares(tmp_path):
