@@ -24,7 +24,7 @@ from cosim.gap.judge import (
 from cosim.gap.laws import Context, FreeCurve, laws_of
 from cosim.gap.models import Models
 from cosim.gap.plan.next_run import NextRun
-from cosim.gap.report_of_findings import exponents_of, law_of, sentence_of
+from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.ladder import Finding, Search, _is_better
@@ -366,3 +366,32 @@ def test_a_fit_sets_out_from_what_the_rows_have_beside_the_laws(monkeypatch):
     aged = Part(Finding(EFFECT.id, (), 30.0), None, (), (), {}, shifts={"friction.mu_s": -0.1})
     assert Models(None, None, {}, [aged], 1)._by_rows(None) == {**known, "friction.mu_s": 0.4 - 0.1}
     assert Models(None, None, {}, [], 1)._by_rows(None) == known
+
+
+MODEL = SimpleNamespace(values={}, sd={}, at_bound=())
+
+
+def test_the_ranking_is_of_what_was_found_first_and_of_its_rivals():
+    parts = [
+        SimpleNamespace(
+            finding=SimpleNamespace(name=name, gain=gain, others=others, added=(), variant=""),
+            effect=name, curve=None, fits=(), numbers=(),
+        )
+        for name, gain, others in (
+            ("run_in", 30.0, {"film_drag": -1.0, "stick_stiffness": 2.0}), ("film_drag", 12.0, {}),
+        )
+    ]  # fmt: skip
+    rows = ranking_of(SimpleNamespace(first_offers={}), parts, MODEL, Score(1.0, 1.0))
+    expected = {"stick_stiffness": 32.0, "run_in": 30.0, "film_drag": 29.0}
+    assert [(row.effect, row.evidence) for row in rows] == [*expected.items()]
+    weights = np.exp([0.0, -2.0, -3.0])
+    assert [row.probability for row in rows] == pytest.approx(weights / weights.sum())
+
+
+@pytest.mark.parametrize(("gain", "nothing"), [(3.0, 6.0), (9.0, 9.0 + 3.0)])
+def test_with_nothing_found_that_nothing_is_missing_is_more_probable(gain, nothing):
+    system = SimpleNamespace(rung=lambda: SimpleNamespace(evidence=1.0))
+    ladder = SimpleNamespace(first_offers={"run_in": (1.0 + gain, None)}, system=system)
+    (row,) = ranking_of(ladder, [], MODEL, Score(1.0, 1.0))
+    assert (row.effect, row.evidence) == ("run_in", gain)
+    assert row.probability == pytest.approx(1.0 / (1.0 + np.exp(nothing - gain)))
