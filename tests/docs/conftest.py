@@ -1,4 +1,4 @@
-"""What the site and the user who types its pages share."""
+"""What those share who need the executed tutorials."""
 
 import os
 

@@ -1,7 +1,7 @@
 """The tutorials as notebooks: each is executed once, by whoever needs it first.
 
-The site shows what they computed, and the user of `typed/` compares with it what a terminal says.
-These may be in two processes: what was executed lies in a folder that both know.
+The site shows what they computed. Who needs it may be in two processes: what was executed lies in a
+folder that both know.
 """
 
 import fcntl

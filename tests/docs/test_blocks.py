@@ -27,7 +27,7 @@ TABLES = ("[springs]", "[[run]]", "friction_table", "[block]", "[units]", "[proj
 
 
 def is_run(page, language, text):
-    """Whether some test runs, reads or types a block; tutorials are typed, and their cells run."""
+    """Whether some test runs, reads or types a block; sessions of tutorials by `-m slow`."""
     if language.startswith(NO_CODE):
         return True
     if language == "{code-cell} python":

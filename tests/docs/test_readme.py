@@ -1,15 +1,19 @@
 """README and pages do what they say: Python runs, input is read, commands print what is shown.
 
 The pages are those of the site that are no notebooks: the cells of these are executed when the
-site is built (`test_site.py`), and typed (`typed/`). A session in a terminal that takes half a
-minute and more is run by `pytest -m slow`. That every block is run is seen to in `test_blocks.py`.
+site is built (`test_site.py`). A session in a terminal that takes half a minute and more, and those
+of tutorials, are run by `pytest -m slow`. That every block is run is seen to in `test_blocks.py`.
 """
 
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from command_line import stickslip_here
+from notebooks import PAGES, source
 from sessions import fences, timeless, typed
 
 from cosim import read_scenario
@@ -124,6 +128,39 @@ def test_a_session_prints_what_is_shown(command, elsewhere):
     assert done.returncode == 0, done.stderr
     said = set(timeless((done.stdout + done.stderr).splitlines()))
     assert said >= set(timeless(SESSIONS[command]))
+
+
+def do(cell, names, folder):
+    """A cell of a tutorial, as its reader does it: a file is written, a shell or Python runs it."""
+    magic, _, rest = cell.partition("\n")
+    if magic.startswith("%%writefile "):
+        file = folder / magic.split()[1]
+        file.parent.mkdir(exist_ok=True)
+        file.write_text(rest, encoding="utf-8")
+    elif magic == "%%bash":
+        subprocess.run(["bash", "-e", "-c", rest], cwd=folder, check=True, timeout=900)
+    else:
+        exec(cell, names)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["add_an_effect", "belt_length"])
+def test_a_tutorial_s_sessions_print_what_is_shown(name, tmp_path, monkeypatch):
+    """In a folder where its cells have been done."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    monkeypatch.setenv("PATH", str(Path(sys.executable).parent), prepend=os.pathsep)
+    names = {}
+    for cell in source(PAGES / f"{name}.md").cells:
+        if cell.cell_type == "code":
+            do(cell.source, names, tmp_path)
+            continue
+        for fence in fences(cell.source):
+            for command, printed in typed(fence.content):
+                done = stickslip_here(tmp_path, *command.split()[1:])
+                assert done.returncode == 0, done.stderr
+                said = set(timeless((done.stdout + done.stderr).splitlines()))
+                assert said >= set(timeless(printed))
 
 
 @pytest.mark.parametrize("command", NAMED)

@@ -5,8 +5,6 @@ import pytest
 
 from cosim import read_scenario, run_scenario
 from cosim.cli import main
-from cosim.coupling import IsolatedParticipant
-from cosim.coupling import case as coupled
 
 CASE = {"run.duration": 0.6, "run.output_interval": 0.01, "run.checkpoint_steps": 20}
 SCHEMES = {
@@ -17,19 +15,6 @@ SCHEMES = {
 
 def case(**more):
     return read_scenario("reference").changed(CASE | more)
-
-
-@pytest.fixture
-def made(monkeypatch):
-    """The mechanical units of the runs of a test."""
-    units, make = [], coupled._mechanics
-
-    def keep(*given):
-        units.append(make(*given))
-        return units[-1]
-
-    monkeypatch.setattr(coupled, "_mechanics", keep)
-    return units
 
 
 def same(one, other):
@@ -48,13 +33,10 @@ def plain(request, fmu):
     return run_scenario(case(**SCHEMES[request.param]), fmu=fmu), SCHEMES[request.param]
 
 
-def test_results_are_those_of_one_process(plain, fmu, made):
+def test_results_are_those_of_one_process(plain, fmu):
     run, keys = plain
     isolated = case(**keys, **{"coupling.isolate": True, "coupling.time_limit": 30.0})
-    done = run_scenario(isolated, fmu=fmu)
-    (unit,) = made
-    assert isinstance(unit, IsolatedParticipant) and unit.pid is None  # gone with the run
-    same(run, done)
+    same(run, run_scenario(isolated, fmu=fmu))
 
 
 def test_a_unit_that_does_not_answer_in_time_is_said_in_one_line(fmu, tmp_path, capsys):

@@ -13,7 +13,7 @@ SLOW += "[lateral_friction]\nratio = 1.0\n"
 
 
 def test_it_writes_maps_a_page_and_numbers(tmp_path):
-    done = stickslip(tmp_path, "stability", "study", "--grid", "3", "-o", "out", "--json")
+    done = stickslip(tmp_path, "stability", "study", "--grid", "3", "-q", "-o", "out", "--json")
     assert (done.returncode, done.stderr) == (0, "")
     numbers = json.loads(done.stdout)
     assert numbers == json.loads((tmp_path / "out" / "stability.json").read_text())
@@ -35,7 +35,7 @@ def test_it_writes_maps_a_page_and_numbers(tmp_path):
 
 
 def test_where_stick_slip_stops_is_one_command(tmp_path):
-    done = stickslip_here(tmp_path, "stability", "--border", "speed", "-o", "out")
+    done = stickslip_here(tmp_path, "stability", "--border", "speed", "-q", "-o", "out")
     assert (done.returncode, done.stderr) == (0, "")
     (line,) = [line for line in done.stdout.splitlines() if "sticks and slips from" in line]
     assert "sticks and slips from a speed ramp of 10 s up to 0.1571 m/s;" in line
@@ -83,7 +83,7 @@ def test_a_run_beside_which_another_regime_exists_says_so(tmp_path):
 )
 def test_odd_rigs_are_mapped_too(tmp_path, text):
     (tmp_path / "odd.toml").write_text(PLAIN + "[run]\nduration = 12.0\n" + text)
-    done = stickslip_here(tmp_path, "stability", "odd.toml", "--grid", "2", "-o", "out")
+    done = stickslip_here(tmp_path, "stability", "odd.toml", "--grid", "2", "-q", "-o", "out")
     assert (done.returncode, done.stderr) == (0, "") or "exceeds friction.mu_s" in done.stderr
     assert json.loads((tmp_path / "out" / "stability.json").read_text())["regimes"]["own"]["name"]
 

@@ -20,6 +20,15 @@ def found(tmp_path_factory):
     return folder / "out"
 
 
+def test_the_same_input_gives_the_same_bytes(found):
+    """With one process and with as many as there are cores."""
+    again = found.with_name("again")
+    arguments = ["-o", str(again), "--no-page", "--jobs", "1"]
+    assert main(["gap", str(found.parent), *arguments]) == 0
+    for name in ("gap.json", "model.toml"):
+        assert (again / name).read_bytes() == (found / name).read_bytes()
+
+
 def test_the_hidden_effect_is_named_with_its_number(found):
     gap = json.loads((found / "gap.json").read_text(encoding="utf-8"))
     assert (gap["verdict"], gap["effects"]) == ("named", list(HIDDEN))

@@ -1,29 +1,16 @@
 """The units as they come, nothing set: a rig that can be, and a word where it is none any more."""
 
-import json
-
 import numpy as np
 import pytest
 from fmpy import simulate_fmu
 from fmpy_slave import fmpy_slave
 
-from cosim.cli import main
-from cosim.fmu.build import THERMAL
 from cosim.fmu.variables import variables
 from cosim.scenario.defaults import stated
 
 STOP = 30.0  # s, as the units advise
 #: A block that is pushed off its belt within the first second.
 PUSHED = {"external_force_y": 4.0}
-LINKS = "".join(
-    f'[[connections]]\nfrom = "{source}"\nto = "{sink}"\n'
-    for source, sink in (
-        ("mechanics.heat", "thermal.heat"),
-        ("mechanics.surface_speed_actual", "thermal.surface_speed"),
-        ("mechanics.x", "thermal.x"),
-        ("thermal.interface_temperature", "mechanics.interface_temperature"),
-    )
-)
 
 
 def bare(fmu, **options):
@@ -51,42 +38,6 @@ def test_a_host_that_sets_nothing_has_one_motion_however_it_runs_the_unit(fmu, f
         assert not other["off_belt"].any() and not other["spring_overstretched"].any()
     x = np.interp(first["time"], tight["time"], tight["x"])
     np.testing.assert_allclose(x, first["x"], rtol=0, atol=1e-6)
-
-
-@pytest.fixture(scope="module")
-def pair(fmu, once, tmp_path_factory):
-    """The bare pair as a system's file, with more lines."""
-    folder = tmp_path_factory.mktemp("pair")
-    heat = once(THERMAL)
-
-    def written(more=""):
-        units = f'[units.mechanics]\nfile = "{fmu}"\n{more}[units.thermal]\nfile = "{heat}"\n'
-        (folder / "pair.toml").write_text(units + LINKS, encoding="utf-8")
-        return folder / "pair.toml"
-
-    return written
-
-
-def test_the_bare_pair_keeps_to_its_line(pair, tmp_path, capsys):
-    arguments = ["--set", f"run.stop={STOP:g}", "-o", str(tmp_path)]
-    assert main(["couple", str(pair()), *arguments]) == 0
-    numbers = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
-    y = numbers["outputs"]["mechanics.y"]
-    assert max(abs(y["lowest"]), abs(y["highest"])) < 1e-9
-    assert numbers["outputs"]["mechanics.slip_count"]["end"] > 40
-    assert numbers["warnings"] == [] and "warning" not in capsys.readouterr().err
-
-
-def test_a_block_that_leaves_its_belt_is_told_in_one_line(pair, tmp_path, capsys):
-    pushed = "inputs = { external_force_y = 4.0 }\n"
-    arguments = ["--set", "run.stop=2", "-o", str(tmp_path)]
-    assert main(["couple", str(pair(pushed)), *arguments]) == 0
-    said = capsys.readouterr().err.splitlines()
-    (line,) = [each for each in said if each.startswith("warning")]
-    assert line.startswith("warning: mechanics: t = ") and "off_belt: the block has left" in line
-    numbers = json.loads((tmp_path / "summary.json").read_text(encoding="utf-8"))
-    assert numbers["warnings"] == [line.removeprefix("warning: ")]
-    assert "off_belt: the block has left" in (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

@@ -1,10 +1,7 @@
 """What is said beside the results: notes, more with -v, less with -q; and the numbers as JSON."""
 
-import io
 import json
 import logging
-import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -12,7 +9,6 @@ from command_line import refusal
 from stickslip import Parameters, compiled, machine_code, simulate
 from stickslip.catalogue import CATALOGUE
 
-from cosim.cli import bar as bar_module
 from cosim.cli import main
 from cosim.cli.arguments import parser
 from cosim.cli.bar import Bar
@@ -75,21 +71,6 @@ def test_without_a_terminal_a_bar_is_a_line_a_minute_with_its_end(capsys):
     said = capsys.readouterr().err.splitlines()
     assert [line.split("|")[0] for line in said] == ["50%", "100%"]
     assert "2/4 [01:01<01:01" in said[0]
-
-
-def test_the_clock_of_a_bar_goes_on_within_a_step(monkeypatch):
-    monkeypatch.setattr(bar_module, "SECOND", 0.01)
-    monkeypatch.setattr(sys, "stderr", shown := io.StringIO())
-    shown.isatty = lambda: True
-    with Bar(total=2) as bar:
-        begun = len(shown.getvalue())
-        until = time.monotonic() + 10.0
-        while shown.getvalue()[begun:].count("0/2 [") < 3 and time.monotonic() < until:
-            time.sleep(0.01)
-        assert "0/2 [" in shown.getvalue()[begun:]
-    closed = len(shown.getvalue())
-    time.sleep(0.05)
-    assert bar.n == 0 and len(shown.getvalue()) == closed
 
 
 @pytest.fixture

@@ -1,10 +1,6 @@
 """The table on disk: read by plain numpy at any moment, whatever becomes of the writer."""
 
-import os
-import signal
-import subprocess
 import sys
-import time
 
 import numpy as np
 import pytest
@@ -12,22 +8,8 @@ from command_line import python
 from refusals import one_line
 
 from cosim.coupling.record import GrowingTable
+from cosim.coupling.record import table as table_module
 from cosim.files import OutputError
-
-#: Writes rows of (n, n, ...) for ever. argv: path, columns.
-WRITER = """
-import sys
-from pathlib import Path
-from cosim.coupling.record import GrowingTable
-columns = int(sys.argv[2])
-table = GrowingTable(columns, Path(sys.argv[1]))
-n = 0
-while True:
-    table.append([float(n)] * columns)
-    n += 1
-    if n == 3:
-        print("begun", flush=True)
-"""
 
 
 def loaded(path):
@@ -98,20 +80,24 @@ def test_an_earlier_table_is_replaced_and_stays_with_who_reads_it(tmp_path):
     assert before.tolist() == [[1.0]] and loaded(again.path).tolist() == [[5.0, 6.0]]
 
 
-def test_whole_rows_whenever_it_is_killed(tmp_path):
-    """0, 1, 2, ...; each row of one value."""
-    random = np.random.default_rng(7)
-    for number in range(4):
-        path = tmp_path / f"{number}.npy"
-        command = [sys.executable, "-c", WRITER, str(path), "1000"]
-        writer = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-        assert writer.stdout.readline() == "begun\n"
-        time.sleep(random.uniform(0.0, 0.1))
-        os.kill(writer.pid, signal.SIGKILL)
-        writer.communicate()
-        rows = np.array(loaded(path))
+def test_whole_rows_whenever_it_is_killed(tmp_path, monkeypatch):
+    """0, 1, 2, ...; each row of one value: after each piece that is written, and of half a row."""
+    path, write, counts = tmp_path / "t.npy", table_module._write_at, []
+    table = GrowingTable(1000, path)
+    table.append(np.zeros(1000))
+
+    def in_halves(number, data, at):
+        done = write(number, data[: len(data) // 2] if len(data) > 1000 else data, at)
+        rows = loaded(path)
         assert (rows == rows[:, :1]).all(), "a torn row"
-        assert (rows[:, 0] == np.arange(len(rows))).all()
+        counts.append(len(rows))
+        return done
+
+    monkeypatch.setattr(table_module, "_write_at", in_halves)
+    for n in range(1, 4):
+        table.append(np.full(1000, float(n)))
+    assert counts[0] == 1 and counts[-1] == 4
+    np.testing.assert_array_equal(loaded(path)[:, 0], range(4))
 
 
 FULL = """

@@ -1,10 +1,7 @@
 """The recipes of the units: repeatable builds, staleness by content, what is inside."""
 
 import ast
-import os
 import re
-import signal
-import subprocess
 import sys
 import warnings
 import zipfile
@@ -186,31 +183,3 @@ def test_the_libraries_of_the_installed_pythonfmu_are_known():
         warnings.simplefilter("error")
         for library in libraries:
             pythonfmu_library.corrected(library.read_bytes())
-
-
-KILLED = {
-    "python": "import pythonfmu; pythonfmu.FmuBuilder.build_FMU = die\n"
-    "from cosim.fmu import python_unit; python_unit.build(here)",
-    "machine code": "import tempfile; from stickslip import machine_code; Path.replace = die\n"
-    "machine_code._folders = lambda: [Path(tempfile.gettempdir())]\n"
-    "machine_code.keep('a.so', b'')",
-}
-DIE = """import os, signal, sys
-from pathlib import Path
-here = Path(sys.argv[1])
-def die(*_, **__): os.kill(os.getpid(), signal.SIGKILL)
-"""
-
-
-@pytest.mark.skipif(sys.platform == "win32", reason="what is left stays there")
-@pytest.mark.parametrize("what", KILLED)
-def test_what_a_killed_build_leaves_the_next_process_clears(tmp_path, what):
-    scratch = tmp_path / "tmp"
-    scratch.mkdir()
-    environment = os.environ | {"TMPDIR": str(scratch)}
-    program = [sys.executable, "-c", DIE + KILLED[what], str(tmp_path)]
-    killed = subprocess.run(program, env=environment, check=False, timeout=60)
-    assert killed.returncode == -signal.SIGKILL and any(scratch.iterdir())
-    clear = "from stickslip.scratch import scratch_folder; scratch_folder('next').cleanup()"
-    subprocess.run([sys.executable, "-c", clear], env=environment, check=True, timeout=60)
-    assert list(scratch.iterdir()) == []

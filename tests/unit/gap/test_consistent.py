@@ -88,7 +88,8 @@ def contradictions(gap):
         # of a partial answer others together may be more probable: it names the first alone
         yield "certain", members > 0.5 or gap.verdict == "partial"
         yield "most probable", first.probability == max(row.probability for row in gap.ranking)
-        yield "helps", gap.after.of_verdict < gap.before.of_verdict
+        # or it is noise before and after
+        yield "helps", gap.after.of_verdict < max(gap.before.of_verdict, 1.02)
     yield "none is said", ("No effect is missing" in said) == (gap.verdict == "none")
     order = [row.probability for row in gap.ranking]
     yield "in order", order == sorted(order, reverse=True)

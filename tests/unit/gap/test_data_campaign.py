@@ -283,13 +283,6 @@ def test_figures_alone_have_no_law_over_the_speed(tmp_path):
         read_campaign(path)
 
 
-@pytest.mark.slow
-def test_measured_friction_of_paper_is_read(shared):
-    read = read_campaign(shared("data/paper_friction"))
-    assert read.noise_estimated == ("x",) and len(read.held_out_runs) == 2
-    assert 2e-7 < read.runs[0].noise["x"] < 2e-6  # nanometres to a micrometre, by eye
-
-
 @pytest.mark.parametrize(("lost", "said"), [(0.1, []), (0.14, ["0.14"])])
 def test_a_remark_says_where_the_tracker_lost_the_block(campaign, columns, lost, said):
     """For more than a quarter of a swing of 0.47 s."""

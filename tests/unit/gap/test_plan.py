@@ -7,19 +7,20 @@ import numpy as np
 import pytest
 from command_line import refusal
 from gap_campaigns import write_campaign
-from plan_campaigns import made, named
 from stickslip import EFFECTS
 
 from cosim.cli import main
 from cosim.gap.data.errors import CampaignError
 from cosim.gap.example import write_example
+from cosim.gap.naming import Naming
 from cosim.gap.plan import read_plan
 from cosim.gap.plan.known import NOISE
 from cosim.gap.plan.laws import laws_of, silent
 from cosim.gap.plan.next_run import best_next_run, options
 from cosim.gap.plan.plan import Plan
-from cosim.gap.plan.planned import as_measured, asked_as_planned
+from cosim.gap.plan.planned import as_measured, asked_as_planned, simulated
 from cosim.gap.plan.sizes import Design, Size, false_names, is_named, sizes_of
+from cosim.gap.weak_form.constants import ALIKE, OWN_STATIC
 
 RUN = {"mass": 0.87, "stiffness": 38.5, "duration": 8.0}
 FRICTION = {"mu_s": 0.3, "mu_k": 0.22}
@@ -197,6 +198,28 @@ def test_a_table_of_friction_is_what_the_runs_move_by(tmp_path):
     assert places[1] / places[0] == pytest.approx(0.5, abs=0.05)
 
 
+def made(planned, blocks, seed):
+    """The campaign with tracks. Springs, speeds, zeros and friction are off within their errors."""
+    random, campaign = np.random.default_rng(seed), planned.campaign
+    errors, runs = campaign.errors, []
+    stiffer = {s: 1.0 + errors.stiffness * random.standard_normal() for s in campaign.setups}
+    for run in planned.runs:
+        own, stated = run.setting, (run.setting.mass, run.setting.stiffness)
+        both, static = random.standard_normal(2) * errors.friction
+        friction = dict(planned.friction)
+        friction["mu_k"] *= 1.0 + both
+        friction["mu_s"] *= 1.0 + both + OWN_STATIC * static
+        faster = 1.0 + errors.surface_speed * random.standard_normal()
+        true = replace(
+            own, stiffness=own.stiffness * stiffer[stated],
+            surface_speed=own.surface_speed * faster,
+        )  # fmt: skip
+        seen = simulated(campaign, replace(run, setting=true), friction, random, blocks)
+        zero = campaign.zero_sd(own) * random.standard_normal()
+        runs.append(replace(own, track=replace(seen.track, x=seen.track.x + zero)))
+    return replace(campaign, runs=tuple(runs))
+
+
 def test_a_law_adds_to_the_rows_what_it_adds_to_the_motion(plan, asked, laws):
     """The kernel's runs with a drag, and what the rows of the runs without it foresee: its size."""
     law, value = laws["film_drag"], 1.0
@@ -317,6 +340,14 @@ def test_the_example_can_be_planned(tmp_path, capsys):
     assert main(["plan", "--write-example", str(tmp_path)]) == 0
     assert capsys.readouterr().out.strip() == str(tmp_path / "campaign.toml")
     assert len(read_plan(tmp_path).runs) == 4
+
+
+def named(campaign):
+    """What is named of a campaign with tracks: a group of effects for every finding."""
+    return [
+        {one.name, *(other for other, less in one.others.items() if less > -ALIKE)}
+        for one in Naming.of(campaign).named().findings
+    ]
 
 
 @pytest.mark.slow

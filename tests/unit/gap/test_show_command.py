@@ -1,8 +1,6 @@
 """`stickslip gap`: files, JSON, refusals, interruptions."""
 
 import json
-import sys
-from types import SimpleNamespace
 
 import gap_answers as answers
 import numpy as np
@@ -91,18 +89,6 @@ def test_ctrl_c_before_there_is_an_answer(gap, tmp_path, capsys, monkeypatch):
     assert main(["gap", str(gap.campaign.path), "-o", str(tmp_path)]) == 1
     assert "interrupted before there was a result" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
-
-
-def test_the_bar_has_a_known_end(gap, monkeypatch):
-    def find(campaign, jobs, progress):
-        for done in (3, 5):
-            progress(done, 9)
-        return gap
-
-    monkeypatch.setitem(sys.modules, "cosim.gap.find", SimpleNamespace(find_gap=find))
-    with gap_command.Bar(disable=False) as bar:
-        assert gap_command._find(gap.campaign, 0, 1, bar) is gap
-        assert (bar.n, bar.total) == (5, 9)
 
 
 def test_the_bar_moves_with_every_step_of_a_model_and_ends_once():

@@ -15,17 +15,15 @@ from cosim.gap.fitting import Fitting
 from cosim.gap.naming import Naming
 from cosim.gap.scatter import Scatter, scatter_text
 from cosim.gap.weak_form import periodic
-from cosim.gap.weak_form.added import Added
 from cosim.gap.weak_form.arguments import Arguments
 from cosim.gap.weak_form.constants import SCATTER_RANGE
 from cosim.gap.weak_form.evidence import posterior
 from cosim.gap.weak_form.ladder import Search
 from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
-from cosim.gap.weak_form.rows import STICK, Response, rows_of
+from cosim.gap.weak_form.rows import STICK, rows_of
 from cosim.gap.weak_form.surface import tracks_of
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import smooth
-from cosim.gap.weak_form.unknowns import Unknown
 from cosim.gap.windows.run_model import parameters_of
 
 MASS, STIFFNESS = KNOWN["mass"], 4.0 * KNOWN["stiffness"]
@@ -347,18 +345,3 @@ def test_columns_of_a_run_are_cut_from_those_of_all(tmp_path):
             alone = each.unknown.columns([run])
             found = system.columns_of(each.unknown, run)
             np.testing.assert_allclose(found, alone, rtol=1e-12, atol=1e-12 * np.abs(alone).max())
-
-
-def test_what_was_made_of_an_unknown_goes_with_it(system):
-    pulled = [lambda run: Response(force=np.ones((run.track.time.size, 1))),
-              lambda run: Response(force=run.track.x[:, None])]  # fmt: skip
-    first = Unknown("one", "", pulled[0], np.eye(1))
-    rung = system.rung([Added(first)])
-    evidence, kept = rung.evidence, len(system._columns)
-    for _ in range(50):
-        other = replace(first, respond=pulled[1])
-        assert system.rung([Added(other)]).evidence != evidence
-        del other
-    assert len(system._columns) == len(system._grams) == kept
-    assert all(set(pairs) <= set(system._grams) for pairs in system._grams.values())
-    assert system.rung([Added(first)]).evidence == evidence

@@ -1,12 +1,9 @@
 """What moves the block across: each effect is named from y, its size recovered, x left clean."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 from gap_campaigns import campaign_with, motion, noisy
 
-from cosim.gap.data import read_campaign
 from cosim.gap.weak_form import across
 from cosim.gap.weak_form import planar as in_plane
 from cosim.gap.weak_form.across import disc
@@ -26,13 +23,6 @@ EFFECTS = {
     "lateral_friction": ({"initial": {"y": 8e-3}}, "ratio", 1.0),
     "turning_surface": ({"turning_surface": {"curvature": 1.2}}, "curvature", 1.2),
     "spring_misalignment": ({"spring_misalignment": {"angle_deg": 3.0}}, "turn", np.deg2rad(3.0)),
-}
-SHARED = Path(__file__).resolve().parents[4] / "shared" / "data"
-FOREIGN = {
-    "blind_campaigns_2/c18": "spring_misalignment",
-    "blind_campaigns_2/c19": "turning_surface",
-    "blind_campaigns_2/c20": "lateral_friction",
-    "blind_campaigns_2/c06": "",
 }
 
 
@@ -196,18 +186,6 @@ def test_friction_of_a_disc_at_its_limits():
     force, moment = disc(np.array([1.0, 0.01]), np.array([0.01, 1.0]))
     np.testing.assert_allclose(force, [1.0, 0.01], rtol=1e-3)
     np.testing.assert_allclose(moment, [0.0025, 2.0 / 3.0], rtol=1e-3)
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not SHARED.is_dir(), reason="campaigns of other laboratories are not here")
-@pytest.mark.parametrize("name", FOREIGN)
-def test_campaigns_of_another_laboratory(name):
-    campaign = read_campaign(SHARED / name)
-    tracks, rows = tracks_and_rows(campaign)
-    planar = planar_effects(campaign, rows)
-    assert planar.answer == FOREIGN[name]
-    if planar.answer:
-        assert most_spurious(campaign, rows_in_plane(tracks, campaign, planar)) < 4.0
 
 
 @pytest.mark.parametrize(("curvature", "moves"), [(0.12, True), (0.0, False)])

@@ -332,27 +332,6 @@ def test_shared_numbers_that_no_step_leads_back_begin_inside_what_the_fit_leaves
     assert (found[0] - 1.0) / (found[1] - 1.0) == pytest.approx(4.0 / -9.0)
 
 
-def test_numbers_that_act_alike_are_simulated_once(plain, monkeypatch):
-    """Both coefficients together, and a contact that lets go sooner, move no more than mu_s and
-    mu_k do."""
-    numbers, settings = user_model(plain)
-    friction = [number for number in numbers if number.key.startswith("friction")]
-    alike = [Number("offset.friction", 0.0, 0.02, scope="run"), Number("offset.loading", 0.0, 0.02)]
-    run, windows = plain.fit_runs[1], windows_of_campaign(plain)
-    (part,) = Problem(plain, [run], windows, [*friction, *alike], settings).parts
-    at, start = part.followed(np.zeros(4)), np.zeros(4)
-    simulated = []
-    residuals = RunModel.residuals
-    monkeypatch.setattr(
-        RunModel, "residuals", lambda *given: simulated.append(1) or residuals(*given)
-    )
-    slopes = part._slopes(start, at, map)
-    assert len(simulated) == 2
-    for place, unit in enumerate(1e-3 * np.eye(4)):
-        alone = (part.model.residuals(part.values(unit), at.states) - at.residuals) / 1e-3
-        assert slopes[:, place] == pytest.approx(alone, abs=0.01 * np.abs(alone).max())
-
-
 def test_what_a_fit_takes_is_counted(plain, monkeypatch):
     """Every sample of every track, held-out runs' too."""
     simulated, track = [], run_model.track_restarted

@@ -198,16 +198,16 @@ def test_bad_input_is_refused_in_one_line(tmp_path, table, options, says):
 
 def test_ctrl_c_keeps_the_cases_that_are_done(coarse, tmp_path, monkeypatch, capsys):
     def stopped(study, wanted, jobs, progress):
-        work_off(study, wanted[:2], 1, progress)
+        work_off(study, wanted[:1], 1, progress)
         study.complete = False
         raise KeyboardInterrupt
 
     monkeypatch.setattr(belt_length_command, "work_off", stopped)
-    assert call("--length", 1, 2, 3, "--speed", 0.5, "--ambient", -8, "-o", tmp_path, *FAST) == 1
-    assert "2 of 3 cases are kept" in capsys.readouterr().err
+    assert call("--length", 1, 2, "--speed", 0.5, "--ambient", -8, "-o", tmp_path, *FAST) == 1
+    assert "1 of 2 cases are kept" in capsys.readouterr().err
     numbers = json.loads((tmp_path / "belt_length.json").read_text())
-    assert not numbers["complete"] and len(numbers["cases"]) == 2
-    assert len(pd.read_csv(tmp_path / "belt_length.csv")) == 2
+    assert not numbers["complete"] and len(numbers["cases"]) == 1
+    assert len(pd.read_csv(tmp_path / "belt_length.csv")) == 1
 
 
 def work_through(*wanted):

@@ -4,12 +4,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
 
 from cosim import read_scenario
 from cosim.report.style import shown
 from cosim.studies.stability import maps, study
-from cosim.studies.stability.figures import draw_pretension_map, draw_regime_map
+from cosim.studies.stability.figures import draw_regime_map
 from cosim.studies.stability.maps import PretensionMap
 from cosim.studies.stability.study import range_sentence
 
@@ -42,15 +41,6 @@ def test_the_drawn_borders_are_these(regimes):
         drawn = panel.lines[0].get_xydata()
         np.testing.assert_array_equal(drawn, border)
     assert "Dots: borders" in draw_regime_map(regimes, CASE).caption
-
-
-def test_where_the_block_does_not_stick_is_seen_on_every_colour():
-    low = PretensionMap(
-        np.array([0.0, 0.01]), np.array([0.1, 0.2]), np.full((2, 2), 0.4), np.zeros((2, 2))
-    )
-    dots = shown(draw_pretension_map, low, CASE).axes[0].lines[0]
-    assert to_rgb(dots.get_markerfacecolor()) == (1.0, 1.0, 1.0)
-    assert sum(to_rgb(dots.get_markeredgecolor())) < 0.6
 
 
 def test_one_sentence_then_a_picture_then_four_figures():

@@ -14,7 +14,6 @@ from command_line import executed
 
 from cosim import read_scenario
 from cosim.cli.studies import sweep as sweep_command
-from cosim.files import _HOST
 from cosim.studies.sweep import SweepError
 from cosim.studies.sweep.axis import parse_vary
 from cosim.studies.sweep.combination import model_version
@@ -80,18 +79,6 @@ def test_files_and_last_lines(case, tmp_path, capsys):
         assert done["rig.mass"].attrs["units"] == "kg"
         assert 'name = "short"' in done.attrs["scenario"]
         assert done.attrs["duration"] == 1.0
-
-
-def test_what_a_killed_sweep_was_writing_is_cleared(case, tmp_path):
-    """Its numbers in the making, beside the results; those of a process that lives stay."""
-    out = tmp_path / "out"
-    out.mkdir()
-    killed = out / f".sweep.nc.{_HOST}-4194303.partial"
-    living = out / f".sweep.nc.{_HOST}-{os.getppid()}.partial"
-    for file in (killed, living):
-        file.touch()
-    call(case, "--vary", "surface.speed=0.1,0.2", "--jobs", 1, "-o", out)
-    assert (out / "sweep.nc").exists() and living.exists() and not killed.exists()
 
 
 def test_a_key_that_is_varied_is_not_set_too(case, tmp_path):

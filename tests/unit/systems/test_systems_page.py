@@ -113,15 +113,3 @@ def test_a_sentence_a_picture_and_four_figures_come_first(pair):
     assert "2 coupled units ran for 1 s in 10 steps." in page
     tiles = page[places[2] : page.index('<p class="soft">From')]
     assert tiles.count("<b>") == 4
-
-
-@pytest.mark.parametrize("width", [1280, 390])
-def test_every_panel_says_what_it_shows_in_what_unit(pair, browser, tmp_path, width):
-    pair(unit="W")
-    browser.open(tmp_path / "out" / "report.html", width)
-    keys = browser.js(
-        "return [...document.querySelectorAll('[data-name=signals] .panel .key')]"
-        ".map((each) => each.textContent.trim())"
-    )
-    assert keys == ["rig.y", "rig.taken [W]"]  # rig.y is a plain number
-    assert browser.overhang() <= 0

@@ -1,11 +1,7 @@
 """A system as a TOML file: what it comes to when it is run, and what is refused in which words."""
 
 import json
-import os
 import re
-import subprocess
-import sys
-import time
 
 import numpy as np
 import pytest
@@ -13,7 +9,6 @@ import xarray as xr
 from command_line import refusal
 from lag_unit import lag_unit
 
-import cosim.files
 from cosim.cli import main
 from cosim.coupling import CouplingError, FmuError
 from cosim.coupling.record import RunFolder
@@ -295,22 +290,3 @@ def test_a_power_is_said_as_both_integrals_and_how_far_they_go(chain, tmp_path, 
         )
         page = (tmp_path / "out" / "report.html").read_text()
         assert ("There are fewer rows than steps" in page) == sparse
-
-
-@pytest.mark.skipif(os.name == "nt", reason="what is left is not cleared there")
-def test_a_next_run_clears_what_a_killed_one_left(chain, tmp_path):
-    """As by kill -9: unpacked units, rows, and a file that was being written."""
-    scratch, results = tmp_path / "tmp", tmp_path / "results"
-    scratch.mkdir()
-    words = [sys.executable, "-m", "cosim", "couple", str(chain()), "-o", str(results), "--set"]
-    env = os.environ | {"TMPDIR": str(scratch)}
-    with subprocess.Popen([*words, "run.stop=1e5"], env=env, stderr=subprocess.DEVNULL) as process:
-        until = time.monotonic() + 60.0
-        while not (results / "unfinished" / "record.npy").is_file() and time.monotonic() < until:
-            time.sleep(0.02)
-        process.kill()
-    (results / f".result.csv.{cosim.files._HOST}-{process.pid}.partial").touch()
-    assert len(list(scratch.glob("stickslip.fmu-*"))) == 2
-    subprocess.run([*words, "run.stop=0.1"], env=env, check=True, capture_output=True)
-    assert not list(scratch.glob("stickslip*")) and not (results / "unfinished").exists()
-    assert not [path for path in results.rglob("*") if path.name.startswith(".")]

@@ -1,11 +1,10 @@
-"""Which phase of an instance takes which call: each alone, and in any order, with states put back.
+"""Which phase of an instance takes which call.
 
 Of both versions of FMI, for co-simulation and model exchange, read off the tables of FMI 2.0.4
 (3.2.3, 4.2.4) and the states of FMI 3.0 (2.3, 3.2, 4.2). What they leave to a unit: of a failed
 instance it gives variables, and no rates.
 """
 
-import random
 from ctypes import byref, c_bool, c_double, c_int, c_int32, c_size_t, c_uint
 from typing import NamedTuple
 
@@ -182,20 +181,6 @@ class Walk:
             self.call(function)
         assert self.known[0] == wanted
 
-    def kept(self):
-        """The state as bytes, and what is known of it."""
-        state = self.block.save()
-        content = self.block.as_bytes(state)
-        self.block.forget(state)
-        return content, self.known
-
-    def go_back(self, content, known):
-        state = self.block.from_bytes(content)
-        self.block.restore(state)
-        assert self.block.as_bytes(state) == content
-        self.block.forget(state)
-        self.known = known
-
 
 @pytest.fixture(scope="module")
 def units(unit, unit3):
@@ -224,26 +209,3 @@ def test_every_variable_can_be_read_and_is_a_number(units, interface):
             numbers, last = (c_double * 3)(), walk.unit.references["time"]
             block.done("GetFloat64", (c_uint * 3)(last + 1, last + 2, last + 3), 3, numbers, 3)
             assert all(numbers)  # indicators
-
-
-@pytest.mark.parametrize("interface", INTERFACES, ids=said)
-def test_any_sequence_of_calls_is_answered_as_the_standard_says(units, interface):
-    """Calls in turn, for the most part, or no run would come far; and back to what was saved."""
-    taken = {True: 0, False: 0}
-    for seed in range(100):
-        numbers, walk, saved = random.Random(seed), Walk(units, interface), []
-        with walk.block:
-            for _ in range(60):
-                chance = numbers.random()
-                if chance < 0.1:
-                    saved.append(walk.kept())
-                elif chance < 0.2 and saved:
-                    walk.go_back(*numbers.choice(saved))
-                else:
-                    asked = [
-                        function
-                        for function, phases in interface.taken.items()
-                        if chance > 0.9 or walk.known[0] in phases
-                    ]
-                    taken[walk.call(numbers.choice(asked))] += 1
-    assert min(taken.values()) > 300

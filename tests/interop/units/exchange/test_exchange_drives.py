@@ -9,7 +9,6 @@ kink of a table it follows that table exactly, but for a jump, which takes a blo
 step to follow.
 """
 
-import random
 from functools import cache
 
 import numpy as np
@@ -117,13 +116,12 @@ def own(unit, folder, drive, tables):
 
 @pytest.fixture(scope="module")
 def exact(fmu, tmp_path_factory):
-    """Name of a case, or number of a drawn drive -> `own`, computed once for both hosts."""
+    """Name of a case -> `own`, computed once for both hosts."""
 
     @cache
     def look_up(case):
-        named, tables = CASES.get(case, (None, {}))
-        drive = drawn(case) if named is None else DRIVES[named]
-        return own(fmu, tmp_path_factory.mktemp("own"), drive, tables)
+        drive, tables = CASES[case]
+        return own(fmu, tmp_path_factory.mktemp("own"), DRIVES[drive], tables)
 
     return look_up
 
@@ -152,45 +150,3 @@ def test_a_drive_of_the_host_moves_the_block_as_in_co_simulation(fmu, exact, hos
 def test_fmi_3_takes_a_drive_as_fmi_2_does(fmu, fmu3, host, case):
     old, new = (exchanged(unit, DRIVES[case], {}, 1e-9) for unit in (fmu, fmu3))
     assert off(new, old, "x") < 5e-7 and (new["slip_count"] == old["slip_count"]).all()
-
-
-def drawn(seed):
-    """A drive of two sines, or a table with a few kinks."""
-    draw = random.Random(seed)
-    if seed % 2:
-        times = [0.0, *sorted(round(draw.uniform(0.3, 5.7), 3) for _ in range(4)), STOP]
-        return table(times, [draw.uniform(-0.05, 0.2) for _ in times])
-    mean, parts = draw.uniform(0.05, 0.2), [draw.uniform(0.0, 0.04) for _ in range(2)]
-    rates = [draw.uniform(0.2, 3.0) for _ in range(2)]
-    return sampled(
-        lambda t: mean + sum(a * np.sin(w * t) for a, w in zip(parts, rates, strict=True))
-    )
-
-
-#: The first 50 are those on which `SHRINKS` of the kernel was chosen, the others were kept from it.
-DRAWN = range(75)
-#: Kinks where a stick is near its limit: there a rate across the kink is a break-away that is none,
-#: or is the same event without end, or is late where the kink is not found.
-KINKED = (8, 13, 33, 37, 39, 47, 59)
-SEEDS = [
-    pytest.param(seed, marks=[] if seed < 2 or seed in KINKED else pytest.mark.slow)
-    for seed in DRAWN
-]
-TOLERANCE = 1e-9
-
-
-@pytest.mark.parametrize("seed", SEEDS)
-def test_drawn_drives(fmu, exact, host, seed):
-    """All slips at their times. Errors over the tolerance, in the median and at most:
-
-    given at every time: x 7 and 106 m, heat 33 and 175 of what there is at the end;
-    given at events only: x 7.6 and 116 m, heat 27 and 198.
-
-    A tolerance is that of one step, of which there are some hundred to a slip. The same CVode of
-    the same equations without a unit, with input and rate exact, is no nearer.
-    """
-    exact, result = exact(seed), exchanged(fmu, drawn(seed), {}, TOLERANCE)
-    assert len(result) == len(exact["x"])
-    assert (result["slip_count"] == exact["slip_count"]).all()
-    assert off(result, exact, "x") < 150.0 * TOLERANCE
-    assert off(result, exact, "heat") < 300.0 * TOLERANCE * exact["heat"][-1]
