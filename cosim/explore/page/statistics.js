@@ -16,11 +16,11 @@ function statistics(run) {
     frequency: reached && starts.length === 0 ? 0 : 1 / period,
     mean_period: period,
     slip_share: reached ? slipTime(run, begin, end) / window : NaN,
-    mean_x: timeMean(run, "x", late),
-    ...extremes(run, "x", late),
-    mean_y: timeMean(run, "y", late),
-    ...extremes(run, "y", late),
-    max_rotation_deg: (largest(run, "phi", late) * 180) / Math.PI,
+    mean_x: timeMean(run, "x", late, "vx"),
+    ...extremes(run, "x", late, "vx"),
+    mean_y: timeMean(run, "y", late, "vy"),
+    ...extremes(run, "y", late, "vy"),
+    max_rotation_deg: (largest(run, "phi", late, "omega") * 180) / Math.PI,
     mean_friction_force_x: timeMean(run, "friction_force_x", late),
     mean_heat_flow: reached && late.to > late.from
       ? (run.at("heat", late.to - 1) - run.at("heat", late.from)) / window : NaN,
@@ -45,28 +45,43 @@ function slipTime(run, begin, end) {
   return slips(run).reduce((sum, slip) => sum + inside(slip), 0);
 }
 
-/* Mean over time by the trapezoidal rule. */
-function timeMean(run, name, { from, to }) {
+/* Mean over time; of a position, whose rate of change is given, of the cubics between the rows. */
+function timeMean(run, name, { from, to }, rate = "") {
   if (to - from < 2) return to > from ? run.at(name, from) : NaN;
   let sum = 0;
   for (let i = from + 1; i < to; i++) {
-    sum += 0.5 * (run.at(name, i) + run.at(name, i - 1)) * (run.time[i] - run.time[i - 1]);
+    const size = run.time[i] - run.time[i - 1];
+    sum += 0.5 * (run.at(name, i) + run.at(name, i - 1)) * size;
+    if (rate) sum -= ((run.at(rate, i) - run.at(rate, i - 1)) * size ** 2) / 12;
   }
   return sum / (run.time[to - 1] - run.time[from]);
 }
 
-function extremes(run, name, { from, to }) {
+/* Of those cubics, or of the rows. */
+function extremes(run, name, { from, to }, rate = "") {
   let [low, high] = [Infinity, -Infinity];
+  const take = (value) => { low = Math.min(low, value); high = Math.max(high, value); };
   for (let i = from; i < to; i++) {
-    const value = run.at(name, i);
-    if (value < low) low = value;
-    if (value > high) high = value;
+    take(run.at(name, i));
+    if (rate && i > from) turns(run, name, i, rate).forEach(take);
   }
   return { [`min_${name}`]: low, [`max_${name}`]: high };
 }
 
-function largest(run, name, rows) {
-  const ends = Object.values(extremes(run, name, rows)).map(Math.abs);
+/* Values where the cubic from the row before row i turns. */
+function turns(run, name, i, rate) {
+  const size = run.time[i] - run.time[i - 1], start = run.at(name, i - 1);
+  const rise = run.at(name, i) - start;
+  const first = size * run.at(rate, i - 1), last = size * run.at(rate, i);
+  const square = 3 * rise - 2 * first - last, cube = first + last - 2 * rise;
+  const root = Math.sqrt(Math.max(square ** 2 - 3 * cube * first, 0));
+  return [square + root, square - root].map((part) => -first / part)
+    .filter((s) => s > 0 && s < 1)
+    .map((s) => start + s * (first + s * (square + s * cube)));
+}
+
+function largest(run, name, rows, rate) {
+  const ends = Object.values(extremes(run, name, rows, rate)).map(Math.abs);
   return rows.to > rows.from ? Math.max(...ends) : NaN;
 }
 

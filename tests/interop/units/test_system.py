@@ -139,7 +139,7 @@ def test_a_run_that_was_cut_off_goes_on_to_the_last_bit(system, in_turn, tmp_pat
         folder.release()
         assert cut.result.status == "interrupted" and 2.0 < cut.result.time[-1] < 2.1
         again = run_system(specification, folder=RunFolder.found(tmp_path))
-    assert again.result.status == "complete" and again.steps.count == in_turn.steps
+    assert again.result.status == "complete" and again.result.steps == in_turn.steps
     same(again.result, in_turn)
     with read_system(system, changes | {"run.stop": 12.0}) as other, pytest.raises(CheckpointError):
         run_system(other, folder=RunFolder.found(tmp_path))
