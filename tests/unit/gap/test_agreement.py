@@ -292,10 +292,10 @@ def overruled(monkeypatch, lone, more, gaps):
 @pytest.mark.parametrize(
     ("sooner", "gained", "nearer", "named"),
     [
-        (0.0105, 51.0, 12.1, 1),
-        (0.0095, 51.0, 12.1, 0),
-        (0.0105, 49.0, 12.1, 0),
-        (0.0105, 51.0, 11.9, 0),
+        (0.0105, 101.0, 12.1, 1),
+        (0.0095, 101.0, 12.1, 0),
+        (0.0105, 99.0, 12.1, 0),
+        (0.0105, 101.0, 11.9, 0),
     ],
 )
 @pytest.mark.parametrize("across", [0, 1])

@@ -144,9 +144,9 @@ def test_a_scatter_far_beyond_what_is_stated_stands_for_something_else(low, befo
         ("surface_pattern", 51.0, 0.0, True),
         ("load_dependence", 7.0, 0.0, True),
         # contacts imitate ageing
-        ("static_strengthening", 49.0, 20.0, False),
-        ("static_strengthening", 51.0, 11.9, False),
-        ("static_strengthening", 51.0, 12.1, True),
+        ("static_strengthening", 99.0, 20.0, False),
+        ("static_strengthening", 101.0, 11.9, False),
+        ("static_strengthening", 101.0, 12.1, True),
     ],
 )
 def test_what_scatter_alone_makes_probable_is_not_asked_for(name, gained, nearer, asked):
