@@ -12,7 +12,7 @@ from stickslip.packaged import packaged_tables
 from cosim.report import heat_numbers as heat
 from cosim.report.columns import Data
 from cosim.report.contents import ramp_end, slip_intervals
-from cosim.report.run_summary import after_ramp, mean_of_cubics, mechanics_ledger, whole_run
+from cosim.report.run_summary import after_ramp, mean_of_cubics
 
 
 class Feature(NamedTuple):
@@ -39,8 +39,8 @@ def features(dataset: Data) -> dict[str, float]:
     A run that ends before the surface has its speed has no constant-speed part.
     """
     found = _motion(dataset) | {
-        "heat": mechanics_ledger(dataset)["friction_heat"],
-        "sliding_distance": whole_run(dataset)["sliding_distance"],
+        "heat": heat.last(dataset, "heat"),
+        "sliding_distance": heat.growth(dataset, "sliding_distance"),
         "energy_residual": heat.largest_of(dataset, "energy_residual"),
     }
     if "heat_received" in dataset:
