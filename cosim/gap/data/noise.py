@@ -161,7 +161,10 @@ def without_outliers(time: np.ndarray, values: np.ndarray) -> np.ndarray:
 
 
 def _outlying(time: np.ndarray, values: np.ndarray, noise: float, width: int) -> np.ndarray:
-    """Samples that lie in a row of ``width`` that their neighbours all contradict."""
+    """First and last samples of rows of ``width`` whose neighbours contradict both.
+
+    What lies between them is asked again without them: it may be good.
+    """
     there = np.flatnonzero(np.isfinite(values))
     found = np.zeros(len(values), dtype=bool)
     if len(there) < width + 4 or not noise > 0.0:
@@ -169,11 +172,10 @@ def _outlying(time: np.ndarray, values: np.ndarray, noise: float, width: int) ->
     t, v = time[there], values[there]
     starts = np.arange(2, len(there) - width - 1)
     around = np.stack([starts - 2, starts - 1, starts + width, starts + width + 1])
-    score = np.min(
-        [_contradiction(t, v, around, starts + place, noise) for place in range(width)], axis=0
-    )
+    ends = {0, width - 1}
+    score = np.min([_contradiction(t, v, around, starts + place, noise) for place in ends], axis=0)
     clearest = (score > THRESHOLD) & (score == maximum_filter1d(score, 2 * LONGEST + 1))
-    for place in range(width):
+    for place in ends:
         found[there[starts[clearest] + place]] = True
     return found
 

@@ -76,7 +76,7 @@ class Problem:
 
     def derivatives(self, scaled: np.ndarray) -> np.ndarray:
         """Of `residuals`, start states eliminated."""
-        blocks = [part.derivatives(scaled, self.threads.map) for part in self.parts]
+        blocks = self.threads.map(lambda part: part.derivatives(scaled), self.parts)
         return np.concatenate([*blocks, self._priors(scaled)[1]])
 
     def changes(self, scaled: np.ndarray, more: Mapping[str, float]) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 from .fitted import FittedRun
 from .numbers import Unknown
 from .run_model import RunModel
-from .start_states import Each, Started, StartStates
+from .start_states import Started, StartStates
 
 #: Finite differences of a number, in its scales. Numbers that compensate each other but for their
 #: priors (mu_s, mu_k and all zeros) need derivatives to 1e-3 of themselves; with ten times the step
@@ -83,11 +83,11 @@ class RunFit:
             at = self.starts.settled(values, at, p, rounds=2)
         return at
 
-    def derivatives(self, scaled: np.ndarray, each: Each) -> np.ndarray:
+    def derivatives(self, scaled: np.ndarray) -> np.ndarray:
         """(size, k) by the numbers, normal to those by the start states."""
         at = self.followed(scaled)
         if id(at) not in self.known:
-            self.known[id(at)] = (at, *self._derivatives(scaled, at, each))
+            self.known[id(at)] = (at, *self._derivatives(scaled, at))
         _, self.columns, self.response, derivatives = self.known[id(at)]
         if self.base is None or (self.base != scaled[self.felt]).any():
             self.base = scaled[self.felt].copy()
@@ -95,19 +95,19 @@ class RunFit:
         return derivatives
 
     def _derivatives(
-        self, scaled: np.ndarray, at: Started, each: Each
+        self, scaled: np.ndarray, at: Started
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """By the start states, of these by the numbers, and of the rest by the numbers."""
         values = self.values(scaled)
-        columns = self.starts.derivatives(values, at, self.model.packed(values), each)
-        slopes = self._slopes(scaled, at, each)
+        columns = self.starts.derivatives(values, at, self.model.packed(values))
+        slopes = self._slopes(scaled, at)
         move = self.starts.coordinates(columns, slopes)
         steps = self.starts.steps[self.starts.axes(values)]
         derivatives = np.zeros((at.residuals.size, len(self.unknowns)))
         derivatives[:, self.felt] = self.starts.normal_part(columns, slopes)
         return columns, -move * steps[None, :, None], derivatives
 
-    def _slopes(self, scaled: np.ndarray, at: Started, each: Each) -> np.ndarray:
+    def _slopes(self, scaled: np.ndarray, at: Started) -> np.ndarray:
         """(size, felt) by the numbers, at fixed start states.
 
         Where numbers move the kernel's parameters in the same directions, as mu_s and mu_k do both
@@ -119,11 +119,13 @@ class RunFit:
             steps.append(STEP if number.value(scaled[i] + STEP) <= number.high else -STEP)
             there[i] += steps[-1]
             moved.append(self.values(there))
-        taken = [self.model.taken_from(values) for values in (here, *moved)]
+        packed = list(map(self.model.packed, (here, *moved)))
+        taken = list(map(self.model.taken_from, (here, *moved), packed))
         basis, parts = _directions((np.array(taken[1:]) - taken[0]).T / steps)
-        simulated = each(
-            lambda n: (self.model.residuals(moved[n], at.states) - at.residuals) / steps[n], basis
-        )
+        simulated = [
+            (self.model.residuals(moved[n], at.states, packed[n + 1]) - at.residuals) / steps[n]
+            for n in basis
+        ]
         slopes = np.asarray(np.column_stack([at.residuals[:, None][:, :0], *simulated]) @ parts)
         for place, i in enumerate(self.felt):
             number = self.unknowns[i].number

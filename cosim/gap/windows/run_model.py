@@ -172,10 +172,10 @@ class RunModel:
         p[layout.P_LONGEST_STICK] *= LONGER if is_uneven else LONGER_STICK
         return p
 
-    def taken_from(self, values: Mapping[str, float]) -> np.ndarray:
-        """All that of a run's values acts on a track, but for the tracker's zeros."""
+    def taken_from(self, values: Mapping[str, float], p: np.ndarray) -> np.ndarray:
+        """All that of a run's values acts on a track, but for the tracker's zeros. p : `packed`"""
         outside = [value for key, value in values.items() if key.startswith(NOT_PACKED)]
-        return np.concatenate([self.packed(values), outside])
+        return np.concatenate([p, outside])
 
     def track(
         self, values: Mapping[str, float], states: np.ndarray, p: np.ndarray | None = None

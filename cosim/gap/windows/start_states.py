@@ -9,7 +9,7 @@ approximation, BIT 15 (1975)).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -36,10 +36,6 @@ CHANGES = ((0.0, -1.0), (0.0, -0.3), (0.0, -0.05), (0.0, 0.05), (0.0, 0.3), (-2.
 #: run's median window's, and the noise's, by this factor; at last, when any may be in which the
 #: block barely sticks, one whose mean square exceeds that of the noise by the second.
 OFF_COURSE, AT_LAST = 4.0, 1.2
-
-
-#: As `map`: what it calls may run beside one another.
-Each = Callable[[Callable[[int], np.ndarray], Iterable[int]], Iterable[np.ndarray]]
 
 
 @dataclass(frozen=True)
@@ -83,7 +79,7 @@ class StartStates:
         return free
 
     def derivatives(
-        self, values: Mapping[str, float], at: Started, p: np.ndarray, each: Each = map
+        self, values: Mapping[str, float], at: Started, p: np.ndarray
     ) -> np.ndarray:
         """(size, a) of the residuals by the free axes, per step; 0 where a window's is not free."""
         axes, free = self.axes(values), self.free(values)
@@ -93,7 +89,7 @@ class StartStates:
             moved[free[:, axis], axis] += self.steps[axis]
             return np.asarray(self.model.residuals(values, moved, p) - at.residuals)
 
-        columns = np.column_stack([at.residuals[:, None][:, :0], *each(column, axes)])
+        columns = np.column_stack([at.residuals[:, None][:, :0], *map(column, axes)])
         # windows without this axis feel nothing but what the model carried over from others
         return np.asarray(columns * free[:, axes][self.model.owner])
 

@@ -86,8 +86,9 @@ def test_rows_of_outliers():
     x = noisy(run["x"], 5)
     x[200:202] += 0.01
     x[400:403] -= 0.02
+    x[600:603] += [0.015, 0.0, -0.015]  # what lies between them is good
     kept = without_outliers(run.time, x)
-    assert np.flatnonzero(np.isnan(kept)).tolist() == [200, 201, 400, 401, 402]
+    assert np.flatnonzero(np.isnan(kept)).tolist() == [200, 201, 400, 401, 402, 600, 602]
 
 
 def test_runs_of_one_tracker_share_their_noise(tmp_path):
