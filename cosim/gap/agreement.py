@@ -140,7 +140,7 @@ def _further(fitting: Fitting, parts: list[Part], named: Named) -> tuple[list[Pa
     if not found:
         return parts, named
     most = max(part.finding.gain for part in found)
-    near = [part for part in found if part.finding.gain > most - judge.TURNED]
+    near = [part for part in found if judge.may_be_ahead(part.finding.gain, most)]
     if len(near) > 1:  # by which law each is tried decides then
         found = [_best_form(fitting, part, without, named) for part in near]
     part = max(found, key=lambda one: one.finding.gain)

@@ -450,9 +450,17 @@ def test_a_search_that_was_cut_short_says_so(is_found):
     assert doubt.severe is not is_found
 
 
-@pytest.mark.parametrize(("gain", "name"), [(199.0, "film_drag"), (201.0, "structural_damping")])
+@pytest.mark.parametrize(
+    ("least", "gain", "name"),
+    [
+        (60.0, 199.0, "film_drag"),
+        (60.0, 201.0, "structural_damping"),
+        (610.0, 390.0, "film_drag"),
+        (590.0, 410.0, "structural_damping"),
+    ],
+)
 def test_of_two_hidden_ones_near_each_other_every_form_of_their_laws_is_tried(
-    monkeypatch, gain, name
+    monkeypatch, least, gain, name
 ):
     """structural_damping is ahead of film_drag by so much until another form of that is tried."""
 
@@ -461,9 +469,10 @@ def test_of_two_hidden_ones_near_each_other_every_form_of_their_laws_is_tried(
 
     monkeypatch.setattr(Fitting, "forms", forms)
     offers = [finding(one, 90.0) for one in ("film_drag", "structural_damping")]
-    gains = {"film_drag": 60.0, "structural_damping": 60.0 + gain, ("film_drag", "root"): 900.0}
+    gains = {"film_drag": least, "structural_damping": least + gain}
+    gains |= {("film_drag", "root"): 2000.0, "run_in": 900.0}
     rows = Rows(finding("run_in", 2.0 * SURE), offers=offers)
-    assert agreed(monkeypatch, rows, gains | {"run_in": 900.0})[0] == ["run_in", name]
+    assert agreed(monkeypatch, rows, gains)[0] == ["run_in", name]
 
 
 def test_what_is_lost_by_itself_goes_before_the_others_are_asked_beside_it(monkeypatch):
