@@ -102,7 +102,7 @@ LONGEST = 1.5e8
 STRAINED = 2.0
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5
-#: Part of the greatest gain from which another law of an effect may be ahead: the curve of rows of a
+#: Part of the greatest gain from which another law of an effect may be ahead: rows' curve of a
 #: softening spring has brought 0.73 of what its cubic law does.
 NEARLY = 0.6
 #: Part of the misfit that a finding must take to be named as a part of what is missing, or where
