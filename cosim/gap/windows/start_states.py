@@ -78,9 +78,7 @@ class StartStates:
             free[np.isfinite(self.model.windows.hold_since), 3:6] = False
         return free
 
-    def derivatives(
-        self, values: Mapping[str, float], at: Started, p: np.ndarray
-    ) -> np.ndarray:
+    def derivatives(self, values: Mapping[str, float], at: Started, p: np.ndarray) -> np.ndarray:
         """(size, a) of the residuals by the free axes, per step; 0 where a window's is not free."""
         axes, free = self.axes(values), self.free(values)
 
