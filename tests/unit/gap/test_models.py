@@ -51,22 +51,26 @@ def test_a_model_that_comes_out_worse_than_the_one_it_holds_sets_out_from_it(
     assert ladder.work.simulated == 7 * (2 + again)
 
 
-def test_a_finding_sets_out_once_from_next_to_nothing(monkeypatch):
+@pytest.mark.parametrize(("cost", "again"), [(99.9, False), (100.1, True)])
+def test_a_finding_sets_out_from_the_rows_and_once_from_next_to_nothing(monkeypatch, cost, again):
     """What scatter explains nearly as well holds a fit that begins without it."""
-    started = []
+    started, costs = [], iter([cost, 98.0])
 
     def fit(campaign, windows, numbers, settings, scatter, starts, near, jobs):
         started.extend(starts)
-        return SimpleNamespace(cost=98.0, simulated=7)
+        return SimpleNamespace(cost=next(costs), simulated=7)
 
     monkeypatch.setattr(models, "fit", fit)
-    ladder = Models(None, None, {}, [], 1)
+    monkeypatch.setattr(models, "started_from", lambda campaign, rows: {"friction.mu_k": 0.21})
+    ladder = Models(None, SimpleNamespace(rung=lambda added: None), {}, [], 1)
     ladder.fits = [SimpleNamespace(cost=100.0, values={"friction.mu_k": 0.2})]
     ladder.free = [([], {}, 0.0)]
     rate = Number("static_strengthening.rate", 0.5, None, 0.0, 1.0)
     asked = Part(finding("static_strengthening", 9.0), None, (), (rate,))
-    assert [ladder._beside(asked)[0].cost for _ in range(2)] == [98.0, 98.0]
-    assert started == [{"friction.mu_k": 0.2, rate.key: 0.01}]
+    found = [ladder._beside(asked)[0].cost for _ in range(2)]
+    assert found == [98.0 if again else cost] * 2
+    inside = {"friction.mu_k": 0.2, rate.key: 0.01}
+    assert started == [{"friction.mu_k": 0.21}, *[inside] * again]
 
 
 def test_a_rung_of_what_moves_the_block_across_has_the_evidence_of_the_plane(monkeypatch):
