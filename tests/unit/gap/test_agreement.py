@@ -245,7 +245,7 @@ def test_rivals_of_a_finding_are_simulated(monkeypatch, gain, rows, gained, told
 
 
 @pytest.mark.parametrize(
-    ("left", "reached", "names"), [(1.9, 1.0, 1), (2.1, 1.11, 3), (2.1, 1.09, 1)]
+    ("left", "reached", "names"), [(1.9, 1.11, 1), (2.1, 1.11, 3), (2.1, 1.09, 1)]
 )
 def test_nothing_is_doubted_where_three_findings_leave_twice_the_noise(
     monkeypatch, left, reached, names
@@ -407,6 +407,8 @@ def test_of_what_is_promised_the_best_is_found_and_what_is_nearly_as_good_is_ali
     given = {"monkeypatch": monkeypatch, "nearer": 9.0}
     found, _ = agreed(rows=Rows(one, offers=offers), gained=gains, **given)
     assert found == ["run_in", "structural_damping"]
+    third = gains | {"spring_hardening": 900.0}
+    assert agreed(rows=Rows(one, offers=offers), gained=third, **given)[0][1] == "spring_hardening"
     gains |= {"load_dependence": 9.0 * SURE}
     found, _ = agreed(rows=Rows(one, two, most=2, offers=offers), gained=gains, **given)
     assert found == ["run_in", "load_dependence"]
