@@ -7,6 +7,7 @@ leaves its line. Between the last two values the border is bisected.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TypeVar
 
 import numpy as np
 
@@ -25,6 +26,7 @@ FARTHEST, COUNT = 10.0, 49
 
 #: What a block does: the name of its regime, and whether it does so beside its line.
 Kind = tuple[str, bool]
+Seen = TypeVar("Seen")
 
 
 @dataclass(frozen=True)
@@ -129,19 +131,29 @@ def changes(
     does: Callable[[float], Kind], number: Number, values: Sequence[float], resolution: float
 ) -> Iterator[Border]:
     """Borders between values that are tried one after the other, bisected."""
-    kinds = ((value, does(value)) for value in values)
-    for (one, before), (other, after) in pairwise(kinds):
-        if before == after:
-            continue
-        while abs(other - one) > resolution * (max(one, other) - number.least):
-            middle = 0.5 * (one + other)
-            kind = does(middle)
-            if kind == before:
-                one = middle
-            else:
-                other, after = middle, kind
-        below, above = (before, after) if one < other else (after, before)
-        yield Border(number, 0.5 * (one + other), below, above)
+    for pair in pairwise((value, does(value)) for value in values):
+        if pair[0][1] != pair[1][1]:
+            (low, below), (high, above) = sorted(bisected(does, *pair, resolution, number.least))
+            yield Border(number, 0.5 * (low + high), below, above)
+
+
+def bisected(
+    does: Callable[[float], Seen],
+    one: tuple[float, Seen],
+    other: tuple[float, Seen],
+    part: float = 0.0,
+    least: float = 0.0,
+    within: float = 0.0,
+) -> tuple[tuple[float, Seen], tuple[float, Seen]]:
+    """Two values near to each other and what is seen there, from two at which that differs.
+
+    They are no further apart than a part of what they are above the least, or than ``within``.
+    """
+    while abs(other[0] - one[0]) > max(part * (max(one[0], other[0]) - least), within):
+        middle = 0.5 * (one[0] + other[0])
+        seen = middle, does(middle)
+        one, other = (seen, other) if seen[1] == one[1] else (one, seen)
+    return one, other
 
 
 def _outward(number: Number) -> tuple[list[float], list[float]]:
