@@ -58,7 +58,11 @@ def rig_view(model: BeltIceModel) -> RigView:
     return RigView(offset, model.belt.depth, belt, x, height, ice, model.footprint.length)
 
 
-def collection(folder: str | Path, name: str = "temperature") -> Path:
+#: What the files of a series begin with.
+NAME = "temperature"
+
+
+def collection(folder: str | Path, name: str = NAME) -> Path:
     """The file of a series that names the others."""
     return Path(folder) / f"{name}.pvd"
 
@@ -73,28 +77,23 @@ def stretch_factor(length: float, thickness: float) -> float:
 
 
 class FieldSeries:
-    """Writes `<name>.pvd` and `<name>_<number>.vtu` into a folder that exists.
+    """Writes `temperature.pvd` and `temperature_<number>.vtu` into a folder that exists.
 
     Point data `temperature_degC`, `rise_K` over the air, and `stretch_m`, with which the filter
     Warp By Vector thickens the belt. Cell data `part` (0 belt, 1 ice). Beside it the same fields
-    already stretched, `<name>_belt_<factor>x.pvd`: heights below the contact are `factor` times the
-    true ones (see `stretch_factor`), the ice and all lengths along the belt are true.
+    already stretched, `temperature_belt_<factor>x.pvd`: heights below the contact are `factor`
+    times the true ones (see `stretch_factor`), the ice and all lengths along the belt are true.
 
-    An earlier series of that name is replaced from its first file on. times: of the fields (s)
-    that an earlier process wrote and this one goes on from; then from the next one.
+    An earlier series is replaced from its first file on. times: of the fields (s) that an earlier
+    process wrote and this one goes on from; then from the next one.
     """
 
     def __init__(
-        self,
-        folder: str | Path,
-        model: BeltIceModel,
-        name: str = "temperature",
-        times: Sequence[float] = (),
+        self, folder: str | Path, model: BeltIceModel, times: Sequence[float] = ()
     ) -> None:
         self.folder: Path = Path(folder)
         if not self.folder.is_dir():
             raise ValueError(f"{self.folder}: no such folder for the temperature fields")
-        self.name = name
         self._model = model
         self._times = list(times)
         belt, ice, offset = model.belt, model.ice, seen_belt(model)[0]
@@ -105,9 +104,9 @@ class FieldSeries:
         #: Displacements (points, 3) m that thicken the belt; the ice stays.
         self._stretch = np.zeros_like(points)
         self._stretch[: len(below), 2] = (self.factor - 1.0) * below[:, 2]
-        self._views = {name: points}
+        self._views = {NAME: points}
         if self.factor > 1.0:
-            self._views[f"{name}_belt_{self.factor:g}x"] = points + self._stretch
+            self._views[f"{NAME}_belt_{self.factor:g}x"] = points + self._stretch
         self._cells = [
             ("quad", quadrilaterals(belt.cells + 1, belt.depth.size)),
             (ice.cell_type, ice.cells + len(below)),
@@ -119,7 +118,7 @@ class FieldSeries:
     @property
     def path(self) -> Path:
         """The collection, the one file to open."""
-        return collection(self.folder, self.name)
+        return collection(self.folder)
 
     def write(self, time: float) -> Path:
         """Add the model's present fields at time (s); returns the VTU file of the true view.
@@ -134,12 +133,8 @@ class FieldSeries:
         rise = np.concatenate((belt, self._model.ice.at_points()))
         data = {"temperature_degC": ambient + rise, "rise_K": rise}
         # what would thicken the stretched view once more is in the true one alone
-        files = [
-            self._write_view(
-                name, data | ({"stretch_m": self._stretch} if name == self.name else {})
-            )
-            for name in self._views
-        ]
+        more = {NAME: {"stretch_m": self._stretch}}
+        files = [self._write_view(name, data | more.get(name, {})) for name in self._views]
         self._times.append(time)
         for name in self._views:
             self._write_collection(name)

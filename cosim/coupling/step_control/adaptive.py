@@ -43,11 +43,12 @@ class PowerBond:
     def __str__(self) -> str:
         return f"{self.effort} with {self.flow}"
 
-    def check(self, system: CoupledSystem) -> str:
-        """A remark where nobody says what a unit means, else ""; CouplingError for no power bond.
+    def watts(self, system: CoupledSystem) -> tuple[float, str]:
+        """W that the product of the two is in, as 1000 of kN and m/s; and a remark, else "", where
+        nobody says what a unit means: then it is 1.
 
-        Both are connected, to each other's participants, and their product is a power, by what
-        their units are made of.
+        CouplingError for no power bond: both are connected, to each other's participants, and their
+        product is a power, by what their units are made of.
         """
         for source, sink in ((self.effort, self.flow), (self.flow, self.effort)):
             find_port(system.participants, source)
@@ -60,20 +61,15 @@ class PowerBond:
         units = " times ".join("no unit" if port.unit == "1" else port.unit for port in ports)
         first, second = (port.definition for port in ports)
         if first is None or second is None:
-            return f"power bond {self}: whether {units} is a power is not checked: not defined"
+            said = f"power bond {self}: whether {units} is a power is not checked: not defined"
+            return 1.0, said
         exponents = [a + b for a, b in zip(first.exponents, second.exponents, strict=True)]
         if tuple(exponents[:COUNTED]) != POWER[:COUNTED] or first.offset or second.offset:
             raise CouplingError(
                 f"power bond {self}: {units} ({told_dimension(exponents)}) is no power, allowed "
                 "are two outputs whose product is one, as force and velocity, in W or multiples"
             )
-        return ""
-
-    def watts(self, system: CoupledSystem) -> float:
-        """W that the product of the two is in: 1000 of kN and m/s; 1 where nobody says."""
-        ports = [find_port(system.participants, each) for each in (self.effort, self.flow)]
-        first, second = (port.definition for port in ports)
-        return 1.0 if first is None or second is None else first.factor * second.factor
+        return first.factor * second.factor, ""
 
     def values(self, exchange: Exchange) -> tuple[float, float, float, float]:
         """Effort given, effort got, flow given, flow got in the step that has just been made."""
@@ -216,9 +212,9 @@ class EnergyResidual(Estimate):
 
     def check(self, system: CoupledSystem) -> list[str]:
         """Every bond is one, and its product a power."""
-        remarks = [bond.check(system) for bond in self.bonds]
-        self._watts = tuple(bond.watts(system) for bond in self.bonds)
-        return [remark for remark in remarks if remark]
+        found = [bond.watts(system) for bond in self.bonds]
+        self._watts = tuple(watts for watts, _ in found)
+        return [remark for _, remark in found if remark]
 
     def begin(self, scheme: Scheme) -> None:
         """Nothing has crossed yet."""

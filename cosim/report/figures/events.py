@@ -36,6 +36,8 @@ COLUMNS = {
 }
 STATE = ("x", "y", "phi", "vx", "vy", "omega")
 FRICTION = ("friction_force_x", "friction_force_y", "friction_moment")
+#: Means over the interval that ends at a row: of that interval on both sides of an event in it.
+MEANS = ("heat_flow", "melt_rate")
 #: Rows before the re-stick from which the model sets out, and moments that it adds.
 ROWS, MOMENTS = 3, 24
 #: Moments lie the closer the nearer to the end: at these powers of equal steps.
@@ -55,26 +57,23 @@ class Way(NamedTuple):
     times: Array
 
 
-def moments(
+def with_moments(
     dataset: Columns, over_time: Columns, times: Array, slips: NDArray[np.bool_]
 ) -> Columns:
-    """Rows to be put between those of ``over_time``; none where nothing can be said.
+    """The rows and, where the model can say them, the last moments of every slip.
 
     times (k,), s, and slips (k,): the events, and whether a slip begins there.
     """
-    nothing = over_time.isel(time=slice(0, 0))
-    if not set(COLUMNS) <= set(over_time.data_vars) or "mode" not in over_time:
-        return nothing
+    if not {*COLUMNS, "mode"} <= {*over_time}:
+        return over_time
     ways = _ways(over_time, times, slips)
-    if not ways:
-        return nothing
-    outputs = _gone_again(dataset, over_time, ways)
+    outputs = _gone_again(dataset, over_time, ways) if ways else []
     found = [
         _between(over_time, way, rows)
         for way, rows in zip(ways, outputs, strict=True)
         if _meets(over_time, way, rows)
     ]
-    return nothing.with_rows(*found) if found else nothing
+    return over_time.with_rows(*found) if found else over_time
 
 
 def _ways(over_time: Columns, times: Array, slips: NDArray[np.bool_]) -> list[Way]:
@@ -140,23 +139,23 @@ def _meets(over_time: Columns, way: Way, rows: Array) -> bool:
 
 
 def _between(over_time: Columns, way: Way, rows: Array) -> Columns:
-    """The moments alone; what the model does not say of them lies between the rows beside them."""
+    """The moments alone; what the model does not say of them lies between the rows beside them,
+    or is a mean that the next row has of them."""
     time = over_time["time"].values
     new = ~np.isin(way.times, time) & (rows[:, layout.O_MODE] == SLIP)
     at = way.times[new]
     filled = {
-        name: rows[new, COLUMNS[name]]
-        if name in COLUMNS
-        else np.interp(at, time, variable.values.astype(float))
+        name: np.interp(at, time, variable.values.astype(float))
         for name, variable in over_time.data_vars.items()
     }
+    filled |= {name: rows[new, place] for name, place in COLUMNS.items()}
+    means = [name for name in MEANS if name in over_time]
+    filled |= {name: over_time[name].values[np.searchsorted(time, at)] for name in means}
     filled["mode"] = np.full(at.size, SLIP)
     columns = {name: Column(("time",), values) for name, values in filled.items()}
     return Columns(columns, {"time": Column(("time",), at)})
 
 
-#: Means over the interval that ends at a row: of that interval on both sides of an event in it.
-MEANS = ("heat_flow", "melt_rate")
 #: What jumps at an event.
 FORCES = ("friction_force_x", "friction_force_y", "friction_moment")
 #: A side is drawn out by no more than this many times what its curve changed between rows.
@@ -186,7 +185,7 @@ def _rows_through_events(dataset: Columns) -> tuple[Columns, NDArray[np.bool_]]:
     times, slips = _events(dataset)
     if times.size == 0:
         return over_time, np.zeros(time.size, bool)
-    over_time = _with_moments(dataset, over_time, times, slips)
+    over_time = with_moments(dataset, over_time, times, slips)
     time = over_time["time"].values.astype(float)
     edges = np.searchsorted(time, times, side="left")
     begins, ends = np.append(0, edges[:-1]), np.append(edges[1:], time.size)
@@ -209,7 +208,7 @@ def _rows_through_events(dataset: Columns) -> tuple[Columns, NDArray[np.bool_]]:
             return values[last], values[following]
         left = _drawn_out(time, values, times, edges - 1, -1, edges - begins)
         right = _drawn_out(time, values, times, edges, 1, ends - edges)
-        if name in FORCES:  # see `moments`: what no row knows is not made up
+        if name in FORCES:  # see `with_moments`: what no row knows is not made up
             return np.where(slips, left, values[last]), right
         both = np.where(from_left, left, right)
         return both, both
@@ -231,21 +230,6 @@ def _events(dataset: Columns) -> tuple[Array, NDArray[np.bool_]]:
     times, first = np.unique(times, return_index=True)
     inside = (times > time[0]) & (times < time[-1]) if time.size else np.zeros(0, bool)
     return times[inside], modes[first][inside] == SLIP
-
-
-def _with_moments(
-    dataset: Columns, over_time: Columns, times: Array, slips: NDArray[np.bool_]
-) -> Columns:
-    """The rows and, where the model can say them, the last moments of every slip."""
-    found = moments(dataset, over_time, times, slips)
-    if found.sizes["time"] == 0:
-        return over_time
-    time = over_time["time"].values
-    row = np.searchsorted(time, found["time"].values)
-    for name in MEANS:
-        if name in over_time:
-            found.data_vars[name] = Column(("time",), over_time[name].values[row])
-    return over_time.with_rows(found)
 
 
 def _positions(dataset: Columns, times: Array) -> dict[str, Array]:

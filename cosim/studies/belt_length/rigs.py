@@ -237,7 +237,7 @@ def _index_sets(dimensions: int, most: int) -> Iterator[NDArray[np.intp]]:
     seen = set()
     for norm in _NORMS:
         for degree in _DEGREES:
-            found = np.array(list(_within(dimensions, degree, norm, float(degree) ** norm)))
+            found = np.array(_within(dimensions, degree, norm))
             if len(found) > most:
                 break
             if len(found) not in seen:
@@ -245,13 +245,10 @@ def _index_sets(dimensions: int, most: int) -> Iterator[NDArray[np.intp]]:
                 yield found
 
 
-def _within(dimensions: int, degree: int, norm: float, left: float) -> Iterator[tuple[int, ...]]:
-    if dimensions == 0:
-        yield ()
-        return
-    for n in range(degree + 1):
-        rest = left - n**norm
-        if rest < -1e-9:
-            break
-        for others in _within(dimensions - 1, degree, norm, rest):
-            yield (n, *others)
+def _within(dimensions: int, degree: int, norm: float) -> list[tuple[int, ...]]:
+    """Degrees of each dimension whose hyperbolic norm is no more than the degree."""
+    found: list[tuple[int, ...]] = [()]
+    for _ in range(dimensions):
+        longer = ((*one, n) for one in found for n in range(degree + 1))
+        found = [each for each in longer if sum(n**norm for n in each) <= degree**norm + 1e-9]
+    return found

@@ -5,7 +5,7 @@
 'holds'
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from .claim import Check, Claim, Row, UnknownClaim, claim_ids, judged
 from .result import Reproduction
@@ -13,17 +13,11 @@ from .result import Reproduction
 __all__ = ["Check", "Claim", "Reproduction", "Row", "UnknownClaim", "claim_ids", "reproduce"]
 
 
-def reproduce(
-    ids: Sequence[str] = (), progress: Callable[[str], None] = lambda _id: None
-) -> Reproduction:
+def reproduce(ids: Sequence[str] = ()) -> Reproduction:
     """Compute and judge the claims (all of them for no ids), in the study's order.
 
-    ``progress`` is called with each id when its claim is judged. Raises `UnknownClaim`.
+    Raises `UnknownClaim`.
     """
     from .claims import JUDGES  # matplotlib and the thermal model: only when there is work
 
-    found = Reproduction()
-    for one in claim_ids(ids):
-        found.append(judged(one, JUDGES[one]))
-        progress(one)
-    return found
+    return Reproduction(judged(one, JUDGES[one]) for one in claim_ids(ids))

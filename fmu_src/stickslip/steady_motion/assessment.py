@@ -5,9 +5,8 @@ from dataclasses import asdict, dataclass, replace
 from typing import Any, TypeVar
 
 from ..parameters import Parameters
-from .borders import Border, nearest_borders
+from .borders import COARSE_STEP, Border, PretensionBorders, nearest_borders, pretension_borders
 from .live import DRY, Interface, OutOfWork, RunEnded, Work, steps_per_second, unwatched
-from .pretension import COARSE, PretensionBorders, pretension_borders
 from .regimes import Regime, coexisting, grouped, regimes
 from .stability import Stability, stability
 
@@ -130,4 +129,4 @@ def _if_followed(find: Callable[[], Found]) -> Found | None:
 def _borders(parameters: Parameters, duration: float, interface: Interface) -> PretensionBorders:
     if parameters.rig.degrees_of_freedom == ("x",):
         return PretensionBorders(())
-    return pretension_borders(parameters, duration, interface, COARSE)
+    return pretension_borders(parameters, duration, interface, COARSE_STEP)

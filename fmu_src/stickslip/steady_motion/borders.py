@@ -2,18 +2,24 @@
 
 Each number is changed alone, in steps, until the block does something else: sticks no more, or
 leaves its line. Between the last two values the border is bisected.
+
+And how far the springs must be stretched for a block to keep to its line. Springs without
+pretension push sideways where they are compressed, and turn the block away from the line on which
+friction drags it. Pretension holds it there, as the tension of a string does.
 """
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TypeVar
 
 import numpy as np
 
 from ..parameters import Parameters
 from .live import DRY, Interface, RunEnded
-from .numbers import Number, numbers_of
+from .numbers import Number, numbers_of, with_pretension
 from .regimes import ENDED, regime_of
+from .stability import GRAZING, Stability, cycle_stability
 from .starts import disturbed
 
 #: Factors at which a number is tried, up and down, and of one that is 0, times its first value.
@@ -25,6 +31,7 @@ FARTHEST, COUNT = 10.0, 49
 
 #: What a block does: the name of its regime, and whether it does so beside its line.
 Kind = tuple[str, bool]
+Seen = TypeVar("Seen")
 
 
 @dataclass(frozen=True)
@@ -129,19 +136,29 @@ def changes(
     does: Callable[[float], Kind], number: Number, values: Sequence[float], resolution: float
 ) -> Iterator[Border]:
     """Borders between values that are tried one after the other, bisected."""
-    kinds = ((value, does(value)) for value in values)
-    for (one, before), (other, after) in pairwise(kinds):
-        if before == after:
-            continue
-        while abs(other - one) > resolution * (max(one, other) - number.least):
-            middle = 0.5 * (one + other)
-            kind = does(middle)
-            if kind == before:
-                one = middle
-            else:
-                other, after = middle, kind
-        below, above = (before, after) if one < other else (after, before)
-        yield Border(number, 0.5 * (one + other), below, above)
+    for pair in pairwise((value, does(value)) for value in values):
+        if pair[0][1] != pair[1][1]:
+            (low, below), (high, above) = sorted(bisected(does, *pair, resolution, number.least))
+            yield Border(number, 0.5 * (low + high), below, above)
+
+
+def bisected(
+    does: Callable[[float], Seen],
+    one: tuple[float, Seen],
+    other: tuple[float, Seen],
+    part: float = 0.0,
+    least: float = 0.0,
+    within: float = 0.0,
+) -> tuple[tuple[float, Seen], tuple[float, Seen]]:
+    """Two values near to each other and what is seen there, from two at which that differs.
+
+    They are no further apart than a part of what they are above the least, or than ``within``.
+    """
+    while abs(other[0] - one[0]) > max(part * (max(one[0], other[0]) - least), within):
+        middle = 0.5 * (one[0] + other[0])
+        seen = middle, does(middle)
+        one, other = (seen, other) if seen[1] == one[1] else (one, seen)
+    return one, other
 
 
 def _outward(number: Number) -> tuple[list[float], list[float]]:
@@ -152,3 +169,64 @@ def _outward(number: Number) -> tuple[list[float], list[float]]:
     up = [least + factor * (own - least) for factor in FACTORS]
     down = [least + (own - least) / factor for factor in FACTORS]
     return [own, *up], [own, *down]
+
+
+#: Pretensions that are looked at, as parts of the spring's installed length: steps and the most.
+FINE_STEP, COARSE_STEP, MOST = 0.005, 0.01, 0.30
+#: Of a multiplier of 1, that of a motion beside which nothing grows or dies out.
+ROUNDING = 1e-5
+#: To which a border is found that the multipliers pass through 1 at, m.
+RESOLUTION = 1e-5
+
+
+@dataclass(frozen=True)
+class PretensionBorders:
+    """Extensions of the springs as installed at which a motion is unstable.
+
+    windows : (begin, end), m, growing; an end of None is beyond what was looked at, `MOST` of the
+        installed length. A window narrower than a step of the search can be missed.
+    resolution : to which they are known, m: a step of the search where the motion grazes there
+    """
+
+    windows: tuple[tuple[float, float | None], ...]
+    resolution: float = RESOLUTION
+
+    @property
+    def least(self) -> float | None:
+        """Least pretension that is not unstable, m; None where there is none."""
+        if not self.windows or self.windows[0][0] > 0.0:
+            return 0.0
+        return self.windows[0][1]
+
+
+def pretension_borders(
+    parameters: Parameters,
+    duration: float = 30.0,
+    interface: Interface = DRY,
+    step: float = FINE_STEP,
+) -> PretensionBorders:
+    """Where a run of ``duration`` (s) is unstable, everything but the pretension as given.
+
+    interface: its temperature and the water in it. step: of the search, part of the installed
+    length. Raises `live.RunEnded` where a motion cannot be followed.
+    """
+
+    def at(pretension: float) -> Stability:
+        return cycle_stability(with_pretension(parameters, pretension), duration, interface)
+
+    def is_unstable(motion: Stability) -> bool:
+        return motion.multipliers.size > 0 and motion.growth > 1.0 + ROUNDING
+
+    steps = (parameters.rig.spring_length * np.arange(0.0, MOST + 0.5 * step, step)).tolist()
+    found = [at(pretension) for pretension in steps]
+    unstable = [*map(is_unstable, found)]
+    borders, resolution = [0.0] if unstable[0] else [], RESOLUTION
+    for i in np.flatnonzero(np.diff(unstable)):
+        ends = (steps[i], unstable[i]), (steps[i + 1], unstable[i + 1])
+        if GRAZING in (found[i].verdict, found[i + 1].verdict):
+            resolution = steps[1]
+        else:
+            ends = bisected(lambda each: is_unstable(at(each)), *ends, within=RESOLUTION)
+        borders.append(0.5 * (ends[0][0] + ends[1][0]))
+    closed = [*borders[1::2], None] if unstable[-1] else borders[1::2]
+    return PretensionBorders(tuple(zip(borders[::2], closed, strict=True)), resolution)

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from ..parameters import Parameters
-from .pretension import with_pretension
 
 SPEED, RAMP, DAMPING = "surface.speed", "surface.run_up_time", "structural_damping.coefficient"
 PRETENSION, RATIO = "pretension", "mu_s/mu_k"
@@ -72,6 +71,12 @@ def at_speed(parameters: Parameters, speed: float) -> Parameters:
 def with_ratio(parameters: Parameters, ratio: float) -> Parameters:
     """The same rig with another mu_s/mu_k at its mu_k."""
     return parameters.with_values("friction", mu_s=ratio * parameters.friction.mu_k)
+
+
+def with_pretension(parameters: Parameters, pretension: float) -> Parameters:
+    """The same rig, its springs stretched by ``pretension`` (m) as installed."""
+    natural = parameters.rig.spring_length - pretension
+    return parameters.with_values("rig", spring_natural_length=natural)
 
 
 def _setting(table: str, key: str) -> Callable[[Parameters, float], Parameters]:

@@ -80,27 +80,23 @@ def test_an_effect_that_is_off_leaves_the_plain_model():
 
 def drawn(target: Target, *rows: list[float]) -> Draws:
     """A draw for each row: its figure, seed by seed."""
-    shown = np.full((len(rows), 6, 1), np.nan)
-    for place, row in enumerate(rows):
-        shown[place, : len(row), 0] = row
     none = np.zeros(len(rows))
-    return Draws(Candidate((), "", ()), target, none[:, None], none, shown)
+    return Draws(Candidate((), "", ()), target, none[:, None], none, np.array(rows)[:, :, None])
 
 
 def test_misfit_is_of_distance_and_of_scatter():
     target = Target(np.array([1.0]), np.array([0.1]))
     # met; a standard deviation off; right in the mean, at the price of a wide prediction
-    draws = drawn(target, [1.0] * 4, [1.1] * 4, [0.5, 1.5, 0.5, 1.5])
-    met, off, scattering = draws.misfit
+    draws = drawn(target, [1.1] * 4, [1.0] * 4, [0.5, 1.5, 0.5, 1.5])
+    off, met, scattering = draws.misfit
     assert (met, off) == pytest.approx((0.0, 1.0)) and scattering > 2.25
-    assert draws.ordered.misfit.tolist() == sorted(draws.misfit)
-    assert target.gap(draws.mean[1]) == pytest.approx(1.0)
-    assert replace(draws, target=target.without(0)).misfit == pytest.approx(np.zeros(3))
-    single = drawn(target, [1.1])  # one seed: the scatter of its kin
-    told = replace(single, kin=np.array([0.1])).misfit
-    assert told == pytest.approx(1 / 3 + np.log(3.0))
-    joined = draws + single
-    assert joined.seeds.tolist() == [4, 4, 4, 1] and len(joined.take(joined.seeds > 1)) == 3
+    assert draws.best == 1 and draws.gap == 0.0
+    assert target.gap(draws.mean[0]) == pytest.approx(1.0)
+    # a figure that is left out decides nothing: the first draw predicts it as well as any
+    assert draws.held_out_gap == pytest.approx(1.0)
+    # variance of Student's t of three degrees of freedom, and of the mean of four
+    assert scattering == pytest.approx(np.log(1.0 + 3.75 * (1.0 / 3.0) / 0.1**2))
+    assert (draws + draws).misfit == pytest.approx([off, met, scattering] * 2)
 
 
 def test_nothing_is_missing_where_nothing_is_and_the_same_seed_says_the_same():

@@ -1,7 +1,7 @@
 """The source study's own case: five printed figures, its scheme as printed, the whole catalogue.
 
 The search is the shipped one with fewer draws. What must come out does not hang on a seed: the
-search was tried with seeds 0 to 4 and with other readings of the standard deviations.
+search was tried with seeds 0 to 3.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 from cosim.gap.data import read_campaign
-from cosim.studies.reproduction.summary import draws as search
 from cosim.studies.reproduction.summary import find, find_summary_gap
 
 STUDY = Path(__file__).parents[3] / "cosim" / "gap" / "campaigns" / "study.toml"
@@ -24,12 +23,8 @@ pytestmark = pytest.mark.slow
 @pytest.fixture(scope="module")
 def answer():
     with pytest.MonkeyPatch.context() as patch:
-        for module, name, value in (
-            (find, "PLAIN_DRAWS", 8), (find, "PLAIN_CLOSELY", 2), (find, "RANGE_DRAWS", 8),
-            (find, "IN_THE_RUNNING", 1), (search, "FIRST", 8),
-            (search, "MORE", 32), (search, "CLOSELY", 4),
-        ):  # fmt: skip
-            patch.setattr(module, name, value)
+        for name, value in (("PLAIN_DRAWS", 8), ("IN_THE_RUNNING", 1), ("RANGE_DRAWS", 8)):
+            patch.setattr(find, name, value)
         yield find_summary_gap(read_campaign(STUDY), seed=0, jobs=2)
 
 

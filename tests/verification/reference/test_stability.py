@@ -6,8 +6,8 @@ import pytest
 from planar_model import Slider
 from stickslip import Initial, Parameters, simulate
 from stickslip.steady_motion import stability, with_pretension
+from stickslip.steady_motion.borders import pretension_borders
 from stickslip.steady_motion.live import live_run
-from stickslip.steady_motion.pretension import pretension_borders
 
 GRAVITY = 9.81
 

@@ -8,7 +8,7 @@ standard deviations: what is drawn and reported.
 
 The search for the numbers: evenly over what is expected, then about what was best. Neighbouring
 numbers may give quite different figures (the scheme is chaotic), so nothing is differentiated. All
-draws are kept, as a table, from which everything else is read.
+draws are kept, as a table, from which everything else is read. Each is run with the same seeds.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,11 +33,13 @@ Array = np.ndarray
 
 # which way the reporter's y axis points is not known, nor which way a symmetric rig swerves
 MIRRORED = ("mean_y",)
-SEEDS = 6  # most runs of a draw
+#: Runs of a draw; more than three, or the variance of Student's t has no end.
+SEEDS = 4
+#: Variance of the next realisation about a draw's mean, over that of its realisations: mean and
+#: scatter are both from a few seeds, so it is that of Student's t.
+WIDER = (1.0 + 1.0 / SEEDS) * (SEEDS - 1) / (SEEDS - 3)
 #: misfit by which a draw may be worse than the best and still lie in the 95 % interval (one number)
 WITHIN = 3.84
-# seeds from which a draw's own scatter is taken; below, that of its kin
-ENOUGH_SEEDS = 4
 
 
 class Observation(NamedTuple):
@@ -127,10 +130,7 @@ class Draws:
     """Numbers tried of a candidate, a row a draw, what came of them, and how far off they are.
 
     shares (d, p): the spans' numbers as shares of their ranges, NaN for one that a draw has not;
-    values (d,): mappings, settings included; shown (d, seeds, n): the observations' figures, NaN
-    where it was not run. kin (n,): scatter of a figure from seed to seed, for draws of too few
-    seeds to tell their own. From `close` on: of all that was tried of the candidate, some of it
-    with several seeds.
+    values (d,): mappings, settings included; shown (d, SEEDS, n): the observations' figures.
     """
 
     candidate: Candidate
@@ -138,99 +138,62 @@ class Draws:
     shares: Array
     values: Array
     shown: Array
-    kin: Array | float = 0.0
-
-    @classmethod
-    def of(cls, candidate: Candidate, shares: Array, target: Target) -> Draws:
-        """Draws (d, p) of a candidate that have not been run yet."""
-        values = np.array([candidate.values(row) for row in shares], dtype=object)
-        shown = np.full((len(values), SEEDS, len(target.sizes)), np.nan)
-        return cls(candidate, target, np.asarray(shares, float), values, shown)
 
     @property
     def effect(self) -> str:
         """What the candidate has beside what was found before."""
         return self.candidate.effects[-1]
 
-    def __len__(self) -> int:
-        return len(self.values)
-
-    def _rows(self, of: Callable[[str], Any]) -> Draws:
-        """With other rows: of each table, by its name."""
-        return replace(self, **{name: of(name) for name in ("shares", "values", "shown")})
-
     def __add__(self, other: Draws) -> Draws:
         """Both, of one candidate."""
-        return self._rows(lambda name: np.concatenate([getattr(self, name), getattr(other, name)]))
-
-    def take(self, rows: Array | slice) -> Draws:
-        """Some of them: numbers of rows, which of all, or (d,) whether."""
-        return self._rows(lambda name: getattr(self, name)[rows])
+        tables = ("shares", "values", "shown")
+        both: Any = {t: np.concatenate([getattr(self, t), getattr(other, t)]) for t in tables}
+        return replace(self, **both)
 
     def with_effect_off(self, candidate: Candidate) -> Draws:
         """The same as draws of a candidate with one effect more, which is off."""
-        more = np.full((len(self), len(candidate.spans) - self.shares.shape[1]), np.nan)
+        more = np.full((len(self.values), len(candidate.spans) - self.shares.shape[1]), np.nan)
         values = np.array([candidate.off | one for one in self.values], dtype=object)
         shares = np.hstack([self.shares, more])
         return replace(self, candidate=candidate, shares=shares, values=values)
 
-    @property
+    @cached_property
     def surprise(self) -> Array:
         """(d,) squared distance of known numbers from what is known."""
         return np.array([self.candidate.surprise(one) for one in self.values])
 
-    @property
-    def seeds(self) -> Array:
-        """(d,) how often each was run."""
-        return np.asarray(np.isfinite(self.shown[:, :, 0]).sum(axis=1))
-
-    @property
+    @cached_property
     def mean(self) -> Array:
         """(d, n) mean of each figure over the seeds."""
-        return np.asarray(np.nanmean(self.shown, axis=1))
-
-    @property
-    def scatter(self) -> Array:
-        """(d, n) standard deviation of each draw's figures from seed to seed."""
-        n = self.seeds[:, None]
-        squares = np.nansum((self.shown - self.mean[:, None]) ** 2, axis=1)
-        return np.where(n >= ENOUGH_SEEDS, np.sqrt(squares / np.maximum(n - 1, 1)), self.kin)
-
-    @property
-    def spread(self) -> Array:
-        """(d, n) variance of the next realisation about a draw's mean.
-
-        Mean and scatter are both from a few seeds: Student's t, whose variance counts here.
-        """
-        n = self.seeds[:, None]
-        wider = (1.0 + 1.0 / n) * (n - 1) / np.where(n > 3, n - 3, 1)
-        return np.where(n < ENOUGH_SEEDS, 2.0 * self.kin**2, self.scatter**2 * wider)
-
-    @property
-    def misfit(self) -> Array:
-        """(d,) -2 log likelihood, less that of a draw that meets every figure without scatter."""
-        return np.asarray(self.target.misfit(self.mean, self.spread) + self.surprise)
-
-    @property
-    def ordered(self) -> Draws:
-        """From the least misfit on."""
-        return self.take(np.argsort(self.misfit, kind="stable"))
-
-    @property
-    def with_own_scatter(self) -> Draws:
-        """With the typical scatter of those that tell it, its median, for those that do not."""
-        told = self.take(self.seeds >= ENOUGH_SEEDS)
-        return replace(self, kin=np.asarray(np.median(told.scatter, axis=0)))
+        return np.asarray(self.shown.mean(axis=1))
 
     @cached_property
-    def close(self) -> Draws:
-        """Draws that were run with all seeds, from the least misfit on."""
-        return self.take(self.seeds > 1).ordered
+    def scatter(self) -> Array:
+        """(d, n) standard deviation of each draw's figures from seed to seed."""
+        return np.asarray(self.shown.std(axis=1, ddof=1))
+
+    @cached_property
+    def misfit(self) -> Array:
+        """(d,) -2 log likelihood, less that of a draw that meets every figure without scatter."""
+        return self._misfit_to(self.target)
+
+    def _misfit_to(self, target: Target) -> Array:
+        return np.asarray(target.misfit(self.mean, WIDER * self.scatter**2) + self.surprise)
+
+    @cached_property
+    def best(self) -> int:
+        """The row of the least misfit."""
+        return int(np.argmin(self.misfit))
 
     @property
-    def best(self) -> Draws:
-        """The first of those, by itself."""
-        return self.close.take(slice(1))
+    def best_values(self) -> Mapping[str, float]:
+        """The numbers of that row."""
+        return dict(self.values[self.best])
+
+    def good(self, count: int) -> Array:
+        """(count, p) shares of the best draws that have all the numbers."""
+        own = np.flatnonzero(np.isfinite(self.shares).all(axis=1))
+        return np.asarray(self.shares[own[np.argsort(self.misfit[own], kind="stable")][:count]])
 
     @property
     def price(self) -> float:
@@ -240,21 +203,19 @@ class Draws:
     @property
     def bic(self) -> float:
         """Misfit of the best plus the price of the numbers that were added."""
-        return float(self.best.misfit[0]) + self.price
+        return float(self.misfit[self.best]) + self.price
 
     @property
     def gap(self) -> float:
         """Of the best, standard deviations."""
-        return float(self.target.gap(self.best.mean[0]))
+        return float(self.target.gap(self.mean[self.best]))
 
     @cached_property
     def held_out_gap(self) -> float:
         """Root mean square distance of the figures, each predicted by the fit to the others."""
-        found = []
-        for i in range(len(self.target.sizes)):
-            other = np.argmin(replace(self.close, target=self.target.without(i)).misfit)
-            found.append(self.target.distances(self.close.mean[other])[i])
-        return float(np.sqrt(np.mean(np.square(found))))
+        rows = range(len(self.target.sizes))
+        fits = [np.argmin(self._misfit_to(self.target.without(i))) for i in rows]
+        return float(self.target.gap(self.mean[fits, rows]))
 
     @cached_property
     def lack_of_fit(self) -> float:
@@ -262,35 +223,34 @@ class Draws:
 
         Of coefficients a known one brings its own observation.
         """
-        target = self.target
+        target, best = self.target, self.best
         free = sum(span.of_friction and span.prior is None for span in self.candidate.spans)
         freedom = len(target.sizes) - self.candidate.added - free
-        variance = target.sds**2 + self.best.spread
-        off = np.sum((self.best.mean - target.sizes) ** 2 / variance) + self.best.surprise[0]
+        variance = target.sds**2 + WIDER * self.scatter[best] ** 2
+        off = np.sum((self.mean[best] - target.sizes) ** 2 / variance) + self.surprise[best]
         return float(chi2.sf(off, max(freedom, 1)))
 
     def intervals(self) -> dict[str, tuple[float, float]]:
         """block.parameter -> range over the draws that are nearly as good as the best."""
-        values = self.values[self.misfit <= self.best.misfit[0] + WITHIN]
+        values = self.values[self.misfit <= self.misfit[self.best] + WITHIN]
         tried = {span.key: [one[span.key] for one in values] for span in self.candidate.spans}
         return {key: (min(numbers), max(numbers)) for key, numbers in tried.items()}
 
-    def fitted(self, draw: Draws | None = None) -> FittedSummary:
+    def fitted(self, row: int | None = None) -> FittedSummary:
         """A draw beside the observed figures, the best where none is given."""
-        draw = self.best if draw is None else draw
+        row = self.best if row is None else row
         return FittedSummary(
-            values=dict(draw.values[0]),
-            shown=draw.mean[0],
-            scatter=draw.scatter[0],
-            residuals=self.target.distances(draw.mean[0]),
-            gap=float(self.target.gap(draw.mean[0])),
+            values=dict(self.values[row]),
+            shown=self.mean[row],
+            scatter=self.scatter[row],
+            residuals=self.target.distances(self.mean[row]),
+            gap=float(self.target.gap(self.mean[row])),
             held_out_gap=self.held_out_gap,
             lack_of_fit=self.lack_of_fit,
         )
 
 
-FIRST, MORE = 12, 40  # draws of a model: to begin with, and where it is in the running
-CLOSELY = 6  # of them run with all seeds
+GOOD = 4  # of the best draws about which others are made
 DIFFERENCE, EDGE = 1e-3, 1e-3  # of shares: for a derivative, and from the end of a range
 MOST_STEPS = 25  # of the least squares
 OFF = 0.75  # share at which an effect of either sign is surely on
@@ -321,27 +281,18 @@ class Bench:
         return Target(*np.transpose([(one.size, one.sd) for one in self.seen]))
 
     def draw(self, candidate: Candidate, shares: Array) -> Draws:
-        """Draws (d, p) of a candidate, a seed each."""
-        return self.run(Draws.of(candidate, np.atleast_2d(shares), self.target))
-
-    def run(self, draws: Draws, seeds: int = 1) -> Draws:
-        """The draws with ``seeds`` more runs each."""
-        if not len(draws):
-            return draws
-        places = draws.seeds[:, None] + np.arange(seeds)
-        requests = [
-            (values, int(seed))
-            for values, row in zip(draws.values, self.seed + places, strict=True)
-            for seed in row
-        ]
+        """Draws (d, p) of a candidate, each with all seeds."""
+        shares = np.atleast_2d(shares)
+        values = np.array([candidate.values(row) for row in shares], dtype=object)
+        runs = product(values, range(self.seed, self.seed + SEEDS))
         with ThreadPoolExecutor(max_workers=self.jobs) as pool:
-            rows = list(pool.map(self._row, requests))
-        shown = draws.shown.copy()
-        shown[np.arange(len(draws))[:, None], places] = np.reshape(rows, (*places.shape, -1))
-        return replace(draws, shown=shown)
+            rows = list(pool.map(lambda run: self.shown(*run), runs))
+        shown = np.reshape(rows, (len(values), SEEDS, -1))
+        return Draws(candidate, self.target, shares, values, shown)
 
-    def _row(self, request: tuple[Values, int]) -> Array:
-        row = predict(self.campaign, self.seen, *request)
+    def shown(self, values: Values, seed: int) -> Array:
+        """(n,) figures of one run of the model."""
+        row = predict(self.campaign, self.seen, values, seed)
         self.step(1)
         return row
 
@@ -353,27 +304,27 @@ def even_shares(candidate: Candidate, count: int, seed: int) -> Array:
     return np.vstack([[0.5 if span.of_friction else OFF for span in candidate.spans], spread])
 
 
-def screening(
-    bench: Bench, candidate: Candidate, count: int, before: Draws | None = None, share: float = 0.5
-) -> Draws:
-    """Draws evenly over the ranges, one seed each.
+def screening(bench: Bench, candidate: Candidate, count: int, before: Draws, share: float) -> Draws:
+    """Draws evenly over the ranges.
 
-    before: the best draw of the model without the last effect; ``share`` of the draws stay close
-    to it in all but the new numbers, so that what it has reached is not lost.
+    before: of the model without the last effect; ``share`` of the draws stay close to the best of
+    these in all but the new numbers, so that what it has reached is not lost.
     """
     table = even_shares(candidate, count, bench.seed)
-    if before is not None:
-        reached = before.shares[0, np.isfinite(before.shares[0])]
-        stay, own = slice(round((1.0 - share) * len(table)), None), len(reached)
-        table[stay, :own] = _inside(reached + STEP * (table[stay, :own] - 0.5))
+    (reached,) = before.good(1)
+    stay, own = slice(round((1.0 - share) * len(table)), None), len(reached)
+    table[stay, :own] = _inside(reached + STEP * (table[stay, :own] - 0.5))
     return bench.draw(candidate, table)
 
 
-def near(bench: Bench, good: Draws, count: int) -> Draws:
-    """Draws about ``good`` ones, a seed each."""
+def near_rounds(bench: Bench, draws: Draws, count: int) -> Draws:
+    """The draws and, twice, ``count`` about the best of all until then."""
     rng = np.random.default_rng(bench.seed + 1)
-    centres = good.shares[np.arange(count) % len(good)]
-    return bench.draw(good.candidate, _inside(centres + STEP * rng.standard_normal(centres.shape)))
+    for _ in range(2):
+        centres = np.resize(draws.good(GOOD), (count, len(draws.candidate.spans)))
+        steps = STEP * rng.standard_normal(centres.shape)
+        draws += bench.draw(draws.candidate, _inside(centres + steps))
+    return draws
 
 
 def _inside(shares: Array) -> Array:
@@ -382,11 +333,12 @@ def _inside(shares: Array) -> Array:
 
 
 def polished(bench: Bench, candidate: Candidate, start: Array) -> Draws:
-    """The least squares from shares (p,) on, where the model is smooth; one seed."""
+    """The least squares from shares (p,) on, where the model is smooth; of one seed."""
 
     def residuals(shares: Array) -> Array:
-        one = bench.draw(candidate, shares)
-        return np.append(bench.target.distances(one.mean[0]), np.sqrt(one.surprise))
+        values = candidate.values(shares)
+        distances = bench.target.distances(bench.shown(values, bench.seed))
+        return np.append(distances, math.sqrt(candidate.surprise(values)))
 
     inside = np.clip(start, EDGE, 1.0 - EDGE)
     # counted and cut figures jump a little: the soft loss keeps a step from hanging on one of them
@@ -395,39 +347,3 @@ def polished(bench: Bench, candidate: Candidate, start: Array) -> Draws:
         diff_step=DIFFERENCE, max_nfev=MOST_STEPS,
     )  # fmt: skip
     return bench.draw(candidate, found.x)
-
-
-def with_all_seeds(bench: Bench, draws: Draws, count: int, seeds: int = SEEDS) -> Draws:
-    """The table with the best ``count`` draws run with ``seeds``."""
-    order = draws.ordered
-    again = (np.arange(len(order)) < count) & (order.seeds == 1)
-    return bench.run(order.take(again), seeds - 1) + order.take(~again)
-
-
-def refined(bench: Bench, draws: Draws, running: bool) -> Draws:
-    """The table after as much of a search as the model is worth."""
-    if bench.smooth:
-        draws += polished(bench, draws.candidate, draws.ordered.shares[0])
-    elif running:
-        return _searched(bench, draws)
-    return with_all_seeds(bench, draws, 2, ENOUGH_SEEDS)
-
-
-def _searched(bench: Bench, draws: Draws) -> Draws:
-    """Draws of a model in the running and more: evenly, about the best, and closely."""
-    draws += bench.draw(draws.candidate, even_shares(draws.candidate, MORE // 2, bench.seed + 2))
-    draws += near(bench, draws.ordered.take(slice(4)), MORE - MORE // 2)
-    # a second time with the model's own scatter, about the draws that hold for all seeds
-    draws = with_all_seeds(bench, draws, CLOSELY).with_own_scatter
-    close = draws.take(draws.seeds > 1).ordered
-    draws += near(bench, close.take(slice(2)), CLOSELY)
-    return with_all_seeds(bench, draws, CLOSELY)
-
-
-def widened(bench: Bench, draws: Draws, count: int) -> Draws:
-    """``draws`` and more for ranges, a seed each, about all that are nearly as good as the best."""
-    draws = draws.with_own_scatter
-    for _ in range(2):
-        order = draws.ordered
-        draws += near(bench, order.take(order.misfit <= order.misfit[0] + WITHIN), count // 2)
-    return draws

@@ -12,7 +12,7 @@ import numpy as np
 from ....gap.data import Campaign
 from ....gap.result import Ranked, Score, Where
 from . import draws as search
-from .draws import SEEDS, Array, Bench, Draws, FittedSummary, Observation, Target, observations
+from .draws import WIDER, Array, Bench, Draws, FittedSummary, Observation, Target, observations
 from .models import SAID, extensions, not_felt, plain_candidate
 
 # distance in standard deviations from which a figure is not met
@@ -104,9 +104,10 @@ class SummaryGap:
         return found
 
 
-PLAIN_DRAWS, PLAIN_CLOSELY = 32, 6
-ROBUST_DRAWS = 32
-RANGE_DRAWS = 32  # for the ranges of the numbers of the model that won
+PLAIN_DRAWS, FIRST = 24, 8  # evenly spread draws of the plain model, and of each with an effect
+MORE = 12  # and about the best, in a round, of one in the running
+ROBUST_DRAWS = 16
+RANGE_DRAWS = 16  # in a round for the ranges of the numbers of the model that won
 # share of the first draws that stay near the plain fit; least squares rather start from anywhere
 NEAR_PLAIN = {False: 0.5, True: 0.0}
 IN_THE_RUNNING = 2  # models that are searched to the end
@@ -117,7 +118,6 @@ REPAIRED = 0.01  # lack of fit below which an extended model has not repaired th
 APART = 6.0
 MOST_EFFECTS = 2
 BOOTSTRAPS = 999
-FIRST_ONE = slice(0, 1)
 
 
 @dataclass(frozen=True)
@@ -184,43 +184,38 @@ def find_summary_gap(
 def _plain(bench: Bench) -> Draws:
     """The model as it is; its first draw has friction as it is known."""
     candidate = plain_candidate(bench.campaign)
-    draws = search.screening(bench, candidate, PLAIN_DRAWS)
-    known, draws = bench.run(draws.take(FIRST_ONE), SEEDS - 1), draws.take(slice(1, None))
-    if bench.smooth:
-        for start in draws.ordered.shares[:2]:
-            draws += search.polished(bench, candidate, start)
-    draws = search.with_all_seeds(bench, draws, PLAIN_CLOSELY)
-    return replace(known + draws, kin=draws.with_own_scatter.kin)
+    draws = bench.draw(candidate, search.even_shares(candidate, PLAIN_DRAWS, bench.seed))
+    starts = draws.good(2) if bench.smooth else ()
+    return sum((search.polished(bench, candidate, start) for start in starts), draws)
 
 
 def _add(bench: Bench, before: Draws) -> Found:
     """Every effect on top of ``before``; those in the running searched to the end."""
     share = 1.0 if before.candidate.effects else NEAR_PLAIN[bench.smooth]
     screened = [
-        search.screening(bench, candidate, search.FIRST, before.best, share)
+        search.screening(bench, candidate, FIRST, before, share)
         for candidate in extensions(bench.campaign, before.candidate)
     ]
     screened.sort(key=lambda draws: draws.misfit.min())
-    tried = [
-        _nested(search.refined(bench, draws, place < IN_THE_RUNNING), before)
-        for place, draws in enumerate(screened)
-    ]
-    tried.sort(key=lambda trial: trial.bic)
-    tried[0] = _with_ranges(bench, tried[0], before)
+    running = len(screened) if bench.smooth else IN_THE_RUNNING
+    tried = [_refined(bench, draws) for draws in screened[:running]] + screened[running:]
+    tried = sorted((_nested(draws, before) for draws in tried), key=lambda trial: trial.bic)
+    # more about the good draws of the best: its intervals, and perhaps a better best
+    tried[0] = search.near_rounds(bench, tried[0], RANGE_DRAWS)
     tried.sort(key=lambda trial: trial.bic)
     return Found(before, tuple(tried), _p_of_the_best(before, tried, bench.seed))
 
 
+def _refined(bench: Bench, draws: Draws) -> Draws:
+    """The draws and what comes of the best of them: of least squares where the model is smooth."""
+    if bench.smooth:
+        return draws + search.polished(bench, draws.candidate, draws.good(1)[0])
+    return search.near_rounds(bench, draws, MORE)
+
+
 def _nested(draws: Draws, before: Draws) -> Draws:
     """The draws and more; an effect may also be off, so it is never worse than without."""
-    return draws.with_own_scatter + before.close.with_effect_off(draws.candidate)
-
-
-def _with_ranges(bench: Bench, trial: Draws, before: Draws) -> Draws:
-    """The trial with more draws about its good ones: its intervals, and perhaps a better best."""
-    own = trial.take(np.isfinite(trial.shares).all(axis=1))
-    draws = replace(search.widened(bench, own, RANGE_DRAWS), kin=trial.kin)
-    return _nested(search.with_all_seeds(bench, draws, SEEDS), before)
+    return draws + before.with_effect_off(draws.candidate)
 
 
 def _ranked(tried: Sequence[Draws], plain: Draws) -> tuple[Ranked, ...]:
@@ -236,7 +231,7 @@ def _ranked(tried: Sequence[Draws], plain: Draws) -> tuple[Ranked, ...]:
             evidence=0.5 * (plain.bic - trial.bic),
             probability=weights[effect] / sum(weights.values()),
             gap=Score(trial.gap, trial.held_out_gap),
-            parameters=trial.best.values[0],
+            parameters=trial.best_values,
             intervals=trial.intervals(),
         )
         for effect, trial in best.items()
@@ -251,7 +246,7 @@ def _p_of_the_best(plain: Draws, others: Sequence[Draws], seed: int) -> float:
     that choosing the best of many is part of what chance may do.
     """
     rng, target = np.random.default_rng(seed), plain.target
-    rows = plain.best.shown[0, : plain.best.seeds[0]]
+    rows = plain.shown[plain.best]
     tables = _table([plain]), _table(others)
 
     def gained(sizes: Array) -> float:
@@ -272,7 +267,7 @@ def _p_of_the_best(plain: Draws, others: Sequence[Draws], seed: int) -> float:
 def _table(trials: Sequence[Draws]) -> tuple[Array, Array, Array]:
     """Of all draws of all trials: means (d, n), variances of a realisation (d, n), prices (d,)."""
     means = np.concatenate([trial.mean for trial in trials])
-    variances = np.concatenate([trial.spread for trial in trials])
+    variances = np.concatenate([WIDER * trial.scatter**2 for trial in trials])
     return means, variances, np.concatenate([t.surprise + t.price for t in trials])
 
 
@@ -283,7 +278,7 @@ def _share_that_fits(bench: Bench, trial: Draws) -> float:
     """
     own = sum(span.of_friction for span in trial.candidate.spans)
     table = search.even_shares(trial.candidate, ROBUST_DRAWS, bench.seed + 3)
-    table[:, own:] = trial.best.shares[0, own:]
+    table[:, own:] = trial.good(1)[0, own:]
     gaps = bench.target.gap(bench.draw(trial.candidate, table).mean)
     return float(np.mean(gaps <= 2.0 * trial.gap))
 
@@ -293,9 +288,8 @@ def _with_free_friction(bench: Bench, plain: Draws) -> Draws | None:
     candidate = plain.candidate.free
     if candidate == plain.candidate:
         return None
-    draws = search.screening(bench, candidate, PLAIN_DRAWS)
-    draws += search.near(bench, draws.ordered.take(slice(3)), PLAIN_DRAWS // 2)
-    return search.refined(bench, draws, running=False).with_own_scatter
+    draws = bench.draw(candidate, search.even_shares(candidate, PLAIN_DRAWS // 2, bench.seed))
+    return _refined(bench, draws)
 
 
 def _answer(bench: Bench, plain: Draws, free: Draws | None, found: Sequence[Found]) -> SummaryGap:
@@ -304,7 +298,7 @@ def _answer(bench: Bench, plain: Draws, free: Draws | None, found: Sequence[Foun
     told = (found[0].p, BOOTSTRAPS, found[0].gained) if found else (1.0, 0, 0.0)
     remarks = [SAID["model"]] if bench.campaign.scheme == "study" else []
     remarks += [SAID["added"].format(one=one) for one in found]
-    values, intervals = plain.best.values[0], plain.intervals()
+    values, intervals = plain.best_values, plain.intervals()
     return SummaryGap(
         campaign=bench.campaign,
         observations=bench.seen,
@@ -313,7 +307,7 @@ def _answer(bench: Bench, plain: Draws, free: Draws | None, found: Sequence[Foun
         found=held[-1].best.candidate.effects if held else (),
         classes=classes,
         ranking=_ranked(found[0].tried, plain) if found else (),
-        printed=plain.fitted(plain.take(FIRST_ONE)),
+        printed=plain.fitted(0),
         plain=plain.fitted(),
         extended=held[-1].best.fitted() if held else None,
         chance=dict(zip(("p", "draws", "delta_bic"), told, strict=True)),

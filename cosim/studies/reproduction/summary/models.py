@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Self
 
 import numpy as np
-from scipy.stats import norm
+from scipy.stats import truncnorm
 from stickslip import Parameters, simulate
 from stickslip.effects import EFFECTS
 from stickslip.packaged import packaged_tables
@@ -156,10 +156,10 @@ class Span:
         """The number below which ``share`` (0 ... 1) of what is expected lies."""
         if self.prior:
             value, sd = self.prior
-            low, high = norm.cdf([(self.low - value) / sd, (self.high - value) / sd])
-            return float(value + sd * norm.ppf(low + share * (high - low)))
+            low, high = (self.low - value) / sd, (self.high - value) / sd
+            return float(truncnorm.ppf(share, low, high, value, sd))
         if self.log:
-            return math.exp(math.log(self.low) + share * math.log(self.high / self.low))
+            return float(self.low * (self.high / self.low) ** share)
         return self.low + share * (self.high - self.low)
 
 
