@@ -16,7 +16,7 @@ from stickslip.quantity import details
 from cosim.fmu.variables import bounds_of
 from cosim.report.page import unit_text
 from cosim.scenario import Scenario
-from cosim.scenario.validation import allowed, known_keys, unit_of
+from cosim.scenario.validation import allowed, known_keys, not_in, unit_of
 
 #: `controls.toml`: headings, and where a slider goes to, of keys whose declarations have no range.
 TABLES = packaged_tables(__package__, "controls.toml")
@@ -37,9 +37,9 @@ def groups(catalogue: Catalogue = CATALOGUE) -> list[dict[str, Any]]:
     """Groups of controls as plain data, in the order of the page.
 
     Each has id, title, sentence, enters ("" where it is no effect), open, and controls: key, name,
-    unit, spelled (the unit as it is read), kind, description, allowed (words), bounds (gt, ge, lt,
-    le), choices, slider (see `slider`; None of what is no single number) and switch, whether it
-    turns an effect on.
+    unit, spelled (the unit as it is read), kind, description, allowed and not_in (words), bounds
+    (gt, ge, lt, le), choices, slider (see `slider`; None of what is no single number) and switch,
+    whether it turns an effect on.
     """
     effects = {effect.id: effect for effect in catalogue.effects}
     titles = TABLES["headings"] | {name: name.replace("_", " ") for name in effects}
@@ -78,6 +78,7 @@ def control(key: str, field: FieldInfo) -> dict[str, Any]:
         "kind": kind,
         "description": field.description or "",
         "allowed": allowed(key, field),
+        "not_in": not_in(unit),
         "default": field.default,
         "bounds": bounds,
         "choices": list(map(str, get_args(field.annotation))) if kind == "choice" else [],

@@ -234,7 +234,8 @@ class Gap(Result):
     scatter : of friction from run to run: (value, low, high), parts of it; None: nothing to tell by
     rig : what the runs say of the rig's stated numbers
     rates : how often this design would answer what; None where it was not asked
-    next_experiment : of a class: the run that would separate it; else the one that tells most
+    next_experiment : of a class: the run that would separate it; None of a name, which these runs
+        tell from every other already
     doubts : of the data, a line each
     """
 

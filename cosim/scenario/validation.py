@@ -161,7 +161,9 @@ def unit_of(field: FieldInfo) -> str:
 
 def not_in(unit: str) -> str:
     """What is wrong with a number that is given in another unit, or in one at all."""
-    return "has no unit" if unit == "1" else f"not in a unit of {unit}"
+    others = WORDS["read"].get(unit)
+    such_as = f", such as {others}" if others else ""
+    return "has no unit" if unit == "1" else f"not in a unit of {unit}{such_as}"
 
 
 def allowed(key: str, field: FieldInfo) -> str:

@@ -60,11 +60,11 @@ class Controls {
     const { control } = row;
     const input = live.element("input", { type: "text", id, spellcheck: false, autocomplete: "off", autocapitalize: "off" });
     input.addEventListener("change", () => {
-      const { key, allowed } = control, value = valueOfText(control, input.value);
+      const { key, allowed, not_in } = control, value = valueOfText(control, input.value);
       if (value !== undefined) this.turned(key, value);
       else {
         const written = input.value.trim();
-        this.refused(key, `${key}: ${wrongIn(control.unit, written)} ("${written}"), allowed is ${allowed}`);
+        this.refused(key, `${key}: ${wrongIn(not_in, written)} ("${written}"), allowed is ${allowed}`);
       }
     });
     return input;

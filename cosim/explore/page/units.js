@@ -46,11 +46,9 @@ function symbol(text) {
 const quantityOf = (text) =>
   /^\s*([-+−]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$/.exec(text.replace(",", "."));
 
-/* What is wrong with a text that is no value in a unit. */
-function wrongIn(unit, text) {
-  if (!/^[\p{L}°%]/u.test(quantityOf(text)?.[2] ?? "")) return "not a number";
-  return unit === "1" || !unit ? "has no unit" : `not in a unit of ${unit}`;
-}
+/* What is wrong with a text that is no value; notIn: the words for one with another unit. */
+const wrongIn = (notIn, text) =>
+  /^[\p{L}°%]/u.test(quantityOf(text)?.[2] ?? "") ? notIn : "not a number";
 
 /* The number that a text stands for in a unit; NaN for what is none, or is of another kind. */
 function typedValue(text, unit) {
@@ -58,6 +56,7 @@ function typedValue(text, unit) {
   if (!found) return NaN;
   const number = Number(found[1].replace("−", "-")), given = found[2].replace(/^°C$/, "degC");
   if (given === "" || given === unit) return number;
+  if (unit === "degC" && given === "K") return Number((number - 273.15).toPrecision(15));
   const one = parsedUnit(given), other = parsedUnit(unit);
   if (!one || !other) return NaN;
   const names = [...Object.keys(one.dimension), ...Object.keys(other.dimension)];

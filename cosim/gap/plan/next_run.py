@@ -6,6 +6,7 @@ and both laws are asked for, as in `cosim.gap.plan.sizes`.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any
@@ -23,6 +24,7 @@ from cosim.gap.weak_form.constants import ALIKE
 from cosim.gap.weak_form.ladder import Ladder
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.unknowns import Unknown
+from cosim.report.page import number
 
 #: Beyond the campaign's own settings, where no limits are stated, by this factor.
 BEYOND = 3.0
@@ -30,6 +32,8 @@ BEYOND = 3.0
 DRAWS = 40
 #: Runs this near to the best, in separation, are as good: then the one that changes the rig least.
 NEARLY = 0.9
+#: ln of odds beyond which it does not matter by how much: a million to 1.
+LARGEST = math.log(1e6)
 #: Sizes among which a law's is looked for: a fifth apart.
 SIZES = 50
 SETTINGS = ("surface_speed", "mass", "stiffness")
@@ -56,17 +60,24 @@ class NextRun:
         """In a sentence."""
         tells, enough = "tells", ""
         if self.separation < ALIKE:
-            tells, enough = "hardly tells", f", where {ALIKE:g} would tell"
+            tells, enough = "hardly tells", f"; {_odds(ALIKE)} would tell"
         return (
             f"one more run with {self.mass:.4g} kg, springs of {self.stiffness:.4g} N/m and the "
             f"surface at {self.surface_speed:.3g} m/s for {self.duration:.3g} s {tells} "
-            f"{' from '.join(self.effects)}: a ln Bayes factor of {self.separation:.2g}, "
-            f"{self.separation_before:.2g} without it{enough}"
+            f"{' from '.join(self.effects)}: the odds for the true one are then "
+            f"{_odds(self.separation)}, {_odds(self.separation_before)} without that run{enough}"
         )
 
     def as_data(self) -> dict[str, Any]:
         """As `plan.json` has it, and `Gap.next_experiment`."""
         return {**asdict(self), "text": self.text}
+
+
+def _odds(separation: float) -> str:
+    """`20 to 1`, of the ln of a Bayes factor."""
+    if separation >= LARGEST:
+        return "more than a million to 1"
+    return f"{number(math.exp(separation), 2)} to 1"
 
 
 def next_experiment(
@@ -175,8 +186,8 @@ def _separation(system: System, laws: Sequence[tuple[Law, float]], scatter: floa
     if len(here) < len(laws):
         return 0.0
     design, nearest = Design(system, asked, here, scatter, draws=DRAWS), np.inf
-    for number, (law, value) in enumerate(laws):
-        offers = design.offers(number, abs(value - law.neutral))
+    for index, (law, value) in enumerate(laws):
+        offers = design.offers(index, abs(value - law.neutral))
         place = offers.names.index(law.argument)
         apart = offers.evidence[place] - np.delete(offers.evidence, place, axis=0)
         nearest = min(nearest, float(np.median(apart, axis=1).min()))

@@ -42,7 +42,7 @@ TICKS = (-1000, -100, -10, -2, 0, 2, 10, 100, 1000)
 
 @picture("ladder", (
     "Gap after each step: root mean square of model minus data in units of the tracker's noise "
-    "(black line: 1, noise alone). Each step adds one finding to the one before."
+    "(thin line: 1, noise alone). Each step adds one finding to the one before."
 ))  # fmt: skip
 def draw_ladder(gap: Gap) -> Figure:
     """Treads of fitted and of held-out runs."""

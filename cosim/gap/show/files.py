@@ -91,7 +91,7 @@ def _page(gap: Gap, pictures: Sequence[Picture], corrected: Sequence[Path]) -> s
     return render(
         "gap.html.j2", "cosim.gap.show", gap=gap, text=text, digits=digits,
         with_digits=with_digits, scatter_text=scatter_text, remarks=gap.campaign.remarks,
-        reproduction=reproduction_line(gap),
+        reproduction=reproduction_line(gap), model_run=shown_run(gap).name,
         corrected=corrected, quantities=quantities, runs=shown_runs(gap),
         rig=rig_rows(gap), untold=sum(not _is_told(one) for one in gap.rig),
         setups={gap.campaign.setup_of(run) for run in shown_runs(gap)},

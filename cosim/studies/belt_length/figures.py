@@ -239,7 +239,7 @@ def draw_map(drift: DriftMap, case: Case, limit: float) -> Figure:
     ax.set_ylim(drift.speeds[0], drift.speeds[-1])
     film = "of still air" if case.h is None else f"{case.h:g} W/(m² K)"
     said = f"friction {case.force:.2f} N, h {film}, {case.protocol.in_words()}"
-    ax.set_title(f"{said}\nwhite: {limit:g} K; dashed: one loop in all")
+    ax.set_title(f"{said}\nsolid: {limit:g} K; dashed: one loop in all")
     ax.set(xlabel="length of the belt [m]", ylabel="speed [m/s]")
     logarithmic_x(ax)
     logarithmic_y(ax)

@@ -66,7 +66,6 @@ def answer(folder):
         rig=(RigNumber("surface speed of run02", "m/s", 0.12, 0.0012, 0.1231, 0.0003),),
         rates=Rates(50, {"velocity_weakening": {"velocity_weakening": 47, "none": 3},
                          "film_drag": {"film_drag": 50}}),
-        next_experiment={"text": "one more run with 0.87 kg at 0.4 m/s"},
         doubts=(Doubt("sampling", "run01 is sampled only 60 times a cycle", ("run01",)),),
     )  # fmt: skip
 
@@ -101,7 +100,7 @@ def other(gap, verdict):
     members = ("velocity_weakening", "film_drag")
     asked = {"text": "0.87 kg at 0.4 m/s for 20 s: velocity_weakening and film_drag would differ"}
     bare = dict(effects=(), ladder=(first,), extended=gap.plain, laws=(), exponents=(),
-                rates=None, next_experiment=None)  # fmt: skip
+                rates=None)  # fmt: skip
     changes = {
         "named": {},
         "none": bare | dict(sentence="Nothing is missing."),

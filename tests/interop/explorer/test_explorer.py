@@ -269,7 +269,7 @@ def test_by_keyboard_alone(page):
     field.send_keys(Keys.CONTROL, "a")
     field.send_keys("12 kg", Keys.ENTER)
     assert page.text("fault").startswith(
-        'surface.speed: not in a unit of m/s ("12 kg"), allowed is a number'
+        'surface.speed: not in a unit of m/s, such as mm/s or cm/s ("12 kg"), allowed is a number'
     )
     field.send_keys(Keys.TAB)
     driver.switch_to.active_element.send_keys(Keys.ENTER)  # back to where it began
@@ -297,7 +297,8 @@ TYPED = [
     ("friction.mu_s", "28 %", 0.28),
     ("initial.phi", "180 deg", 3.14159265358979),  # to the fifteen digits that a unit leaves
     ("ambient.temperature_degC", "-5 °C", -5),
-    ("ambient.temperature_degC", "260 K", None),  # no difference of temperatures is asked for
+    ("ambient.temperature_degC", "260 K", -13.15),
+    ("ambient.temperature_degC", "260 W", None),
     ("film_drag.coefficient", "1 N.s/mm", 1000),
     ("asperity_melting.effusivity", "2 kW.s0.5/(m2.K)", 2000),
     ("surface_scatter.seed", "3.5", None),
@@ -355,12 +356,14 @@ def test_it_is_one_small_file(explorer_file):
 
 @pytest.mark.parametrize("width", [1400, PHONE])
 def test_no_serious_barrier(page, width):
-    """axe-core, with all folds open; and on a phone nothing sticks out."""
+    """axe-core, with all folds open; on a phone nothing sticks out, and the numbers come first."""
     browser = Browser(page.driver)
     browser.resize(width)
     try:
         page.open()
         assert browser.overhang() <= 0
+        below = "return document.querySelector(arguments[0]).getBoundingClientRect().bottom"
+        assert width > PHONE or page.tell(below, "#ledger") < page.tell(below, "#preset")
         page.tell("document.querySelectorAll('details').forEach((each) => (each.open = true))")
         assert browser.barriers() == []
     finally:

@@ -326,7 +326,8 @@ def test_nothing_else_is_missing_of_what_all_is_explained(share, said):
 def test_a_run_that_hardly_tells_is_said_to(separation, hardly):
     text = NextRun(0.1, 1.0, 20.0, 10.0, ("run_in", "film_drag"), separation, 0.0).text
     assert ("hardly tells run_in from film_drag" in text) is hardly
-    assert text.endswith("0 without it" + ", where 3 would tell" * hardly)
+    odds = "18 to 1" if hardly else "22 to 1"
+    assert text.endswith(f"{odds}, 1 to 1 without that run" + "; 20 to 1 would tell" * hardly)
 
 
 def test_data_in_doubt_are_said_to_be_the_reason():

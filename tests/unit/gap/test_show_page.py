@@ -34,6 +34,8 @@ def test_every_answer_has_a_page(gap, verdict, tmp_path):
     noise = "as large as the tracker's noise" in text
     assert noise == (max(gap.after.fit, gap.after.held_out or 0.0) <= 1.1)
     assert ("no run was held out" in text) == (gap.after.held_out is None)
+    assert ("Run that would separate them" in text) == (gap.next_experiment is not None)
+    assert "model.toml is the model of run0" in text
 
 
 def test_closing_lines(gap):

@@ -1,11 +1,15 @@
 """Grams and millimetres where a scenario has SI units: one line, and no rig that there is."""
 
+import re
+
 import pytest
 from stickslip import Parameters
+from stickslip.units import in_unit
 
 from cosim.cli import main
 from cosim.scenario import ScenarioError, packaged_scenarios, read_scenario
 from cosim.scenario.units import doubted
+from cosim.scenario.validation import WORDS, not_in
 
 
 def said(**numbers):
@@ -69,9 +73,16 @@ def test_a_number_may_have_its_unit(key, text, value):
 
 @pytest.mark.parametrize("text", ["870 mm", "870", "heavy", "870 g g", "1 g/", "0.87 furlong"])
 def test_a_unit_of_another_kind_is_refused(text):
-    wrong = "a number" if text in ("870", "heavy") else "in a unit of kg"
+    wrong = "a number" if text in ("870", "heavy") else "in a unit of kg, such as g or mg"
     with pytest.raises(ScenarioError, match=rf"rig\.mass: not {wrong} .*greater than 0 kg"):
         read_scenario("reference", {"rig.mass": text})
+
+
+@pytest.mark.parametrize("unit, others", WORDS["read"].items())
+def test_units_that_a_refusal_names_are_read(unit, others):
+    for other in re.split(", | or ", others):
+        assert in_unit(f"300 {other}", unit) is not None
+        assert other in not_in(unit)
 
 
 def test_a_plain_number_has_no_unit():
