@@ -99,31 +99,32 @@ class RunFit:
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """By the start states, of these by the numbers, and of the rest by the numbers."""
         values = self.values(scaled)
-        columns = self.starts.derivatives(values, at, self.model.packed(values))
-        slopes = self._slopes(scaled, at)
+        p = self.model.packed(values)
+        columns = self.starts.derivatives(values, at, p)
+        slopes = self._slopes(scaled, at, self.model.taken_from(values, p))
         move = self.starts.coordinates(columns, slopes)
         steps = self.starts.steps[self.starts.axes(values)]
         derivatives = np.zeros((at.residuals.size, len(self.unknowns)))
         derivatives[:, self.felt] = self.starts.normal_part(columns, slopes)
         return columns, -move * steps[None, :, None], derivatives
 
-    def _slopes(self, scaled: np.ndarray, at: Started) -> np.ndarray:
-        """(size, felt) by the numbers, at fixed start states.
+    def _slopes(self, scaled: np.ndarray, at: Started, taken: np.ndarray) -> np.ndarray:
+        """(size, felt) by the numbers, at fixed start states; taken : `RunModel.taken_from` here.
 
         Where numbers move the kernel's parameters in the same directions, as mu_s and mu_k do both
         coefficients together, so many are simulated as there are directions.
         """
-        here, moved, steps = self.values(scaled), [], []
+        moved, steps = [], []
         for i in self.felt:
             number, there = self.unknowns[i].number, scaled.copy()
             steps.append(STEP if number.value(scaled[i] + STEP) <= number.high else -STEP)
             there[i] += steps[-1]
             moved.append(self.values(there))
-        packed = list(map(self.model.packed, (here, *moved)))
-        taken = list(map(self.model.taken_from, (here, *moved), packed))
-        basis, parts = _directions((np.array(taken[1:]) - taken[0]).T / steps)
+        packed = list(map(self.model.packed, moved))
+        changes = np.array(list(map(self.model.taken_from, moved, packed))) - taken
+        basis, parts = _directions(changes.T / steps)
         simulated = [
-            (self.model.residuals(moved[n], at.states, packed[n + 1]) - at.residuals) / steps[n]
+            (self.model.residuals(moved[n], at.states, packed[n]) - at.residuals) / steps[n]
             for n in basis
         ]
         slopes = np.asarray(np.column_stack([at.residuals[:, None][:, :0], *simulated]) @ parts)
