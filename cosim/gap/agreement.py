@@ -58,9 +58,9 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
 
 def agreement_on(fitting: Fitting, named: Named) -> Agreed | Sequence[Rejected]:
     """Findings that the simulated runs ask for, too, or those that they do without."""
+    named = _with_likeliest_filter(fitting, named)
     if doubts := unsure(fitting, named):
         return doubts
-    named = _with_likeliest_filter(fitting, named)
     parts = [fitting.part(named, finding) for finding in named.findings]
     if _is_beyond_all(fitting, named):
         return Agreed(named, parts, fitting.fitted(named, parts))
@@ -94,23 +94,31 @@ def agreement_on(fitting: Fitting, named: Named) -> Agreed | Sequence[Rejected]:
 def _with_likeliest_filter(fitting: Fitting, named: Named) -> Named:
     """With a tracker's filter of the kind, and in the runs, that simulated runs prefer.
 
-    Rows are told of it by corners alone: these hardly tell kinds from one another, and nothing
-    of runs whose sticks are shorter than the filter.
+    Rows are told of it by corners alone: these hardly tell kinds from one another, nothing of runs
+    whose sticks are shorter than the filter, and a long one spoils the rows of other findings: the
+    runs are nearer to the model with these or with it.
     """
-    if [finding.name for finding in named.findings] != [SMOOTHING]:
+    filtered = named.filtered or named
+    if [finding.name for finding in filtered.findings] != [SMOOTHING]:
         return named
-    (finding,), rows = named.findings, named.ladder.system.rung()
-    offers = likeliest_filters(rows, named.unknowns[SMOOTHING])
-    forms = [named.with_findings(replace(finding, gain=gain, added=(added,)))
+    (finding,), rows = filtered.findings, filtered.ladder.system.rung()
+    offers = likeliest_filters(rows, filtered.unknowns[SMOOTHING])
+    forms = [_with_filter(filtered, replace(finding, gain=gain, added=(added,)))
              for gain, added in offers if gain > finding.gain - judge.TURNED]  # fmt: skip
+    if named.filtered:
+        forms.append(named)
 
     def missed(form: Named) -> float:
-        parts = [fitting.part(form, form.findings[0])]
+        parts = [fitting.part(form, each) for each in form.findings]
         return fitting.fitted(form, parts, is_shown=False, scatters=False).unscattered.worst
 
-    chosen = min(forms, key=missed)
-    rung = named.ladder.system.rung(chosen.findings[0].added)
-    return replace(chosen, ladder=replace(named.ladder, findings=chosen.findings, rung=rung))
+    return min(forms, key=missed)
+
+
+def _with_filter(named: Named, finding: Finding) -> Named:
+    rung = named.ladder.system.rung(finding.added)
+    ladder = replace(named.ladder, findings=(finding,), rung=rung)
+    return replace(named.with_findings(finding), ladder=ladder)
 
 
 def _is_beyond_all(fitting: Fitting, named: Named) -> bool:

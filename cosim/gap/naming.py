@@ -9,7 +9,7 @@ from cosim.gap.data import Campaign
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.arguments import Arguments
 from cosim.gap.weak_form.camera_faults import SMOOTHING, camera_faults, filters
-from cosim.gap.weak_form.constants import MOST_FINDINGS, UNDECIDED
+from cosim.gap.weak_form.constants import MOST_FINDINGS
 from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Finding, Ladder, Search
 from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
@@ -37,6 +37,7 @@ class Named:
 
     ladder : of all runs' rows; findings : what moves the block across first, then the ladder's;
     system, rung : rows of the fitted runs, with all findings; unknowns : that were asked
+    filtered : the same of a tracker's filter in place of the findings, where corners ask for it
     """
 
     ladder: Ladder
@@ -44,6 +45,7 @@ class Named:
     system: System
     rung: Rows
     unknowns: Mapping[str, Sequence[Unknown]]
+    filtered: Named | None = None
 
     def with_findings(self, *findings: Finding) -> Named:
         """The same rows with these findings in place of its own."""
@@ -87,14 +89,22 @@ class Naming:
         waves = [wave for wave in periodic.kinds(self.system.level.kinetic)
                  if wave.name not in without]  # fmt: skip
         ladder = Search(self.system, unknowns, waves, self.arguments.near, without).climb(most)
-        rows = self.rows
+        filtered = None
         if most and not (self.planar.answer or SMOOTHING in without):
-            rows, ladder, unknowns = self._at_corners(ladder, unknowns)
+            filtered = self._at_corners(ladder, unknowns)
+        if filtered and not ladder.findings:
+            return filtered
+        return self._named(self.rows, ladder, unknowns, filtered)
+
+    def _named(
+        self, rows: Sequence[RunRows], ladder: Ladder, unknowns: Unknowns,
+        filtered: Named | None = None,
+    ) -> Named:  # fmt: skip
         self._follow_surface(ladder)
         fitted = System(self.campaign, rows)
         added = [one for finding in ladder.findings for one in finding.added]
         findings = (*self._across(), *ladder.findings)
-        return Named(ladder, findings, fitted, fitted.rung(added), unknowns)
+        return Named(ladder, findings, fitted, fitted.rung(added), unknowns, filtered)
 
     def _follow_surface(self, ladder: Ladder) -> None:
         """Give a ripple the phases that slips show, in runs whose sticks show none."""
@@ -106,28 +116,22 @@ class Naming:
                     here = best_phase(self.campaign, run, wave, sizes)
                     wave.phases[run.track.run.name] = here.phases[run.track.run.name]
 
-    def _at_corners(
-        self, ladder: Ladder, unknowns: Unknowns
-    ) -> tuple[Sequence[RunRows], Ladder, Unknowns]:
-        """Whether a tracker smooths: where nothing else is missing, or where that explains more.
+    def _at_corners(self, ladder: Ladder, unknowns: Unknowns) -> Named | None:
+        """A tracker's filter alone, where rows of corners ask for it.
 
-        A filter shows where break-aways and re-sticks are rounded, as what any other finding leaves
-        there would be: of its rows it then takes more than that does of its own, and no less than
-        any by so much that the rows decide.
+        It shows where break-aways and re-sticks are rounded, as what any other finding leaves there
+        would be: of its rows it then takes more than that does of its own.
         """
         cornered = [with_corners(run) for run in self.rows]
         system = System(self.campaign, cornered, every=True)
         smoothing = {SMOOTHING: filters(system.rung())}
-        if smoothing[SMOOTHING]:
-            found = Search(system, smoothing, ()).climb()
-            gain = found.findings[0].gain if found.findings else 0.0
-            if gain > max((other.gain for other in ladder.findings), default=0.0):
-                rivals = unknowns if ladder.findings else {}
-                offers = Search(system, {**rivals, **smoothing}, ()).offers(system.rung())
-                most = max(evidence for evidence, _ in offers.values())
-                if offers[SMOOTHING][0] > most - UNDECIDED:  # simulated runs will tell
-                    return cornered, found, {**unknowns, **smoothing}
-        return self.rows, ladder, unknowns
+        if not smoothing[SMOOTHING]:
+            return None
+        found = Search(system, smoothing, ()).climb()
+        gain = found.findings[0].gain if found.findings else 0.0
+        if gain <= max((other.gain for other in ladder.findings), default=0.0):
+            return None
+        return self._named(cornered, found, {**unknowns, **smoothing})
 
     def _across(self) -> Iterator[Finding]:
         """What moves the block across, as a finding."""

@@ -24,6 +24,9 @@ STEP = 1e-3
 FRICTION_STEP = 1e-5
 #: Part of the normal matrix's diagonal that is added, so that what the motion hardly feels stays.
 LEVEL = 1e-6
+#: Standard deviations that what the tracker does not have may be off by: with a model that is lost
+#: a step would turn the block round, to where no step leads back from.
+FURTHEST = 5.0
 #: A window's step is taken whole, or these parts of it, whichever first lowers the misfit.
 SHORTER = (1.0, 0.2)
 #: Rounds of Gauss-Newton, and the relative gain below which they end.
@@ -108,11 +111,13 @@ class StartStates:
         self, values: Mapping[str, float], at: Started, columns: np.ndarray, p: np.ndarray
     ) -> Started:
         """One Gauss-Newton step with these derivatives; of no window to a larger misfit."""
-        axes = self.axes(values)
+        axes, unseen = self.axes(values), self.model.unseen
+        most = FURTHEST * self.model.unseen_sd
         move = self.coordinates(columns, at.residuals[:, None])[:, :, 0]
         for part in SHORTER:
             states = at.states.copy()
             states[:, axes] -= part * move * self.steps[axes]
+            states[unseen] = np.clip(states[unseen], -most, most)
             tried = Started(states, self.model.residuals(values, states, p))
             worse = self.squares(tried) > self.squares(at)
             at, move = self.better(at, tried), move * worse[:, None]

@@ -15,7 +15,8 @@ from cosim.gap.laws import LawFit
 from cosim.gap.naming import Named
 from cosim.gap.result import Doubt, Rejected, Score
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.ladder import Finding
+from cosim.gap.weak_form.camera_faults import SMOOTHING
+from cosim.gap.weak_form.ladder import Finding, Ladder
 from cosim.gap.weak_form.unknowns import Unknown
 from cosim.gap.windows.run_model import LOADING
 
@@ -576,3 +577,27 @@ class Campaign:
     """One without runs."""
 
     runs: tuple = ()
+
+
+@pytest.mark.parametrize(("with_it", "with_them"), [(1.3, 1.4), (1.4, 1.3)])
+def test_simulated_runs_choose_between_a_long_filter_and_what_rows_find(
+    monkeypatch, with_it, with_them
+):
+    """A filter reaches into slips, where rows then find more of a clock than of it."""
+    missed = {SMOOTHING: with_it, "measurement.clock": with_them}
+    monkeypatch.setattr(agreement, "likeliest_filters", lambda rows, variants: [(9.0, "in all")])
+    system = SimpleNamespace(rung=lambda added=(): None)
+
+    def named(found, filtered=None):
+        ladder = Ladder(system, (found,), None, {}, {})
+        return Named(ladder, (found,), system, None, {SMOOTHING: []}, filtered)
+
+    runs = SimpleNamespace(
+        part=lambda form, found: found.name,
+        fitted=lambda form, parts, **as_asked: SimpleNamespace(
+            unscattered=Score(max(missed[name] for name in parts), None)
+        ),
+    )
+    found = named(finding("measurement.clock", 10.0), named(finding(SMOOTHING, 10.0)))
+    (chosen,) = agreement._with_likeliest_filter(runs, found).findings
+    assert chosen.name == min(missed, key=missed.get)

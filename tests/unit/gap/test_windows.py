@@ -26,7 +26,7 @@ from cosim.gap.windows.fit import _of_held_out
 from cosim.gap.windows.fitted import Leeway
 from cosim.gap.windows.problem import Point, Problem
 from cosim.gap.windows.run_model import UNSEEN, RunModel
-from cosim.gap.windows.start_states import StartStates
+from cosim.gap.windows.start_states import FURTHEST, StartStates
 from cosim.gap.windows.windows import cycle
 
 MU_S, MU_K = 0.3, 0.2
@@ -292,6 +292,18 @@ def test_what_the_tracker_does_not_have_has_a_prior(tmp_path):
     priors = model.residuals({}, states)[-2 * (len(states) - 1) :].reshape(-1, 2)
     assert priors == pytest.approx(np.tile([1.0, 2.0 / run.natural_frequency], (len(priors), 1)))
     assert (model.owner[-priors.size :].reshape(-1, 2).T == np.arange(1, len(states))).all()
+
+
+def test_a_lost_model_does_not_turn_a_block_round_that_is_not_seen_to_turn(tmp_path):
+    """Else its windows stay where no step leads back from, and spoil a model that is none."""
+    campaign = measured(tmp_path, SPEEDS[:2], planar=True, spring_misalignment={"angle_deg": 2.0})
+    model = RunModel(campaign, campaign.runs[0], windows_of(campaign.runs[0], planar=True))
+    starts, values = StartStates(model), {"friction.mu_s": 2.0 * MU_S, "friction.mu_k": 0.5 * MU_K}
+    at = starts.started(values, starts.read_off(values), model.packed(values))
+    at.states[1:, 2] = 0.9 * FURTHEST * UNSEEN["phi"]
+    found = starts.settled(values, at, model.packed(values))
+    assert starts.gain(at, found) > 0.0
+    assert (abs(found.states[model.unseen]) <= FURTHEST * model.unseen_sd).all()
 
 
 def test_where_friction_holds_a_block_across_only_its_place_is_free_in_a_stick(tmp_path):
