@@ -47,13 +47,23 @@ def confirmed_findings(campaign: Campaign, fitting: Fitting) -> Agreed:
     fitting.step()
     rejected: list[Rejected] = []
     rounds = iter(judge.findings_by_rounds())
-    while True:
-        most = 0 if fitting.is_too_long else next(rounds, 0)
+
+    def asked(most: int) -> tuple[Agreed | None, bool]:
+        """What both agree on; or None, and whether no finding along x is left."""
         named = naming.named([one.effect for one in rejected], most)
-        agreed = agreement_on(fitting, named)
-        if isinstance(agreed, Agreed):
+        found = agreement_on(fitting, named)
+        if isinstance(found, Agreed):
+            return found, False
+        rejected.extend(found)
+        return None, len(found) == sum(bool(each.added) for each in named.findings)
+
+    while True:
+        agreed, none_is_left = asked(0 if fitting.is_too_long else next(rounds, 0))
+        if none_is_left:  # simulated runs choose from what the rows hint at
+            hinted, _ = asked(0)
+            agreed = hinted if hinted and hinted.parts else None
+        if agreed:
             return replace(agreed, rejected=tuple(rejected), is_cut=fitting.is_too_long)
-        rejected += agreed
 
 
 def agreement_on(fitting: Fitting, named: Named) -> Agreed | Sequence[Rejected]:

@@ -115,7 +115,22 @@ def test_the_true_one_is_found_behind_a_pretended_one(monkeypatch):
     gained = {"spring_hardening": -906.0, "velocity_weakening": 140.0}
     rejected = (Rejected("spring_hardening", 205.0, -906.0),)
     assert agreed(monkeypatch, rows, gained) == (["velocity_weakening"], rejected)
-    assert rows.asked == [(), ("spring_hardening",)]
+    assert rows.asked == [(), *[("spring_hardening",)] * 2]
+
+
+@pytest.mark.parametrize(
+    ("hinted", "gained", "named"),
+    [(6.1, 54.0, "clock"), (5.9, 54.0, "scale"), (6.1, 52.0, "scale")],
+)
+def test_behind_a_pretended_one_simulated_runs_choose_from_what_rows_hint_at(
+    monkeypatch, hinted, gained, named
+):
+    """They are asked by e^50, and e^3 for a fault, before rows are asked again."""
+    names = ["static_strengthening", "measurement.scale", "measurement.clock"]
+    *findings, hint = (finding(name, 40.0) for name in names)
+    rows = Rows(*findings, offers=[replace(hint, gain=0.0)], hinted=hinted)
+    found, _ = agreed(monkeypatch, rows, dict(zip(names, (0.0, 40.0, gained), strict=True)))
+    assert found == [f"measurement.{named}"]
 
 
 FIRST = {"run_in": 2.0 * SURE}
