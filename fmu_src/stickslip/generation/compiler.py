@@ -19,11 +19,13 @@ from .platforms import Platform, this_machine
 LOG = logging.getLogger(__name__)
 
 # With a * b + c contracted into one rounding, the motion would differ from machine to machine.
+# Nobody asks a root or a power for errno: without it they are as exact, and a twentieth faster.
 OPTIONS = (
     "-std=c99",
     "-Werror=implicit-function-declaration",
     "-O2",
     "-ffp-contract=off",
+    "-fno-math-errno",
     "-fvisibility=hidden",
     "-s",
 )
