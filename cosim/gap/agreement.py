@@ -11,7 +11,14 @@ from cosim.gap.extended import Part, rounding_of
 from cosim.gap.fitting import Fitting
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
-from cosim.gap.rejection import lost, outdone, rejected, unpromising, unsure
+from cosim.gap.rejection import (
+    lost,
+    outdone,
+    plainly_needed,
+    rejected,
+    unpromising,
+    unsure,
+)
 from cosim.gap.result import Rejected, Score
 from cosim.gap.rivals import overruled, rivals_of, told_apart
 from cosim.gap.weak_form.camera_faults import SMOOTHING, likeliest_filters
@@ -77,6 +84,7 @@ def agreement_on(fitting: Fitting, named: Named) -> Agreed | Sequence[Rejected]:
     most = max((part.finding.gain for part in parts), default=0.0)
     faint = {part.finding.name for part in parts
              if judge.may_be_spurious(part.finding, part.finding.gain == most)}  # fmt: skip
+    faint -= plainly_needed(fitting, parts, named, faint)
     if doubts := unpromising(fitting, parts, named, faint) or outdone(fitting, parts, named, faint):
         return doubts
     if doubted := lost(fitting, parts, named, faint) or rejected(fitting, parts, named, faint):

@@ -55,9 +55,12 @@ class Fitting:
             models.let_scatter()
         return models
 
-    def without(self, part: Part, parts: Sequence[Part], named: Named) -> Models:
+    def without(
+        self, part: Part, parts: Sequence[Part], named: Named, scatters: bool = True
+    ) -> Models:
         """Models of the other findings."""
-        return self.fitted(named, [other for other in parts if other is not part], is_shown=False)
+        others = [other for other in parts if other is not part]
+        return self.fitted(named, others, is_shown=False, scatters=scatters)
 
     def gained(self, part: Part, without: Models, named: Named) -> float:
         """ln of how much more probable simulated runs are with a finding.

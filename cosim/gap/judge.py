@@ -29,8 +29,9 @@
     probable with it, and e^3 times without what a scatter may be worth or e^50 with it, e^30 by
     another of its laws, or, below e^500 (e^12: a trend from run to run beside a greater one), it
     takes neither all nor half of what they miss without it, at last or before friction may
-    scatter, or a greater one explains them before that. Where none is left, the runs choose from
-    what rows ask for less, as beside a finding. So for four rounds; then rows are asked for one
+    scatter, or a greater one explains them before that; but for trends, none goes by itself that
+    leaves runs at 1.3 at most where they are beyond 2 without it, friction repeating itself. Where
+    none is left, the runs choose from what rows ask for less, as beside a finding. So for four rounds; then rows are asked for one
     finding alone, and then for none; after 150 million simulated samples at once. Beside
     fewer than two findings, and no fault of the camera, what rows ask for by e^6, or derivatives
     of the simulated runs by e^25 where these are left at 1.1 at most, and static friction over the
@@ -102,6 +103,8 @@ LONGEST = 1.5e8
 #: Scatter of friction from run to run, the least that is probable in what is stated of it, beyond
 #: which it stands for something that is missing.
 STRAINED = 2.0
+#: Gap beyond which what is missing is no matter of a contact, or of friction that scatters.
+PLAIN = 2.0
 #: Part of the misfit of an unscattered contact that may be left where a finding is needed.
 TAKEN = 0.5
 #: Part of the greatest gain from which another law of an effect may be ahead: rows' curve of a
@@ -295,6 +298,14 @@ def much_more(gained: float) -> bool:
 def needs_no_misfit(name: str, gained: float, is_lone: bool) -> bool:
     """Whether simulated runs need a finding also where nuisances have taken what it takes."""
     return gained > (UNDECIDED if name in TRENDS and not is_lone else SURE)
+
+
+def is_plainly_needed(left: Score, before: Score) -> bool:
+    """Whether a finding takes what is missing by so much that no doubt of it is worth a fit.
+
+    left, before : with the finding, and without, of friction that repeats itself
+    """
+    return leaves(before, PLAIN) and not leaves(left, EXPLAINED) and halves(left, before)
 
 
 def halves(left: Score, before: Score) -> bool:

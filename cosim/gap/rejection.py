@@ -9,7 +9,7 @@ from cosim.gap.extended import Part, rounding_of
 from cosim.gap.fitting import Fitting
 from cosim.gap.naming import Named
 from cosim.gap.result import Rejected
-from cosim.gap.weak_form.ladder import price_of
+from cosim.gap.weak_form.ladder import TRENDS, price_of
 
 
 def unsure(fitting: Fitting, named: Named) -> list[Rejected]:
@@ -18,6 +18,25 @@ def unsure(fitting: Fitting, named: Named) -> list[Rejected]:
         return []
     return [Rejected(one.name, one.gain, None)
             for one in named.findings if one.added and one.gain < judge.SURE]  # fmt: skip
+
+
+def plainly_needed(
+    fitting: Fitting, parts: Sequence[Part], named: Named, asked: Collection[str]
+) -> set[str]:
+    """Of findings asked for those that explain the runs, which miss plainly more without them.
+
+    Not of what friction that scatters from run to run would take up: it has not been let yet.
+    """
+    needed = set()
+    for part in parts:
+        if part.finding.name in asked and part.in_kernel and part.finding.name not in TRENDS:
+            left = fitting.without(part, parts, named, scatters=False).unscattered
+            if not judge.leaves(left, judge.PLAIN):
+                continue
+            found = fitting.fitted(named, parts, scatters=False).unscattered
+            if judge.is_plainly_needed(found, left):
+                needed.add(part.finding.name)
+    return needed
 
 
 def unpromising(

@@ -144,6 +144,11 @@ DECIDED = [
     ({"film_drag": 12.0}, 6.1, {}, 1),
     ({"measurement.scale": 12.0}, 8.9, {}, 0),
     ({"measurement.scale": 12.0}, 9.1, {}, 1),
+    # no fit is worth while of what plainly explains the runs, but of what scatter may take up
+    ({"film_drag": 12.0}, 0.0, {"halved": (2.1, 1.29)}, 1),
+    ({"film_drag": 12.0}, 0.0, {"halved": (1.9, 1.29)}, 0),
+    ({"film_drag": 12.0}, 0.0, {"halved": (2.1, 1.31)}, 0),
+    ({"load_dependence": 12.0}, 0.0, {"halved": (2.1, 1.29)}, 0),
     # beside coarse steps only what is sure is asked for
     ({"film_drag": 499.0}, 100.0, {"rounding": "coarse"}, 0),
     ({"film_drag": 499.0}, 100.0, {}, 1),
