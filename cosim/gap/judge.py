@@ -28,17 +28,18 @@
     goes, and the rows are not asked for it again, where the simulated runs are not e^6 times as
     probable with it, and e^3 times without what a scatter may be worth or e^50 with it, e^30 by
     another of its laws, or, below e^500 (e^12: a trend from run to run beside a greater one), it
-    takes neither all nor half of what they miss without it, at last or before friction may
-    scatter, or a greater one explains them before that; but for trends, none goes by itself that
-    leaves runs at 1.3 at most where they are beyond 2 without it, friction repeating itself. Where
-    none is left, the runs choose from what rows ask for less, as beside a finding. So for four
-    rounds; then rows are asked for one finding alone, and then for none; after 150 million
-    simulated samples at once. Beside fewer than two findings, and no fault of the camera, what rows ask for by e^6, or derivatives
-    of the simulated runs by e^25 where these are left at 1.1 at most, and static friction over the
-    hold time where the contact lets go by 10 ms sooner, is found where the runs are e^50 times as
-    probable with it, e^6 times without what a scatter may be worth (ageing, e^100 and e^12, whoever
-    asked); of several that gain 0.6 of the greatest, or are within e^200 of it, every law is tried.
-    `none` is no finding left, and every run at 1.1 at most; without any held out nothing tells.
+    takes neither all nor half of what they miss without it, at last or before friction may scatter,
+    or a greater one explains them before that; but for trends, none goes by itself that leaves runs
+    at 1.3 at most where they are beyond 2 without it, friction repeating itself. Where none is
+    left, the runs choose from what rows ask for less, as beside a finding. So for four rounds; then
+    rows are asked for one finding alone, and then for none; after 150 million simulated samples at
+    once. Beside fewer than two findings, and no fault of the camera, what rows ask for by e^6, or
+    derivatives of the simulated runs by e^25 where these are left at 1.1 at most, and static
+    friction over the hold time where the contact lets go by 10 ms sooner, is found where the runs
+    are e^50 times as probable with it, e^6 times without what a scatter may be worth (ageing, e^100
+    and e^12, whoever asked); of several that gain 0.6 of the greatest, or are within e^200 of it,
+    every law is tried. `none` is no finding left, and every run at 1.1 at most; without any held
+    out nothing tells.
  9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them (at 1.02
     none is), and fitted ones, too, or most of their misfit gone; `partial` where held-out runs are
     better but stay above that, and most of the misfit is gone, half by findings. `named`, and
