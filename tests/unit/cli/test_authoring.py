@@ -103,6 +103,7 @@ def test_a_word_finds_keys_by_name_or_else_by_meaning(capsys):
     assert "left out, 0.85 of rig.spring_length" in out
     assert "rig.spring_natural_length" in printed(capsys, "keys", "pretension")
     assert "belt.layers[].density (must be given)" in printed(capsys, "keys", "layers")
+    assert "0 N s/m, allowed is a number at least 0 N s/m" in printed(capsys, "keys", "film_drag.c")
     assert "nearest: 'springs.stiffness'" in refusal(capsys, "keys", "springs.stifness")
 
 
