@@ -19,7 +19,7 @@ from stickslip.steady_motion.starts import RAMP, REST, STARTS, disturbed, other_
 from ...report.files import plain_data, write_json
 from ...report.page import PageResult, Picture, render, sentences, texts, tiles_of
 from ...report.run_text import border_sentence, regime_sentence, stability_sentence
-from ...scenario import Scenario
+from ...scenario import Scenario, as_scenario
 from . import maps
 from .maps import MAPPED, Case, NotAMotion, PretensionMap, RegimeMap, run_length
 
@@ -86,7 +86,7 @@ def _windows(lowest: str, borders: list[tuple[float, str]]) -> list[Window]:
 
 
 def range_sentence(found: dict[str, Any]) -> str:
-    """The answer in a line: "... sticks and slips from rest up to 0.1812 m/s; riding ..."."""
+    """The answer in a line: "... sticks and slips from rest up to 0.181 m/s; riding ..."."""
     return " ".join(sentences(_text().range(found)))
 
 
@@ -145,7 +145,7 @@ class Stability(PageResult):
         return [*first, *(speaks(numbers) for speaks in told)]
 
 
-def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stability:
+def stability(scenario: Scenario | str | Path, *, grid: int = 0, border: str = "") -> Stability:
     """Which steady motions a rig has, which of them it can keep to, and where stick-slip stops.
 
     grid : points a side of each map, at least 2; 0 for none
@@ -154,14 +154,14 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
 
     Raises NotAMotion, in one line, where there is nothing to be assessed.
 
-    >>> from cosim import read_scenario, stability
-    >>> found = stability(read_scenario("study").changed(run_duration=20.0))
+    >>> from cosim import stability
+    >>> found = stability("study")
     >>> found.summary()["name"], found.save("results/stability").name
     ('study', 'stability')
     """
     if grid < 0 or grid == 1:
         raise NotAMotion(f"grid = {grid}: must be at least 2, or 0 for none")
-    found = Stability(maps.case_of(scenario))
+    found = Stability(maps.case_of(as_scenario(scenario)))
     if border:
         found.stick_slip = stick_slip_range(found.case, border)
     if grid:

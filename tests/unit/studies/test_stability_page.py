@@ -74,7 +74,7 @@ def test_one_sentence_then_a_picture_then_four_figures():
     windows = {"ramp": [(None, 0.15708)], "rest": [(None, 0.18)]}
     numbers["stick_slip_range"] = {"key": "surface.speed", "unit": "m/s", "stick_slip": windows}
     first, *others = study.tiles(found)
-    assert first == ("surface.speed above which stick-slip stops", "0.1571 m/s")
+    assert first == ("surface.speed above which stick-slip stops", "0.157 m/s")
     assert len(others) == 3
 
 
