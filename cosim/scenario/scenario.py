@@ -444,7 +444,8 @@ def source_text(source: str | Path) -> str:
         return file.read_text(encoding="utf-8")
     if not os.path.exists(source):
         known = packaged_scenarios()
-        near = nearest(str(source), known)
+        beside = f"{source}{SUFFIX}"
+        near = beside if os.path.isfile(beside) else nearest(str(source), known)
         hint = f"did you mean {near}?" if near else f"packaged: {', '.join(known)}"
         raise ScenarioError(
             f"{source}: no such file, allowed is a TOML file or a packaged scenario ({hint})"

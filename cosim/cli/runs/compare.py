@@ -7,6 +7,7 @@ from pathlib import Path
 
 from cosim.cli import DONE
 from cosim.cli.arguments import RESULTS
+from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.runs.run_io import progress_over
 from cosim.cli.runs.running import scenario_to_run
@@ -26,7 +27,7 @@ def execute(arguments: Namespace) -> int:
     place = arguments.output or Path(RESULTS) / _named(both)
     folder = own_folder(place, (RESULT, PAGE), arguments.force)
     made = made_by(a=both.a.place, b=both.b.place)
-    with results_in(folder, made, force=arguments.force):
+    with results_in(folder, made, force=arguments.force), Bar(total=1, unit="page"):
         both.save(folder, made["command"])
     for remark in both.remarks:
         print(f"warning: {remark}", file=sys.stderr)

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 from stickslip.steady_motion import numbers as rig
-from stickslip.steady_motion.borders import FARTHEST, all_borders, follower
+from stickslip.steady_motion.borders import COUNT, FARTHEST, all_borders, follower
 from stickslip.steady_motion.regimes import STICK_SLIP
 from stickslip.steady_motion.starts import RAMP, REST, STARTS, disturbed, other_starts
 
@@ -89,6 +89,9 @@ def range_sentence(found: dict[str, Any]) -> str:
     """The answer in a line: "... sticks and slips from rest up to 0.181 m/s; riding ..."."""
     return " ".join(sentences(_text().range(found)))
 
+
+#: Steps of `stick_slip_range`, as many as there mostly are: values tried and a border's halvings.
+STEPS = len(MAPPED) * (COUNT + 8)
 
 RESULT, PAGE = "stability.json", "report.html"
 #: Speeds of the maps as parts of the scenario's, its pretensions as parts of a spring's length, and
