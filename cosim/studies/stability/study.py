@@ -193,13 +193,17 @@ def headline(found: Stability) -> str:
 
 
 def page(found: Stability, command: str = "") -> tuple[str, list[Picture]]:
-    """HTML of the numbers and what they say, the first of it first; and the maps."""
-    from .figures import draw_pretension_map, draw_regime_map
+    """HTML of the numbers and what they say, the first of it first; and its pictures."""
+    from .figures import draw_pretension_map, draw_range, draw_regime_map
 
     # the heading is one sentence, and what it goes on with stands below
     first, *others = found.sentences
     sentence, *rest = re.split(r"(?<=\.) (?=[A-Z])", first, maxsplit=1)
-    pairs = ((draw_pretension_map, found.pretension), (draw_regime_map, found.regimes))
+    pairs: Any = (
+        (draw_range, found.stick_slip),
+        (draw_pretension_map, found.pretension),
+        (draw_regime_map, found.regimes),
+    )
     pictures = [draw(drawn, found.case) for draw, drawn in pairs if drawn is not None]
     html = render(
         "stability.html.j2", __package__ or "", numbers=found.summary(), sentence=sentence,
