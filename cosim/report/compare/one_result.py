@@ -62,8 +62,14 @@ class OneResult:
         return float(np.median(np.diff(time))) if time.size > 1 else 0.0
 
 
-def read_result(folder: Path) -> OneResult:
-    """The result in a folder; NotAResult, in one line, where there is none that can be read."""
+def read_result(folder: str | Path) -> OneResult:
+    """The result in a folder; NotAResult, in one line, where there is none that can be read.
+
+    >>> from cosim import read_result, simulate_scenario
+    >>> read_result(simulate_scenario("study").save("results/study")).label
+    'study'
+    """
+    folder = Path(folder)
     for name in (DATA, NUMBERS):
         if not (folder / name).is_file():
             raise NotAResult(
@@ -99,7 +105,7 @@ def as_result(one: OneResult | RunResult | str | Path, place: str = "this sessio
     place : what a run is from. Raises NotAResult as that does.
     """
     if isinstance(one, (str, Path)):
-        return read_result(Path(one))
+        return read_result(one)
     if isinstance(one, OneResult):
         return one
     dataset, numbers = one.to_xarray(), one.summary()

@@ -262,6 +262,11 @@ def friction_map(
 
     progress: called after each run. Raises ScenarioError for what cannot be, and NotSteady where
     the block slides steadily nowhere; a point at which it does not is in `FrictionMap.failed`.
+
+    >>> from cosim import friction_map
+    >>> found = friction_map("study", [0.1, 1.0], [-8.0], duration=0.5)
+    >>> [(point.speed, point.friction) for point in found.points]
+    [(0.1..., 0.2086...), (1.0, 0.2086...)]
     """
     if any(not speed > 0.0 for speed in speeds):
         raise NotSteady(f"speed = {min(speeds):g} m/s: allowed is above 0")

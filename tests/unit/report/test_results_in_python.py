@@ -84,6 +84,7 @@ def test_every_study_takes_a_scenario_by_its_name(scenario):
     assert how_long(scenario, samples=0).scenario.startswith('name = "study"')
     swept = sweep(scenario, {"surface.speed": [0.1]}, duration=1.0, jobs=1)
     assert swept.attrs["scenario"].startswith('name = "study"')
+    assert len(repr(swept).splitlines()) <= 20
     (point,) = friction_map(scenario, [0.1], [-8.0], duration=0.5).points
     assert point.speed == pytest.approx(0.1)
 
