@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from stickslip import Trajectory, simulate
 
 from cosim.report.scenario_run import ScenarioRun
-from cosim.scenario import Scenario, check_work, read_scenario
+from cosim.scenario import Scenario, as_scenario, check_work
 
 if TYPE_CHECKING:
     from cosim.report.columns import Columns
@@ -48,8 +48,7 @@ def simulate_scenario(scenario: Scenario | str | Path = "reference") -> Simulate
     >>> simulate_scenario(read_scenario("reference").changed({"run.duration": 2.0}))
     <SimulatedRun of reference: <Trajectory of 2 s, 201 rows: ...>>
     """
-    if not isinstance(scenario, Scenario):
-        scenario = read_scenario(scenario)
+    scenario = as_scenario(scenario)
     check_work(scenario, coupled=False)
     return SimulatedRun(scenario, simulated(scenario))
 

@@ -119,11 +119,13 @@ class SteadySliding:
             raise ValueError(f"speed = {speed:g} m/s must be above 0: the belt slides steadily")
         if not (math.isfinite(force) and force >= 0.0):
             raise ValueError(f"force = {force:g} N must not be negative: friction produces heat")
-        self.parameters, self.speed, self.force = parameters, speed, force
+        self.parameters: ThermalParameters = parameters
+        self.speed: float = speed
+        self.force: float = force
         self.footprint, self.ice = standing_block(parameters) if block is None else block
-        self.belt = BeltSeries(parameters.belt, self.footprint, waves)
+        self.belt: BeltSeries = BeltSeries(parameters.belt, self.footprint, waves)
         self.sensitivity = sensitivity
-        self.air_warming = 0.0
+        self.air_warming: float = 0.0
         self.reset(ice_rise)
 
     def reset(self, ice_rise: float = 0.0) -> None:

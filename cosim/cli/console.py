@@ -8,9 +8,10 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-#: Loggers of the product: what computes says there what a user waits for (WARNING: once, a note),
-#: and what it does (INFO).
+#: Loggers of the product: what computes says there what a user should know (WARNING: a note), what
+#: whoever watches a terminal waits for (WAITING: a note there), and what it does (INFO).
 LOGGERS = ("stickslip", "thermal", "cosim")
+WAITING = logging.INFO + 5
 
 _quiet = False
 
@@ -36,7 +37,7 @@ class _Notes(logging.Handler):
     """Records as notes; those below WARNING are asked for with `-v`, and come as they are."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        if record.levelno >= logging.WARNING:
+        if record.levelno >= WAITING:
             note(record.getMessage())
         else:
             _write(record.getMessage())
@@ -47,7 +48,9 @@ def saying(quiet: bool, verbose: bool) -> Iterator[None]:
     """How much is said meanwhile."""
     global _quiet
     before, _quiet = _quiet, quiet
-    handler = _Notes(logging.INFO if verbose else logging.WARNING)
+    watched = sys.stderr is not None and sys.stderr.isatty()
+    usual = WAITING if watched else logging.WARNING
+    handler = _Notes(logging.INFO if verbose else usual)
     loggers = [logging.getLogger(name) for name in LOGGERS]
     levels = [logger.level for logger in loggers]
     for logger in loggers:

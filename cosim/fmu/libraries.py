@@ -3,6 +3,7 @@
 What was compiled once is kept in the user's cache, for whoever builds a unit of the same sources.
 """
 
+import logging
 import zipfile
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache
@@ -22,6 +23,9 @@ from stickslip.generation.compiler import (
 )
 from stickslip.generation.platforms import BROWSER, PLATFORMS, Platform, this_platform
 
+LOG = logging.getLogger(__name__)
+#: Level of what `cosim.cli.console` shows on a terminal.
+WAITING = logging.INFO + 5
 #: Versions of FMI, each with its own names of the folders in `binaries`.
 FMI2, FMI3 = 2, 3
 #: Beside this file in an installed package: libraries of the wheel, in folders called by the GUIDs.
@@ -59,6 +63,7 @@ def _compiled(
     kept = {each: machine_code.kept(file) for each, file in files.items()}
     made = {each: file.read_bytes() for each, file in kept.items() if file}
     if lacking := [each for each in platforms if each not in made]:
+        LOG.log(WAITING, "compiling %s for this version, once: some seconds", name)
         new = compiled(sources, lacking, name)
         for each, library in new.items():
             machine_code.keep(files[each], library)

@@ -44,6 +44,13 @@ def find_gap(campaign: Campaign, *, jobs: int = 2, progress: Progress | None = N
     nothing of the data is in such doubt that none would be named.
 
     jobs : runs that are simulated at a time; progress : called with the parts done and of all
+
+    >>> from pathlib import Path
+    >>> from cosim import find_gap, read_campaign
+    >>> from cosim.gap.example import write_example
+    >>> found = find_gap(read_campaign(write_example(Path("cold_room"))), jobs=1)
+    >>> found.summary()["verdict"], found.summary()["effects"]
+    ('named', ['velocity_weakening'])
     """
     step = _Steps(progress)
     campaign = with_rounding(campaign)

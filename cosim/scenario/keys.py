@@ -7,7 +7,14 @@ from pydantic.fields import FieldInfo
 
 from cosim.scenario.defaults import IN_PROPORTION, stated
 from cosim.scenario.scenario import scenario_type
-from cosim.scenario.validation import allowed, entries_of, known_keys, table_of, unit_of
+from cosim.scenario.validation import (
+    allowed,
+    entries_of,
+    known_keys,
+    spaced,
+    table_of,
+    unit_of,
+)
 
 
 class Key(NamedTuple):
@@ -99,8 +106,3 @@ def shown(value: Any) -> str:
     if isinstance(value, (list, tuple)):
         return f"[{', '.join(map(shown, value))}]"
     return f"{value:g}" if isinstance(value, float) else str(value)
-
-
-def spaced(unit: str) -> str:
-    """A unit behind a number; "" for none."""
-    return "" if unit == "1" else " " + unit.replace(".", " ")

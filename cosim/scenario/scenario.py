@@ -31,7 +31,7 @@ from cosim.scenario import defaults as defaults_of_files
 from cosim.scenario.changes import changed_tables, changes_named, is_of_change
 from cosim.scenario.method import Method
 from cosim.scenario.toml_file import parsed, text_of
-from cosim.scenario.validation import ScenarioError, checked, known_keys, unit_of
+from cosim.scenario.validation import ScenarioError, checked, known_keys, spaced, unit_of
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
 from thermal.materials import ICE, MATERIALS
 
@@ -356,10 +356,7 @@ class Scenario(Parameters):
                 continue
             value = getattr(getattr(self, table), entry)
             if value != field.get_default(call_default_factory=True):
-                unit = unit_of(field)
-                found.append(
-                    (key, f"{value}{'' if unit == '1' else f' {unit}'}", field.description)
-                )
+                found.append((key, f"{value}{spaced(unit_of(field))}", field.description))
         return [(key, value, said or "") for key, value, said in found]
 
     def to_toml(self) -> str:
@@ -395,6 +392,11 @@ def read_scenario(
     """
     LOG.info("reading %s", source)
     return scenario_of(parsed(source_text(source), source), source, changes)
+
+
+def as_scenario(scenario: Scenario | str | Path) -> Scenario:
+    """A scenario as it is, or else `read_scenario` of it."""
+    return scenario if isinstance(scenario, Scenario) else read_scenario(scenario)
 
 
 def scenario_of(
@@ -442,7 +444,8 @@ def source_text(source: str | Path) -> str:
         return file.read_text(encoding="utf-8")
     if not os.path.exists(source):
         known = packaged_scenarios()
-        near = nearest(str(source), known)
+        beside = f"{source}{SUFFIX}"
+        near = beside if os.path.isfile(beside) else nearest(str(source), known)
         hint = f"did you mean {near}?" if near else f"packaged: {', '.join(known)}"
         raise ScenarioError(
             f"{source}: no such file, allowed is a TOML file or a packaged scenario ({hint})"

@@ -163,15 +163,19 @@ def not_in(unit: str) -> str:
     """What is wrong with a number that is given in another unit, or in one at all."""
     others = WORDS["read"].get(unit)
     such_as = f", such as {others}" if others else ""
-    return "has no unit" if unit == "1" else f"not in a unit of {unit}{such_as}"
+    return "has no unit" if unit == "1" else f"not in a unit of{spaced(unit)}{such_as}"
+
+
+def spaced(unit: str) -> str:
+    """A unit behind a number, as one writes it; "" for none."""
+    return "" if unit == "1" else " " + unit.replace(".", " ")
 
 
 def allowed(key: str, field: FieldInfo) -> str:
     """What a key may hold, in words."""
     if (table := table_of(field.annotation)) is not None:
         return f"a table [{key}] with {', '.join(table.model_fields)}"
-    unit = unit_of(field)
-    return _allowed_type(field.annotation, field.metadata, "" if unit == "1" else f" {unit}")
+    return _allowed_type(field.annotation, field.metadata, spaced(unit_of(field)))
 
 
 def _allowed_type(kind: Any, metadata: Iterable[Any], unit: str) -> str:

@@ -149,6 +149,14 @@ def run_system(
     A run that is interrupted or fails returns what it had; `result.status` says so. Raises
     SystemFault, FmuError, CouplingError or CheckpointError for input that cannot be,
     ParticipantError when a unit fails before the first step.
+
+    >>> from cosim import read_system, run_system
+    >>> from cosim.fmu.build import ensure_fmu
+    >>> pair = ensure_fmu("units", "StickSlipThermal.ssp")
+    >>> with read_system(pair, {"run.stop": 0.1}) as system:
+    ...     run = run_system(system)
+    >>> run
+    <SystemRun of mechanics, thermal: <CoupledResult, complete: 0.1 s in 10 macro steps, ...>>
     """
     assembly = assemble(specification, debug)
     settings = specification.coupling

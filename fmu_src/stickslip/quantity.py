@@ -38,6 +38,15 @@ class Table(BaseModel):
         if waiting:
             cls.__doc__ = _SAID.split(text)[0].rstrip()
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Refuse a field, and say how another value is given."""
+        if name in type(self).model_fields:
+            raise AttributeError(
+                f"{type(self).__name__}.{name}: does not change in place; a changed copy of a"
+                " scenario is scenario.changed(surface_speed=0.2)"
+            )
+        super().__setattr__(name, value)
+
     def __dir__(self) -> list[str]:
         """Its own names: what pydantic has beside them is not for whoever looks for a key."""
         return [name for name in super().__dir__() if name not in _OF_PYDANTIC]

@@ -7,11 +7,13 @@ FOLDER for that).
 """
 
 import contextlib
+import io
 import os
 import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -19,19 +21,34 @@ from gallery import NAMES, SLOW, ran
 from nbclient.exceptions import CellExecutionError
 from notebooks import Executed, is_notebook
 
+from cosim.cli.bar import Bar
+
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 
 
-def build(folder: Path, gallery: Path, executed: Executed, jobs: int = 1) -> Path:
+def notebooks() -> list[Path]:
+    """The pages of which cells are executed."""
+    return sorted(filter(is_notebook, (HERE / "site").rglob("*.md")))
+
+
+def build(
+    folder: Path,
+    gallery: Path,
+    executed: Executed,
+    jobs: int = 1,
+    step: Callable[[], object] = lambda: None,
+) -> Path:
     """Build into a folder, every warning an error; the start page.
 
     gallery: what the examples printed and drew, see `gallery.ran`. executed: keeps what the cells
-    of the notebooks computed; jobs: how many are executed at a time. Raises CellExecutionError of a
-    cell, subprocess.CalledProcessError of Sphinx, its output on the exception.
+    of the notebooks computed; jobs: how many are executed at a time; step: called after each, and
+    after Sphinx. Raises CellExecutionError of a cell, subprocess.CalledProcessError of Sphinx, its
+    output on the exception.
     """
     with ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(executed, filter(is_notebook, sorted((HERE / "site").rglob("*.md")))))
+        for _ in pool.map(executed, notebooks()):
+            step()
     source = folder / "source"
     shutil.rmtree(source, ignore_errors=True)
     shutil.copytree(HERE / "site", source, ignore=shutil.ignore_patterns("__pycache__"))
@@ -48,6 +65,7 @@ def build(folder: Path, gallery: Path, executed: Executed, jobs: int = 1) -> Pat
         capture_output=True,
         text=True,
     )
+    step()
     return html / "index.html"
 
 
@@ -86,13 +104,16 @@ def main() -> None:
     gallery = folder / "gallery"
     work = folder / "work"
     work.mkdir(parents=True, exist_ok=True)
-    with contextlib.chdir(work):
-        for name in NAMES:
-            if name not in SLOW:
-                ran(name, gallery)
+    examples = [name for name in NAMES if name not in SLOW]
     executed = Executed(folder / "cache", environment(folder))
     try:
-        print(build(folder, gallery, executed, os.cpu_count() or 1))
+        with Bar(total=len(examples) + len(notebooks()) + 1, unit="part") as bar:
+            for name in examples:
+                with contextlib.chdir(work), contextlib.redirect_stderr(io.StringIO()):
+                    ran(name, gallery)
+                bar.update()
+            page = build(folder, gallery, executed, os.cpu_count() or 1, bar.update)
+        print(page)
     except CellExecutionError as error:
         sys.exit(str(error))
     except subprocess.CalledProcessError as error:

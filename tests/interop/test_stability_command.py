@@ -38,13 +38,13 @@ def test_where_stick_slip_stops_is_one_command(tmp_path):
     done = stickslip_here(tmp_path, "stability", "--border", "speed", "-q", "-o", "out")
     assert (done.returncode, done.stderr) == (0, "")
     (line,) = [line for line in done.stdout.splitlines() if "sticks and slips from" in line]
-    assert "sticks and slips from a speed ramp of 10 s up to 0.1571 m/s;" in line
-    assert "from rest up to 0.1812 m/s; riding on the surface up to 0.262 m/s" in line
+    assert "sticks and slips from a speed ramp of 10 s up to 0.157 m/s;" in line
+    assert "from rest up to 0.181 m/s; riding on the surface up to 0.262 m/s" in line
     numbers = json.loads((tmp_path / "out" / "stability.json").read_text())
     assert set(numbers["stick_slip_range"]["stick_slip"]) == {"rest", "riding", "ramp"}
     assert {border["key"] for border in numbers["nearest_borders"]} >= {"surface.speed"}
     assert numbers["regime_map"] is None
-    assert "0.1571 m/s" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
+    assert "0.157 m/s" in (tmp_path / "out" / "report.html").read_text(encoding="utf-8")
 
 
 def test_a_run_on_an_unstable_path_says_so(tmp_path):

@@ -47,13 +47,15 @@ class BeltSeries:
     """
 
     def __init__(self, belt: Belt, footprint: Footprint, waves: int | None = None) -> None:
-        self._belt, self._lane, self.strips = belt, footprint.lane, footprint.strips
+        self._belt, self._lane = belt, footprint.lane
+        self.strips: int = footprint.strips
         number = np.arange((belt.cells // 2 if waves is None else waves) + 1)
         self._wave = 2.0 * np.pi / belt.length * number
         self._weight = np.where(number == 0, 1.0, 2.0)
         self.railing_heat_factor: float = 1.0
         self.roller_rise_factor: float = 1.0
-        self.places = places = Places(belt, footprint)
+        self.places: Places = Places(belt, footprint)
+        places = self.places
         of_strips = np.repeat(places.faces, [edges.size - 1 for edges in places.edges])
         self._on = [of_strips == face for face in np.unique(places.faces)]
         middles = np.concatenate([0.5 * (edges[1:] + edges[:-1]) for edges in places.edges])

@@ -88,9 +88,13 @@ class Places:
     (W/m2 for 1 m/s) of those of the supports.
     """
 
+    conductances: Array
+    rises: Array
+    drags: Array
+
     def __init__(self, belt: Belt, footprint: Footprint) -> None:
         found = supports(belt, footprint.length / footprint.strips, footprint.lane)
-        self.faces = [CONTACT] + [BACK] * len(found)
+        self.faces: list[int] = [CONTACT] + [BACK] * len(found)
         self.edges: list[Array] = [footprint.edges, *(s.behind + s.edges for s in found)]
         self.lengths: Array = np.concatenate([np.diff(edges) for edges in self.edges])
         self.areas: Array = self.lengths * footprint.lane

@@ -96,12 +96,13 @@ class Cylinder(IceBody):
         basis = body.basis
         super().__init__(body.space(np.eye(basis.N)))
         self.basis = basis
-        self.r, self._z = _with_midpoints(r), _with_midpoints(z)
+        self.r: Array = _with_midpoints(r)
+        self._z = _with_midpoints(z)
         self._grid = np.empty((self.r.size, self._z.size), dtype=np.intp)
         self._grid[_nearest(self.r, basis.doflocs[0]), _nearest(self._z, basis.doflocs[1])] = (
             np.arange(basis.N)
         )
-        self.cells = quadrilaterals(2 * self.r.size - 1, self._z.size)
+        self.cells: NDArray[np.int64] = quadrilaterals(2 * self.r.size - 1, self._z.size)
 
     #: What `cells` are, in meshio's words.
     cell_type = "quad"

@@ -86,7 +86,8 @@ class Sample(IceBody):
         on_base = points[points[:, 2] <= low + FLAT * high]
         self.area = area
         self.breadth: float = min(belt_width, float(np.ptp(on_base[:, 1])))
-        self.basis, self.cells = body.basis, cells
+        self.basis = body.basis
+        self.cells: NDArray[np.int64] = cells
         self._points = points
         self.r: Array = np.linspace(points[:, 0].min(), points[:, 0].max(), _ACROSS)
         self._z = graded(float(high), _UP, _CROWDED)

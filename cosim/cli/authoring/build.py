@@ -6,6 +6,7 @@ from pathlib import Path
 from stickslip.catalogue import default_catalogue
 
 from cosim.cli import DONE
+from cosim.cli.bar import Bar
 from cosim.files import writable
 from cosim.fmu.build import build_fmu, own_folder, require_way
 from cosim.fmu.libraries import platforms_of
@@ -20,7 +21,9 @@ def execute(arguments: Namespace) -> int:
     for name in units:
         require_way(name, platforms, catalogue)
     folder = writable(Path(arguments.output) if arguments.output else own_folder(catalogue), units)
-    for name in units:
-        fmu = build_fmu(folder, name, platforms, catalogue)
-        print(f"{fmu}: {', '.join(platforms_of(fmu))}")
+    with Bar(total=len(units), unit="unit") as bar:
+        for name in units:
+            fmu = build_fmu(folder, name, platforms, catalogue)
+            bar.write(f"{fmu}: {', '.join(platforms_of(fmu))}")
+            bar.update()
     return DONE

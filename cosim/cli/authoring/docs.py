@@ -41,8 +41,8 @@ def built() -> Path:
     checkout = _checkout()
     if checkout is None:
         raise BadInput(
-            "the documentation: is neither installed nor in a checkout here, allowed is to run this"
-            " where tests/docs is"
+            "the documentation: is neither installed, as a released wheel has it, nor in a "
+            "checkout here, allowed is to run this in the folder where tests/docs is"
         )
     if lacking := [name for name in NEEDED if find_spec(name) is None]:
         raise BadInput(

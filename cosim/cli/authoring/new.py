@@ -12,5 +12,5 @@ def execute(arguments: Namespace) -> int:
     """Write the file and say how it is run; 0."""
     file = write_new(arguments.name, arguments.source, force=arguments.force)
     note(f"{SCENARIO_FILE} beside it is for editors, which check and complete the file by it")
-    print(f"{file}: stickslip simulate {shlex.quote(str(file))}")
+    print(f"{file}: change it, then stickslip run {shlex.quote(str(file))}")
     return DONE

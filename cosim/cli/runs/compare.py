@@ -7,11 +7,13 @@ from pathlib import Path
 
 from cosim.cli import DONE
 from cosim.cli.arguments import RESULTS
+from cosim.cli.bar import Bar
 from cosim.cli.numbers import numbers_asked
 from cosim.cli.runs.run_io import progress_over
 from cosim.cli.runs.running import scenario_to_run
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.report.compare import Comparison, OneResult, compare, read_result
+from cosim.report.compare.one_result import as_result
 from cosim.report.compare.page import PAGE, RESULT, printed
 from cosim.report.files import json_text
 from cosim.report.scenario_run import ScenarioRun
@@ -26,7 +28,7 @@ def execute(arguments: Namespace) -> int:
     place = arguments.output or Path(RESULTS) / _named(both)
     folder = own_folder(place, (RESULT, PAGE), arguments.force)
     made = made_by(a=both.a.place, b=both.b.place)
-    with results_in(folder, made, force=arguments.force):
+    with results_in(folder, made, force=arguments.force), Bar(total=1, unit="page"):
         both.save(folder, made["command"])
     for remark in both.remarks:
         print(f"warning: {remark}", file=sys.stderr)
@@ -66,7 +68,4 @@ def _run(source: str, scenario: Scenario, coupled: bool) -> OneResult:
             done = run_scenario(scenario, progress=show)
         else:
             done = SimulatedRun(scenario, simulated(scenario, show))
-    numbers = done.summary()
-    failed = numbers["status"] != "complete"
-    remarks = (f"{source}: its run is not complete ({numbers['reason']})",) * failed
-    return OneResult(scenario.name, source, done.to_xarray(), numbers, scenario.to_toml(), remarks)
+    return as_result(done, source)

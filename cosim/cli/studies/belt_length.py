@@ -69,7 +69,8 @@ def execute(arguments: Namespace) -> int:
         results.complete = status == DONE
         show.write_numbers(study, folder)
         if results.complete:
-            write_page(*show.page(study, made["command"]), folder)
+            with Bar(total=1, unit="page"):
+                write_page(*show.page(study, made["command"]), folder)
     _print(study, numbers, folder, time.perf_counter() - began)
     return status
 

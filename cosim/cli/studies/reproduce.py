@@ -27,7 +27,7 @@ def execute(arguments: Namespace) -> int:
         for one in Bar(wanted, unit="claim"):
             claims += reproduce([one])
         _ = claims.datasets  # computed before anything is written
-        with results_in(folder, made, force=arguments.force):
+        with results_in(folder, made, force=arguments.force), Bar(total=1, unit="page"):
             claims.wall_time = time.perf_counter() - began
             claims.save(folder)
     except KeyboardInterrupt:

@@ -11,7 +11,7 @@ from cosim.cli.scenarios import given_scenario, note_taken
 from cosim.manifest import made_by, own_folder, results_in
 from cosim.report.files import json_text
 from cosim.studies.stability import NotAMotion, Stability, case_of, stick_slip_range
-from cosim.studies.stability.study import PAGE, RESULT, printed
+from cosim.studies.stability.study import PAGE, RESULT, STEPS, printed
 
 #: By which keys RESULT is known.
 KEYS = ("name", "stability", "regime_map")
@@ -31,7 +31,7 @@ def execute(arguments: Namespace) -> int:
     note_taken(scenario)
     try:
         if arguments.border:
-            with Bar(unit="run") as bar:
+            with Bar(total=STEPS, unit="run") as bar:
                 found.stick_slip = stick_slip_range(found.case, arguments.border, bar.update)
         if grid:
             with Bar(total=2 * grid**2, unit="cell") as bar:

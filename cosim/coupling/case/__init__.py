@@ -28,7 +28,7 @@ from cosim.coupling.record import Keep, RunFolder
 from cosim.files import OutputError
 from cosim.fmu.build import own_fmu
 from cosim.report.scenario_run import ScenarioRun
-from cosim.scenario import Scenario, check_work, read_scenario
+from cosim.scenario import Scenario, as_scenario, check_work
 from cosim.scenario.scenario import FILE_KEYS
 from thermal import BeltIceModel
 
@@ -106,8 +106,7 @@ def run_scenario(
     >>> run.result.status, run.result["thermal.interface_temperature"].shape
     ('complete', (51,))
     """
-    if not isinstance(scenario, Scenario):
-        scenario = read_scenario(scenario)
+    scenario = as_scenario(scenario)
     record_every = scenario.record_every
     check_work(scenario, coupled=True)
     store = None if folder is None else folder.path

@@ -257,7 +257,7 @@ function showStatistics(run) {
   const mm = (value) => `${live.told(MM * value, 3)} mm`;
   const rows = [
     ["the block", (n) => regime(n)],
-    ["stick-slip frequency", (n) => `${live.told(n.mean_period ? 1 / n.mean_period : 0, 4)} Hz`],
+    ["stick-slip frequency", (n) => `${live.told(n.mean_period ? 1 / n.mean_period : 0, 3)} Hz`],
     ["break-aways", (n) => `${n.break_aways} in ${live.told(n.duration, 4)} s`],
     ["share in slip", (n) => `${live.told(100 * n.slip_share, 3)} %`],
     ["x, mean", (n) => mm(n.mean_x)],

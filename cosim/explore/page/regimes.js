@@ -13,7 +13,7 @@ class RegimeMap {
   /* moved: called with keys and values of a place that is chosen. */
   constructor(box, legend, models, moved) {
     Object.assign(this, { legend, models, regimes: [], cells: [], tops: [1, 1], here: [NaN, NaN] });
-    this.plot = new Plot(box, "regimes", "speed of the surface [m/s]", "damping [N·s/m]");
+    this.plot = new Plot(box, "regimes", "speed of the surface [m/s]", "damping [N s/m]");
     const { uplot } = this.plot;
     uplot.over.addEventListener("click", (event) => {
       const place = [uplot.posToVal(event.offsetX, "x") * this.sign, uplot.posToVal(event.offsetY, "y")];

@@ -45,6 +45,13 @@ def read_campaign(path: str | Path) -> Campaign:
     converted is among the remarks, and so is what is odd, yet can be used.
 
     Raises CampaignError in one line: file, key or column, what is wrong, what is allowed.
+
+    >>> from pathlib import Path
+    >>> from cosim import read_campaign
+    >>> from cosim.gap.example import write_example
+    >>> campaign = read_campaign(write_example(Path("cold_room")))
+    >>> campaign.name, [run.surface_speed for run in campaign.runs]
+    ('example', [...])
     """
     path, table, run_tables, campaign = stated_in(path)
     law = campaign.friction_table

@@ -15,7 +15,7 @@ from cosim.gap.data.measured import MeasuredRun, Track
 #: Swing of the spring force over weight that no contact without glue gives; and below which mass or
 #: stiffness are doubtful.
 MOST_FRICTION, LEAST_FRICTION = 5.0, 1e-4
-LENGTHS = {"millimetres": 1e3, "centimetres": 1e2, "micrometres": 1e6}
+LENGTHS = {"mm": 1e3, "cm": 1e2, "um": 1e6}
 #: What is usual of the same swing, and of y's part of a spring's length.
 USUAL_FRICTION, USUAL_PART = (0.05, 2.0), (1e-6, 0.5)
 TIMES = {"milliseconds": 1e3, "microseconds": 1e6}
@@ -63,21 +63,23 @@ def _of_places(run: MeasuredRun, rig: Rig) -> str:
     if friction == 0.0:
         return "x: does not change, allowed is a measured motion"
     if friction > MOST_FRICTION:
-        allowed = f"metres ({_hint(friction, USUAL_FRICTION)}check mass and stiffness)"
+        allowed = f"metres ({_hint('x', friction, USUAL_FRICTION)}check mass and stiffness)"
         force = f"a spring force of {friction:.3g} times the weight"
         return f"x: swings by {swing(track.x):.4g} m, {force}; allowed is {allowed}"
     if track.y is not None and (part := swing(track.y) / rig.spring_length) > 1.0:
         springs = f"swings by {part:.3g} times rig.spring_length"
-        return f"y: {springs}; allowed is metres ({_hint(part, USUAL_PART)}check the rig)"
+        return f"y: {springs}; allowed is metres ({_hint('y', part, USUAL_PART)}check the rig)"
     if track.phi is not None and (turn := np.nanmax(np.abs(track.phi))) > 2.0 * math.pi:
         return f"phi: reaches {turn:.4g} rad, allowed is radians up to a turn (are these degrees?)"
     return ""
 
 
-def _hint(value: float, usual: tuple[float, float]) -> str:
-    """The unit in which a value would be usual."""
+def _hint(channel: str, value: float, usual: tuple[float, float]) -> str:
+    """The unit in which a value would be usual, and how that is said."""
     units = [name for name, factor in LENGTHS.items() if usual[0] < value / factor < usual[1]]
-    return f"are these {units[0]}?, " if units else ""
+    if not units:
+        return ""
+    return f'are these {units[0]}? then units.{channel} = "{units[0]}" in campaign.toml; else '
 
 
 def friction_of(run: MeasuredRun) -> float:

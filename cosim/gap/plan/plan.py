@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from importlib import import_module
 from itertools import count
 from pathlib import Path
@@ -33,7 +33,7 @@ TRIED = 11
 ROUNDS, NEAR, LEAP = 4, 0.07, 1.25
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Plan(Result):
     """The answer.
 
@@ -50,9 +50,12 @@ class Plan(Result):
     planned: PlannedCampaign
     wanted: float
     sizes: tuple[Size, ...]
-    silent: Mapping[str, str] = field(repr=False)
+    silent: Mapping[str, str]
     false: float
     next_run: NextRun | None
+
+    def __repr__(self) -> str:
+        return f"<Plan: {import_module(DATA).sentence(self)}>"
 
     def summary(self) -> dict[str, Any]:
         """What `plan.json` holds."""

@@ -71,6 +71,13 @@ def read_plan(
         the TOML file states none
 
     CampaignError in one line: file, key, what is wrong, what is allowed.
+
+    >>> from pathlib import Path
+    >>> from cosim import read_plan
+    >>> from cosim.gap.example import write_planned_example
+    >>> planned = read_plan(write_planned_example(Path("next_week")))
+    >>> len(planned.runs), planned.friction
+    (4, {'mu_k': 0.22, 'mu_s': 0.3})
     """
     path, table, tables, campaign = stated_in(path, RunTable)
     if table.model.scheme != "exact":

@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from operator import itemgetter
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,12 +18,13 @@ import xarray as xr
 from stickslip.units import UNITS
 
 from cosim.report.columns import Array
+from cosim.result import RunResult
 
 from ...coupling.conversion import BASE_UNITS, between, told_dimension
 from ...coupling.participant import UnitDefinition
 from ..page import PageResult
 from ..quantities import ROUNDING, TABLES
-from .one_result import OneResult
+from .one_result import OneResult, as_result
 
 #: What is no quantity of its own: a system's inputs repeat outputs.
 INPUT = "input"
@@ -311,20 +313,22 @@ def _table(ones: Iterable[Difference | Apart], keys: Sequence[str]) -> dict[str,
     return {one.name: {key: getattr(one, key) for key in keys} for one in ones}
 
 
-def compare(a: OneResult, b: OneResult) -> Comparison:
-    """Two results beside each other, whatever they are of.
+def compare(
+    a: OneResult | RunResult | str | Path, b: OneResult | RunResult | str | Path
+) -> Comparison:
+    """Two results beside each other, whatever they are of: runs, folders, or `read_result` of one.
 
     Their numbers are those of `summary.json`, in SI units; what only one has is None in the other.
     Outputs of a system are compared with what the other has of the same name, and in A's unit.
 
-    >>> from cosim import compare, read_result, read_scenario, simulate_scenario
+    >>> from cosim import compare, read_scenario, simulate_scenario
     >>> short = read_scenario().changed(run_duration=2.0)
-    >>> folders = [simulate_scenario(short.changed(rig_mass=mass)).save(f"results/{mass:g}")
-    ...            for mass in (0.67, 1.0)]
-    >>> both = compare(*map(read_result, folders))
+    >>> light, heavy = (simulate_scenario(short.changed(rig_mass=mass)) for mass in (0.67, 1.0))
+    >>> both = compare(light, heavy.save("results/heavy"))
     >>> list(both.keys), both.save("results/two-masses").name
     (['rig.mass'], 'two-masses')
     """
+    a, b = as_result(a), as_result(b)
     if a.label == b.label:
         a, b = replace(a, label=f"{a.label} (A)"), replace(b, label=f"{b.label} (B)")
     units = {**b.numbers.get("units", {}), **a.numbers.get("units", {}), "time_reached": "s"}

@@ -1,4 +1,4 @@
-"""One result as a folder of `run`, `simulate` or `couple` holds it."""
+"""One result, as a folder of `run`, `simulate` or `couple` holds it, or as a run gives it."""
 
 import json
 import tomllib
@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from cosim.manifest import COMPLETE, manifest_of
+from cosim.result import RunResult
 
 DATA, NUMBERS = "result.nc", "summary.json"
 #: What a system's numbers have of how it was run, and of each of its units.
@@ -61,8 +62,14 @@ class OneResult:
         return float(np.median(np.diff(time))) if time.size > 1 else 0.0
 
 
-def read_result(folder: Path) -> OneResult:
-    """The result in a folder; NotAResult, in one line, where there is none that can be read."""
+def read_result(folder: str | Path) -> OneResult:
+    """The result in a folder; NotAResult, in one line, where there is none that can be read.
+
+    >>> from cosim import read_result, simulate_scenario
+    >>> read_result(simulate_scenario("study").save("results/study")).label
+    'study'
+    """
+    folder = Path(folder)
     for name in (DATA, NUMBERS):
         if not (folder / name).is_file():
             raise NotAResult(
@@ -90,6 +97,22 @@ def read_result(folder: Path) -> OneResult:
         remarks.append(f"{folder}: its results are not complete, writing them was cut off")
     scenario = str(made.get("scenario") or dataset.attrs.get("scenario", ""))
     return OneResult(name, str(folder), dataset, numbers, scenario, tuple(remarks))
+
+
+def as_result(one: OneResult | RunResult | str | Path, place: str = "this session") -> OneResult:
+    """A result as it is, of a run that is kept nowhere, or `read_result` of a folder.
+
+    place : what a run is from. Raises NotAResult as that does.
+    """
+    if isinstance(one, (str, Path)):
+        return read_result(one)
+    if isinstance(one, OneResult):
+        return one
+    dataset, numbers = one.to_xarray(), one.summary()
+    failed = numbers["status"] != COMPLETE
+    remarks = (f"{place}: its run is not complete ({numbers['reason']})",) * failed
+    scenario = str(dataset.attrs.get("scenario", ""))
+    return OneResult(str(numbers["name"]), place, dataset, numbers, scenario, remarks)
 
 
 def _of_system(numbers: Mapping[str, Any]) -> dict[str, Any]:

@@ -4,7 +4,7 @@
 (() => {
   const UNIT = /(\d) (?=([µmk]?[msgKNJW](\/[a-z]+)?|Hz|°C?|%)([\s,;:.)]|$))/g;
   // a number keeps its unit on its line; a long name breaks between its words
-  for (const { childNodes } of document.querySelectorAll("#content h1, #content .tiles b")) {
+  for (const { childNodes } of document.querySelectorAll("#content :is(h1, p, figcaption, .tiles b)")) {
     for (const node of [...childNodes].filter((each) => each.nodeType === Node.TEXT_NODE)) {
       const bound = node.data.replace(UNIT, "$1\u00a0");
       const [first, ...others] = bound.split(/(?<=[a-z][._])(?=[a-z])/);

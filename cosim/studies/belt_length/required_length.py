@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from cosim.result import Result
-from cosim.scenario import Scenario
+from cosim.scenario import Scenario, as_scenario
 from thermal.arrays import Array
 
 from .case import Case
@@ -149,7 +149,7 @@ class Answer(Result):
 
 
 def how_long(
-    asked: Case | Scenario,
+    asked: Case | Scenario | str | Path,
     limit: float = CAMERA,
     *,
     samples: int = 128,
@@ -161,10 +161,11 @@ def how_long(
 
     Parameters
     ----------
-    asked : a scenario, whose belt (layers, width, rollers, railing), block, contact, air, ramp and
-        run are taken, what it does not say being in doubt; or a `Case`. Elements, cells and strips
-        are the study's own; where no heat transfer to the air is said, it is that of a belt moving
-        through still air (`Case.film`), not the scenario's default
+    asked : a scenario (or the name of a packaged one, or a TOML file), whose belt (layers, width,
+        rollers, railing), block, contact, air, ramp and run are taken, what it does not say being
+        in doubt; or a `Case`. Elements, cells and strips are the study's own; where no heat
+        transfer to the air is said, it is that of a belt moving through still air (`Case.film`),
+        not the scenario's default
     limit : largest rise that is allowed, K, > 0, such as what a camera tells apart
     samples : runs of the model for the doubt, a power of two from 32; 0 for none
     jobs : processes
@@ -185,6 +186,8 @@ def how_long(
     >>> found.save("results/belt").name
     'belt'
     """
+    if not isinstance(asked, Case):
+        asked = as_scenario(asked)
     case = scenario_case(asked) if isinstance(asked, Scenario) else asked
     cold, for_ever, steady = shortest_belts(case.drive, limit)
     plain = Answer(

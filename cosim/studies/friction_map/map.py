@@ -10,6 +10,7 @@ damper: neither friction nor its heat is another for it.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,7 @@ from stickslip.packing import GRAVITY
 from cosim.coupling.case import run_scenario
 from cosim.report.files import plain_data
 from cosim.report.page import PageResult
-from cosim.scenario import Scenario
+from cosim.scenario import Scenario, as_scenario
 
 from .laws import laws_of, measured_beside
 
@@ -251,7 +252,7 @@ class FrictionMap(PageResult):
 
 
 def friction_map(
-    scenario: Scenario,
+    scenario: Scenario | str | Path,
     speeds: Sequence[float],
     ambients_degC: Sequence[float],
     duration: float = 2.0,
@@ -261,9 +262,15 @@ def friction_map(
 
     progress: called after each run. Raises ScenarioError for what cannot be, and NotSteady where
     the block slides steadily nowhere; a point at which it does not is in `FrictionMap.failed`.
+
+    >>> from cosim import friction_map
+    >>> found = friction_map("study", [0.1, 1.0], [-8.0], duration=0.5)
+    >>> [(point.speed, point.friction) for point in found.points]
+    [(0.1..., 0.2086...), (1.0, 0.2086...)]
     """
     if any(not speed > 0.0 for speed in speeds):
         raise NotSteady(f"speed = {min(speeds):g} m/s: allowed is above 0")
+    scenario = as_scenario(scenario)
     points, failed = [], []
     for ambient in sorted(set(ambients_degC)):
         for speed in sorted(set(speeds)):

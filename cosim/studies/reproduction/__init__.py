@@ -17,6 +17,10 @@ def reproduce(ids: Sequence[str] = ()) -> Reproduction:
     """Compute and judge the claims (all of them for no ids), in the study's order.
 
     Raises `UnknownClaim`.
+
+    >>> from cosim import reproduce
+    >>> [(claim["id"], claim["verdict"]) for claim in reproduce(["C4"]).summary()["claims"]]
+    [('C4', 'holds')]
     """
     from .claims import JUDGES  # matplotlib and the thermal model: only when there is work
 

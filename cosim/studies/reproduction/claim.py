@@ -15,7 +15,7 @@ import numpy as np
 from stickslip.packaged import packaged_tables
 from stickslip.reference.scheme_options import DESCRIPTIONS, PRINTED, Faults
 
-from cosim.report.page import Picture
+from cosim.report.page import Picture, number
 
 CLAIM_IDS = tuple(f"C{n}" for n in range(1, 19))
 WRITTEN = packaged_tables(__package__, "claims.toml")
@@ -106,7 +106,7 @@ class Margin:
     def text(self) -> str:
         """In words."""
         unit = {"1": "", "°": "°"}.get(self.unit, f" {self.unit}")
-        return f"{self.what} {self.value:.4g}{unit}, limit {self.limit:.4g}{unit}"
+        return f"{self.what} {number(self.value)}{unit}, limit {number(self.limit)}{unit}"
 
 
 @dataclass(frozen=True)

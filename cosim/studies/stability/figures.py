@@ -1,15 +1,19 @@
-"""The two maps as figures."""
+"""The two maps, and the range in which the block sticks and slips, as figures."""
+
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP
 from stickslip.steady_motion.starts import RAMP, REST, RIDING
 
+from cosim.report.page import unit_text
 from cosim.report.palette import BLUE, INK, RED, SAND, SOFT_GREY
-from cosim.report.style import panels, picture
+from cosim.report.style import logarithmic_x, panels, picture
 from cosim.studies import FIGURES
 
 from .maps import Case, PretensionMap, RegimeMap
@@ -78,6 +82,33 @@ def draw_regime_map(found: RegimeMap, case: Case) -> Figure:
         handles.append(Patch(facecolor=OTHER, label="other, or not followed"))
     figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
     figure.suptitle(f"Regimes: {case.name}", x=0.008, ha="left")
+    return figure
+
+
+@picture("stick_slip_range", **FIGURES["stick_slip_range"])
+def draw_range(found: dict[str, Any], case: Case) -> Figure:
+    """A bar for each start: what `stick_slip_range` says."""
+    low, high = found["searched"]
+    figure, axes = panels(1, 1, height=0.5 * len(found["stick_slip"]) + 1.5, width=5.6)
+    ax = axes[0, 0]
+    for row, windows in enumerate(found["stick_slip"].values()):
+        for (begin, end), colour in [((low, high), SAND), *((each, BLUE) for each in windows)]:
+            begin, end = low if begin is None else begin, high if end is None else end
+            ax.barh(row, end - begin, left=begin, height=0.6, color=colour)
+    ax.axvline(found["value"], color=RED, lw=2.0)
+    ax.set_xlim(low, high)
+    logarithmic_x(ax)
+    unit = unit_text(found["unit"])
+    ax.set(xlabel=f"{found['key']} [{unit}]", title=f"Stick-slip: {case.name}")
+    ax.set_yticks(range(len(found["stick_slip"])), [TITLES[start] for start in found["stick_slip"]])
+    ax.invert_yaxis()
+    ax.grid(False)
+    handles = [
+        Patch(facecolor=BLUE, label="stick-slip"),
+        Patch(facecolor=SAND, label="none"),
+        Line2D([], [], color=RED, lw=2.0, label="the scenario"),
+    ]
+    figure.legend(handles=handles, loc="outside lower right", ncols=len(handles))
     return figure
 
 

@@ -46,7 +46,12 @@ class Case:
 
 
 def case_of(scenario: Scenario) -> Case:
-    """The scenario with its own assessment. NotAMotion where there is nothing to assess."""
+    """The scenario with its own assessment. NotAMotion where there is nothing to assess.
+
+    >>> from cosim import case_of, read_scenario
+    >>> case_of(read_scenario("study")).assessment.stability.verdict
+    'unstable'
+    """
     parameters, interface = scenario.mechanics, Interface(scenario.ambient.temperature_degC)
     if fault := _fault(parameters):
         raise NotAMotion(f"{scenario.name}: {fault}")
@@ -95,8 +100,16 @@ class PretensionMap:
     sticks: Array
 
 
-def pretension_map(case: Case, pretensions: Array, speeds: Array, done: Done) -> PretensionMap:
-    """The map around a case; ``done`` is called with 1 after each cell."""
+def pretension_map(
+    case: Case, pretensions: Array, speeds: Array, done: Done = lambda cells: None
+) -> PretensionMap:
+    """The map around a case; ``done`` is called with 1 after each cell.
+
+    >>> from cosim import case_of, pretension_map, read_scenario
+    >>> found = pretension_map(case_of(read_scenario("study")), [0.0, 0.03], [0.15])
+    >>> (found.growth < 1.0).tolist()
+    [[False], [True]]
+    """
     growth = np.full((len(pretensions), len(speeds)), np.nan)
     sticks = growth.copy()
     for j, speed in enumerate(speeds):
@@ -141,8 +154,16 @@ class RegimeMap:
     closed_form_borders: dict[str, Array]
 
 
-def regime_map(case: Case, ratios: Array, speeds: Array, done: Done) -> RegimeMap:
-    """The map around a case, whose mu_k is kept; ``done`` is called with 1 after each cell."""
+def regime_map(
+    case: Case, ratios: Array, speeds: Array, done: Done = lambda cells: None
+) -> RegimeMap:
+    """The map around a case, whose mu_k is kept; ``done`` is called with 1 after each cell.
+
+    >>> from cosim import case_of, read_scenario, regime_map
+    >>> found = regime_map(case_of(read_scenario("study")), [1.3], [0.05, 2.0])
+    >>> found.simulated["rest"].tolist()
+    [['stick-slip', 'sliding']]
+    """
     simulated = np.full((len(MAPPED), len(ratios), len(speeds)), "", dtype=object)
     closed = simulated.copy()
     known = is_coulomb_oscillator(case.parameters)

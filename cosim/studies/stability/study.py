@@ -12,14 +12,14 @@ from typing import Any
 
 import numpy as np
 from stickslip.steady_motion import numbers as rig
-from stickslip.steady_motion.borders import FARTHEST, all_borders, follower
+from stickslip.steady_motion.borders import COUNT, FARTHEST, all_borders, follower
 from stickslip.steady_motion.regimes import STICK_SLIP
 from stickslip.steady_motion.starts import RAMP, REST, STARTS, disturbed, other_starts
 
 from ...report.files import plain_data, write_json
 from ...report.page import PageResult, Picture, render, sentences, texts, tiles_of
 from ...report.run_text import border_sentence, regime_sentence, stability_sentence
-from ...scenario import Scenario
+from ...scenario import Scenario, as_scenario
 from . import maps
 from .maps import MAPPED, Case, NotAMotion, PretensionMap, RegimeMap, run_length
 
@@ -86,9 +86,12 @@ def _windows(lowest: str, borders: list[tuple[float, str]]) -> list[Window]:
 
 
 def range_sentence(found: dict[str, Any]) -> str:
-    """The answer in a line: "... sticks and slips from rest up to 0.1812 m/s; riding ..."."""
+    """The answer in a line: "... sticks and slips from rest up to 0.181 m/s; riding ..."."""
     return " ".join(sentences(_text().range(found)))
 
+
+#: Steps of `stick_slip_range`, as many as there mostly are: values tried and a border's halvings.
+STEPS = len(MAPPED) * (COUNT + 8)
 
 RESULT, PAGE = "stability.json", "report.html"
 #: Speeds of the maps as parts of the scenario's, its pretensions as parts of a spring's length, and
@@ -145,7 +148,7 @@ class Stability(PageResult):
         return [*first, *(speaks(numbers) for speaks in told)]
 
 
-def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stability:
+def stability(scenario: Scenario | str | Path, *, grid: int = 0, border: str = "") -> Stability:
     """Which steady motions a rig has, which of them it can keep to, and where stick-slip stops.
 
     grid : points a side of each map, at least 2; 0 for none
@@ -154,14 +157,14 @@ def stability(scenario: Scenario, *, grid: int = 0, border: str = "") -> Stabili
 
     Raises NotAMotion, in one line, where there is nothing to be assessed.
 
-    >>> from cosim import read_scenario, stability
-    >>> found = stability(read_scenario("study").changed(run_duration=20.0))
+    >>> from cosim import stability
+    >>> found = stability("study")
     >>> found.summary()["name"], found.save("results/stability").name
     ('study', 'stability')
     """
     if grid < 0 or grid == 1:
         raise NotAMotion(f"grid = {grid}: must be at least 2, or 0 for none")
-    found = Stability(maps.case_of(scenario))
+    found = Stability(maps.case_of(as_scenario(scenario)))
     if border:
         found.stick_slip = stick_slip_range(found.case, border)
     if grid:
@@ -190,13 +193,17 @@ def headline(found: Stability) -> str:
 
 
 def page(found: Stability, command: str = "") -> tuple[str, list[Picture]]:
-    """HTML of the numbers and what they say, the first of it first; and the maps."""
-    from .figures import draw_pretension_map, draw_regime_map
+    """HTML of the numbers and what they say, the first of it first; and its pictures."""
+    from .figures import draw_pretension_map, draw_range, draw_regime_map
 
     # the heading is one sentence, and what it goes on with stands below
     first, *others = found.sentences
     sentence, *rest = re.split(r"(?<=\.) (?=[A-Z])", first, maxsplit=1)
-    pairs = ((draw_pretension_map, found.pretension), (draw_regime_map, found.regimes))
+    pairs: Any = (
+        (draw_range, found.stick_slip),
+        (draw_pretension_map, found.pretension),
+        (draw_regime_map, found.regimes),
+    )
     pictures = [draw(drawn, found.case) for draw, drawn in pairs if drawn is not None]
     html = render(
         "stability.html.j2", __package__ or "", numbers=found.summary(), sentence=sentence,

@@ -47,6 +47,10 @@ class Sweep(xr.Dataset, Result):  # type: ignore[no-untyped-call]
 
     __slots__ = ()
 
+    def __repr__(self) -> str:
+        with xr.set_options(display_expand_attrs=False):  # type: ignore[no-untyped-call]
+            return super().__repr__()
+
     def summary(self) -> dict[str, Any]:
         """Every run, as `--json` has them; NaN is None."""
         return summary({"": self})

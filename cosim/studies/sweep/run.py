@@ -20,7 +20,7 @@ from stickslip import Parameters
 
 from cosim.files import OutputError, OutputRefused, writable, write_text
 from cosim.report.files import provenance
-from cosim.scenario import Scenario
+from cosim.scenario import Scenario, read_scenario
 
 from .axis import SweepError
 from .combination import COMPLETE, ERROR, STATUS_MEANINGS, Row, SweepStopped, Work, model_version
@@ -68,7 +68,7 @@ class Store:
 
 
 def sweep(
-    parameters: Parameters | Sequence[Scenario],
+    parameters: Parameters | Sequence[Scenario] | str | Path,
     vary: Mapping[Any, Sequence[Any]],
     *,
     coupled: bool | None = None,
@@ -83,8 +83,8 @@ def sweep(
 
     Parameters
     ----------
-    parameters : the case that is varied: mechanics, or a scenario, or several of them, which are
-        then an axis of their own
+    parameters : the case that is varied: mechanics, or a scenario (or the name of a packaged one,
+        or a TOML file), or several of them, which are then an axis of their own
     vary : `block.key` -> values; a tuple of keys -> tuples of values for keys that go together;
         `belt.layers[2].conductivity` for the second table of a list
     coupled : whether every run is coupled to the heat in belt and ice; left out, it is where a key
@@ -105,6 +105,8 @@ def sweep(
     >>> bool(done.x_mean[1] > 2.5 * done.x_mean[0])
     True
     """
+    if isinstance(parameters, (str, Path)):
+        parameters = read_scenario(parameters)
     given = {"duration": duration, "output_interval": output_interval}
     times = {name: value for name, value in given.items() if value is not None}
     grid = product_grid(parameters, vary, coupled, **times)

@@ -11,16 +11,15 @@ from cosim.names import unknown_name
 from cosim.report.columns import Column, Columns
 from cosim.report.live import Curve, Panel, TimeFigure
 from cosim.report.page import Picture, number, unit_text
-from cosim.report.palette import BLUE, INK, SERIES, Scaled, readable
+from cosim.report.palette import BLUE, INK, SERIES
 from cosim.report.style import displayed, draw_over_time, picture_over_time, shown
 from cosim.systems.run import SystemRun
 from cosim.systems.show.diagram import chart
+from cosim.systems.show.page import scale
 from cosim.systems.show.summary import is_rounding
 
 #: Panels of the first figure, and of the one below with the others, of which the first are drawn.
 FIRST_PANELS, MOST_PANELS = 4, 24
-#: Units that a prefix is put before.
-PREFIXED = ("m", "s", "N", "J", "W", "Pa", "A", "V", "rad", "m/s", "m/s2", "rad/s", "N.m", "J/kg")
 #: Change of a signal that is none, as a part of it.
 NOTHING = 1e-6
 #: Figures over time: caption, and what a reader hears who does not see it.
@@ -83,7 +82,7 @@ def _signal(columns: Columns, name: str) -> Panel:
     values, unit = columns[name].values, columns[name].attrs["units"]
     if is_rounding(columns, name):
         values = np.zeros_like(values)  # of a figure that has nothing else
-    scaled = readable(values, unit) if unit in PREFIXED else Scaled(1.0, unit)
+    scaled = scale(values, unit)
     least = NOTHING * scaled.factor * float(np.max(np.abs(values)))
     told = unit_text(scaled.unit)
     label = name if told == NO_UNIT else f"{name} [{told}]"

@@ -1,10 +1,14 @@
 """The page of a system's run."""
 
+import math
 from collections.abc import Mapping, Sequence
 from datetime import datetime
 from functools import cache
 from pathlib import Path
 from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from cosim.coupling import Affine
 from cosim.coupling.conversion import NO_UNIT
@@ -12,6 +16,7 @@ from cosim.report.coupling import doubts as doubts
 from cosim.report.coupling import step_rows as step_rows
 from cosim.report.files import results_line
 from cosim.report.page import Picture, number, render, sentences, texts, tiles_of, unit_text
+from cosim.report.palette import Scaled, readable
 from cosim.systems.show.summary import column
 
 #: Remarks that the terminal shows.
@@ -21,8 +26,10 @@ PICTURES = ("signals", "system", "more_signals", "energy", "steps")
 #: Part of the energy handed over that may be missing where all of it was taken up.
 TAKEN_UP = 1e-9
 #: Signals of the headline; change of one that stays, of its size; and by how much of its range one
-#: that swings leaves what is between its start and its end.
-MOST_SIGNALS, STAYS, SWINGS = 3, 1e-6, 0.01
+#: that swings leaves what is between its start and its end; digits of that range.
+MOST_SIGNALS, STAYS, SWINGS, DIGITS = 3, 1e-6, 0.01, 3
+#: Units that a prefix is put before.
+PREFIXED = ("m", "s", "N", "J", "W", "Pa", "A", "V", "rad", "m/s", "m/s2", "rad/s", "N.m", "J/kg")
 OWN_FILES = {
     "result.nc": "everything, with units: netCDF 4, for xarray, ParaView, Matlab",
     "result.csv": "all time series as a table with a header, digits in full",
@@ -91,11 +98,22 @@ def _way(name: str, output: Mapping[str, Any]) -> str:
         return ""
     if high - low <= STAYS * max(abs(low), abs(high)):
         return ""
-    unit = "" if output["unit"] == NO_UNIT else f" {unit_text(output['unit'])}"
+    scaled = scale(np.array([low, high]), output["unit"])
+    unit = "" if output["unit"] == NO_UNIT else f" {unit_text(scaled.unit)}"
+    decimals = DIGITS - 1 - math.floor(math.log10(scaled.factor * (high - low)))
+
+    def told(value: float) -> str:
+        return number(round(scaled.factor * value, decimals), 2 * DIGITS)
+
     beyond = max(high - max(start, end), min(start, end) - low)
     if beyond > SWINGS * (high - low):
-        return f"{name} is between {number(low)} and {number(high)}{unit}"
-    return f"{name} goes from {number(start)} to {number(end)}{unit}"
+        return f"{name} is between {told(low)} and {told(high)}{unit}"
+    return f"{name} goes from {told(start)} to {told(end)}{unit}"
+
+
+def scale(values: NDArray[np.float64], unit: str) -> Scaled:
+    """The readable unit of a signal that has one."""
+    return readable(values, unit) if unit in PREFIXED else Scaled(1.0, unit)
 
 
 def energies(numbers: Mapping[str, Any]) -> tuple[float, list[float]]:

@@ -41,7 +41,7 @@ def test_a_new_scenario_is_as_one_that_says_nothing_on_a_belt_for_its_block(caps
     """The published belt is narrower than the published block."""
     assert (
         printed(capsys, "new", "cold room")
-        == "cold room.toml: stickslip simulate 'cold room.toml'\n"
+        == "cold room.toml: change it, then stickslip run 'cold room.toml'\n"
     )
     Path("bare.toml").write_text('name = "cold room"')
     case = read_scenario("cold room.toml")
@@ -97,12 +97,18 @@ def test_keys_are_all_there_are_with_their_defaults(capsys):
     assert {"belt.layers[].thickness", "name", "defaults"} <= set(told)
 
 
+def test_a_new_scenario_is_found_without_its_suffix_by_a_hint(capsys):
+    assert main(["new", "mine"]) == 0
+    assert "(did you mean mine.toml?)" in refusal(capsys, "simulate", "mine")
+
+
 def test_a_word_finds_keys_by_name_or_else_by_meaning(capsys):
     out = printed(capsys, "keys", "spring_natural")
     assert out.startswith("rig.spring_natural_length = 0.17 m (plain: 0.2), allowed is a number")
     assert "left out, 0.85 of rig.spring_length" in out
     assert "rig.spring_natural_length" in printed(capsys, "keys", "pretension")
     assert "belt.layers[].density (must be given)" in printed(capsys, "keys", "layers")
+    assert "0 N s/m, allowed is a number at least 0 N s/m" in printed(capsys, "keys", "film_drag.c")
     assert "nearest: 'springs.stiffness'" in refusal(capsys, "keys", "springs.stifness")
 
 

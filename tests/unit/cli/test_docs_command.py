@@ -55,7 +55,7 @@ def test_a_checkout_builds_it_once(nowhere, capsys):
 
 def test_where_it_can_be_neither_found_nor_built_one_line_says_what_to_do(nowhere, capsys):
     line = refusal(capsys, "docs")
-    assert "neither installed nor in a checkout" in line
+    assert "is neither installed, as" in line and "where tests/docs is" in line
 
 
 def test_what_building_lacks_is_named_with_the_remedy(nowhere, capsys, monkeypatch):

@@ -2,6 +2,7 @@
 
 import json
 import logging
+import sys
 from pathlib import Path
 
 import pytest
@@ -14,6 +15,7 @@ from cosim.cli.arguments import parser
 from cosim.cli.bar import Bar
 from cosim.cli.console import note, saying
 from cosim.cli.scenarios import note_taken
+from cosim.fmu.libraries import WAITING
 from cosim.scenario import read_scenario
 
 SHORT = "[run]\nduration = 0.5\n"
@@ -98,6 +100,14 @@ def test_what_compiles_says_so_before_it_begins(case, not_compiled, capsys, monk
     vars(CATALOGUE).pop("compiled", None)
     assert main(["simulate", case, "-o", "again"]) == 0
     assert "compiling" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("watched", [True, False])
+def test_what_a_terminal_waits_for_is_said_there_alone(watched, capsys, monkeypatch):
+    monkeypatch.setattr(sys.stderr, "isatty", lambda: watched)
+    with saying(quiet=False, verbose=False):
+        logging.getLogger("cosim.fmu.libraries").log(WAITING, "compiling")
+    assert capsys.readouterr().err == ("note: compiling\n" if watched else "")
 
 
 def test_quiet_does_not_say_what_compiles_and_python_does(case, not_compiled, capsys, caplog):

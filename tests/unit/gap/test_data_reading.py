@@ -177,9 +177,9 @@ def test_a_place_beyond_all_numbers_is_missing(tmp_path):
 
 
 BAD_DATA = {
-    "x in mm": (scaled("x", 1e3), r"column x: swings by .* metres \(are these millimetres\?"),
-    "x in cm": (scaled("x", 1e2), r"column x: swings by .*are these centimetres\?"),
-    "y in um": (scaled("y", 1e6), r"column y: swings by .*are these micrometres\?"),
+    "x in mm": (scaled("x", 1e3), r"column x: swings by .* \(are these mm\? then units\.x = .mm."),
+    "x in cm": (scaled("x", 1e2), r"column x: swings by .*are these cm\?"),
+    "y in um": (scaled("y", 1e6), r"column y: swings by .*are these um\? then units.y"),
     "t in ms": (scaled("t", 1e3), r"column t: 10 s between samples.*are these milliseconds\?"),
     "t / 1000": (scaled("t", 1e-3), r"column t: covers 0.01 s.*thousandths of seconds"),
     "no x": (lambda c: {"t": c["t"], "y": c["y"]}, r"column x: missing \(there: t, y\), allowed"),

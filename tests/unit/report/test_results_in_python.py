@@ -7,6 +7,8 @@ import xarray as xr
 
 from cosim import (
     compare,
+    friction_map,
+    how_long,
     read_result,
     read_scenario,
     reproduce,
@@ -70,6 +72,21 @@ def test_a_scenario_is_looked_at_in_twenty_lines():
     assert "<table>" in scenario._repr_html_()
     assert not [name for name in dir(scenario) if name.startswith("model_")]
     assert "rig" in dir(scenario) and "mass" in dir(scenario.rig)
+    assert "structural_damping.coefficient = 0.07 N s/m" in repr(read_scenario("reference"))
+    with pytest.raises(AttributeError, match=r"Surface\.speed: .*scenario\.changed\("):
+        scenario.surface.speed = 0.3
+
+
+@pytest.mark.parametrize("scenario", ["study", read_scenario("study")])
+def test_every_study_takes_a_scenario_by_its_name(scenario):
+    assert simulate_scenario(scenario).scenario.name == "study"
+    assert stability(scenario).case.name == "study"
+    assert how_long(scenario, samples=0).scenario.startswith('name = "study"')
+    swept = sweep(scenario, {"surface.speed": [0.1]}, duration=1.0, jobs=1)
+    assert swept.attrs["scenario"].startswith('name = "study"')
+    assert len(repr(swept).splitlines()) <= 20
+    (point,) = friction_map(scenario, [0.1], [-8.0], duration=0.5).points
+    assert point.speed == pytest.approx(0.1)
 
 
 def test_keywords_change_a_scenario_as_keys_do():

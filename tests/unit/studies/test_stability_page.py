@@ -8,7 +8,7 @@ import pytest
 from cosim import read_scenario
 from cosim.report.style import shown
 from cosim.studies.stability import maps, study
-from cosim.studies.stability.figures import draw_regime_map
+from cosim.studies.stability.figures import draw_range, draw_regime_map
 from cosim.studies.stability.maps import PretensionMap
 from cosim.studies.stability.study import range_sentence
 
@@ -43,6 +43,21 @@ def test_the_drawn_borders_are_these(regimes):
     assert "Dots: borders" in draw_regime_map(regimes, CASE).caption
 
 
+def test_a_range_is_drawn_as_it_is_said():
+    windows = {"ramp": [(None, 0.157), (0.3, None)], "rest": []}
+    found = {"key": "surface.speed", "unit": "m/s", "value": 0.15, "searched": [0.015, 1.5]}
+    (axes,) = shown(draw_range, found | {"stick_slip": windows}, CASE).axes
+    bars = [(bar.get_y() + 0.3, bar.get_x(), bar.get_x() + bar.get_width()) for bar in axes.patches]
+    whole, of_ramp = (0.015, 1.5), [(0.015, 0.157), (0.3, 1.5)]
+    expected = [(0.0, *each) for each in (whole, *of_ramp)] + [(1.0, *whole)]
+    assert np.array(bars) == pytest.approx(np.array(expected))
+    assert [label.get_text() for label in axes.get_yticklabels()] == [
+        "from a speed ramp",
+        "from rest",
+    ]
+    assert axes.lines[0].get_xdata()[0] == 0.15
+
+
 def test_one_sentence_then_a_picture_then_four_figures():
     regime = dict(name="stick-slip", frequency=1.7, slip_share=0.9)
     regime |= dict(mean_x=0.01, half_range_x=0.01, max_y=0.0, max_rotation_deg=0.0)
@@ -56,7 +71,8 @@ def test_one_sentence_then_a_picture_then_four_figures():
     low = PretensionMap(np.array([0.0]), np.array([0.1]), np.ones((1, 1)), np.ones((1, 1)))
     sentences = ["It is unstable. It is stable from 8.32 mm on.", "More."]
     found = SimpleNamespace(
-        summary=lambda: numbers, sentences=sentences, pretension=low, regimes=None, case=CASE
+        **{"summary": lambda: numbers, "sentences": sentences, "case": CASE},
+        **{"stick_slip": None, "pretension": low, "regimes": None},
     )
     page, _ = study.page(found)
     assert "<h1>It is unstable.</h1>" in page
@@ -74,7 +90,7 @@ def test_one_sentence_then_a_picture_then_four_figures():
     windows = {"ramp": [(None, 0.15708)], "rest": [(None, 0.18)]}
     numbers["stick_slip_range"] = {"key": "surface.speed", "unit": "m/s", "stick_slip": windows}
     first, *others = study.tiles(found)
-    assert first == ("surface.speed above which stick-slip stops", "0.1571 m/s")
+    assert first == ("surface.speed above which stick-slip stops", "0.157 m/s")
     assert len(others) == 3
 
 

@@ -63,7 +63,7 @@ def test_the_unit_of_an_entry_of_a_list_is_told(coupled):
 def test_what_does_not_vary_is_told_and_not_drawn(coupled):
     drawn, still = result.shown_features(coupled)
     assert "interface_rise" in drawn and "x_mean" in still and "phi_max" in still
-    assert "largest |φ| 0 °" in result.still_sentence(coupled, still)
+    assert "largest rotation 0 °" in result.still_sentence(coupled, still)
     never = coupled[["frequency"]] * 0.0
     assert result.still_sentence(never, ["frequency"]) == "The same in all runs: no stick-slip."
     assert result.shown_features(coupled, ["x_mean", "heat"]) == (["x_mean", "heat"], [])

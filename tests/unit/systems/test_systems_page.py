@@ -9,6 +9,7 @@ from lag_unit import lag_unit
 from cosim.cli import main
 from cosim.report.columns import Column, Columns
 from cosim.systems.show.figures import signals
+from cosim.systems.show.page import ways
 
 TIME = np.linspace(0.0, 1.0, 11)
 PAIR = """
@@ -107,9 +108,23 @@ def test_a_run_that_left_its_rig_is_not_simply_complete(pair, port, says):
 def test_a_sentence_a_picture_and_four_figures_come_first(pair):
     numbers, page = pair()
     end = numbers["outputs"]["rig.y"]["end"]
-    assert f"<h1>In 1 s rig.y goes from 0 to {end:.4g} and rig.taken" in page
+    assert f"<h1>In 1 s rig.y goes from 0 to {end:.3g} and rig.taken" in page
     places = [page.index(each) for each in ("<h1>", "<figure", 'class="tiles"', "<h2")]
     assert places == sorted(places)
     assert "2 coupled units ran for 1 s in 10 steps." in page
     tiles = page[places[2] : page.index('<p class="soft">From')]
     assert tiles.count("<b>") == 4
+
+
+@pytest.mark.parametrize(
+    "unit, start, end, low, high, way",
+    [
+        ("m", 0.0, 0.0094, -1.295e-5, 0.03148, "is between 0 and 31.5 mm"),
+        ("degC", -8.0, -7.937321, -8.0, -7.937321, "goes from −8 to −7.9373 °C"),
+        ("1", 0.0, 24123.4, 0.0, 24123.4, "goes from 0 to 24100"),
+    ],
+)
+def test_the_headline_has_digits_by_the_range_and_readable_units(unit, start, end, low, high, way):
+    output = {"start": start, "end": end, "lowest": low, "highest": high, "unit": unit}
+    numbers = {"outputs": {"a.x": output | {"rounding": False}}, "connections": []}
+    assert ways(numbers) == [f"a.x {way}"]
