@@ -345,7 +345,7 @@ def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:
 
     Also what these runs would too often call by this name, if it explains them nearly as well.
     """
-    confused = confirmed(rates, name)[1:] if rates is not None else ()
+    confused = confirmed(rates, finding.name)[1:] if rates is not None else ()
     near = sorted(finding.others, key=lambda other: -finding.others[other])
     return (
         name,

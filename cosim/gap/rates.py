@@ -164,7 +164,7 @@ def rates_of(
     """What this design would say of every finding, of what might stand in its place, of nothing.
 
     unknowns : of `Arguments`. Each finding is asked beside the others; the same seed draws the same
-    campaigns.
+    campaigns. Names are those of the ladder (`by_direction`).
     """
     table: dict[str, dict[str, int]] = {}
     random = np.random.default_rng(seed)
@@ -180,7 +180,8 @@ def rates_of(
         answers = decision.decided(decision.projected(rows)).answers()
         for place, (truth, _) in enumerate(truths):
             table.setdefault(truth, counted(answers[place * each : (place + 1) * each]))
-    return Rates(each, table)
+    known = {finding.name for finding in ladder.findings} | set(ladder.first_offers)
+    return by_direction(Rates(each, table), known)
 
 
 def _truths(

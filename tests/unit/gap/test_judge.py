@@ -120,6 +120,15 @@ def test_what_the_design_confuses_is_told_apart_by_four_hundred_to_one(less, ver
     assert (found.verdict, found.effects) == verdict
 
 
+def test_the_table_of_confusions_is_asked_by_the_finding_s_name():
+    """Not by that of the user's own law which follows its curve: no drawn campaign has it."""
+    rates = Rates(50, {"run_in": {"run_in": 50}, "film_drag": {"run_in": 20, "film_drag": 30}})
+    ladder = [rung(9.0, 5.0), rung(9.0, 1.0, 1.0)]
+    one = finding("run_in", film_drag=-5.9)
+    found = judge([one], ["my_wear"], ladder, {*PHYSICS, "my_wear"}, rates)
+    assert (found.verdict, found.effects) == ("class", ("my_wear", "film_drag"))
+
+
 @pytest.mark.parametrize(
     ("low", "before", "strained"),
     [(0.045, 1.4, True), (0.035, 1.4, False), (0.045, 1.2, False)],
