@@ -27,7 +27,7 @@ from cosim.gap.plan.next_run import NextRun
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.ladder import Finding, Search, _is_better
+from cosim.gap.weak_form.ladder import BY_SPEED, FALLS, GROWS, Finding, Search, _is_better
 from cosim.gap.weak_form.unknowns import Unknown
 from cosim.gap.windows.numbers import Number
 
@@ -294,12 +294,37 @@ def test_what_has_no_name_goes_for_a_name_that_is_as_probable(old, new, gained, 
         # where nuisances take all misfit it is told by evidence
         ({"a": (90.0, 0.0), "b": (12.1, 0.0)}, "ab"),
         ({"a": (90.0, 0.0), "b": (11.9, 0.0)}, "a"),
+        # what has no name, and a fault, e^3 more, also where it is asked whether it stays
+        ({"a": (90.0, 1.0), "other.b": (8.9, 1.0)}, ("a",)),
+        ({"a": (90.0, 1.0), "other.b": (9.1, 1.0)}, ("a", "other.b")),
         # more than three are no explanation
         ({name: (90.0 - at, 1.0) for at, name in enumerate("abcd")}, "abc"),
     ],
 )
 def test_what_rows_ask_for(unknowns, found):
     assert climbed(**unknowns) == list(found)
+
+
+@pytest.mark.parametrize(("ends", "offered"), [((1.0, 1.0), []), ((1.0, -1.0), ["falls"])])
+def test_what_grows_with_the_speed_is_found_once(ends, offered):
+    """As a force or as a coefficient: with the one found, the other is no second effect."""
+    force, coefficient = (SimpleNamespace(name=name) for name in BY_SPEED)
+
+    class Speeds:
+        added, evidence = (), 0.0
+        system = SimpleNamespace(offers={})
+
+        def offered(self, variants):
+            return 9.0, variants[0]
+
+        def with_more(self, more):
+            end = ends[BY_SPEED.index(more[0].name)]
+            return SimpleNamespace(posterior=([np.array([end])],), part_of=lambda one: 0)
+
+    search = Search(Speeds.system, {one.name: [one] for one in (force, coefficient)}, ())
+    names = {GROWS: "grows", FALLS: "falls"}
+    assert set(search.offers(Speeds())) == {GROWS, *([FALLS] if offered else [])}
+    assert [names[name] for name in search.offers(Speeds(), [GROWS])] == offered
 
 
 def test_what_moves_the_block_across_has_a_name_and_no_curve():
