@@ -356,6 +356,18 @@ def test_nothing_else_is_missing_of_what_all_is_explained(share, said):
     assert sentence_of(gap, [Part(finding("run_in"))]).endswith(said)
 
 
+@pytest.mark.parametrize("parts", [[], [Part(finding("run_in"))]])
+def test_where_only_a_strained_scatter_explains_the_runs_that_is_said(parts):
+    """No run is off any more: neither "in the runs held out" nor "explains nothing" is so."""
+    gap = SimpleNamespace(
+        verdict="partial" if parts else "unknown", effects=(), exponents=(), classes=(), share=1.0,
+        doubts=(Doubt("scatter", "friction scatters ...", (), False),), ladder=[rung(1.0, 1.0)],
+        extended=SimpleNamespace(values={}),
+    )  # fmt: skip
+    said = "something differs between the runs by more than friction is stated to scatter."
+    assert sentence_of(gap, parts).endswith(said)
+
+
 @pytest.mark.parametrize(("separation", "hardly"), [(2.9, True), (3.1, False)])
 def test_a_run_that_hardly_tells_is_said_to(separation, hardly):
     text = NextRun(0.1, 1.0, 20.0, 10.0, ("run_in", "film_drag"), separation, 0.0).text
