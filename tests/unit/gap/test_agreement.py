@@ -61,7 +61,7 @@ def agreed(
 
     reached : gap at the end of ladders, of all findings where two; halved : what the contact
     leaves, without and with; felt, lost : what findings do by themselves; sooner : by which a
-    contact lets go, s; nearer : ln of that gain that is no scatter's
+    contact lets go, s; nearer : ln of that gain that is no scatter's, or by what the model has
     """
     monkeypatch.setattr(agreement.Naming, "of", lambda campaign: rows)
     monkeypatch.setattr(fitting, "part_of", lambda campaign, system, rung, one, law: part(one))
@@ -89,7 +89,7 @@ def agreed(
             return form - (gained[over.finding.name] if over else 0.0)
 
         def nearer(self, part):
-            return nearer
+            return nearer[next(iter(part.settings))] if isinstance(nearer, dict) else nearer
 
         def promised(self, parts):
             return [rows.promises.get(part.finding.name) for part in parts]
@@ -407,7 +407,7 @@ def test_a_lesser_finding_is_asked_again_beside_what_is_found(monkeypatch, gain,
     """That may be what the rows took it for: here simulated runs no longer miss it."""
     rows = Rows(finding("run_in", gain), offers=[finding("film_drag", 40.0)])
     gains = iter([30.0, 30.0, 0.0])  # of run_in, alone and beside film_drag
-    monkeypatch.setattr(Fitting, "gained", lambda self, part, without, named: next(gains))
+    monkeypatch.setattr(Fitting, "gained", lambda self, part, *beside: (next(gains), part))
     monkeypatch.setattr(rejection, "_makes_up", lambda *given: True)
     found, rejected = agreed(monkeypatch, rows, {"film_drag": 60.0, "run_in": 30.0})
     assert [one.effect for one in rejected[:1]] == ["run_in"] * asked
@@ -552,7 +552,21 @@ def test_another_form_of_a_law_is_tried_where_runs_are_of_two_minds(
     campaign = SimpleNamespace(catalogue=SimpleNamespace(effects=()))
     without = SimpleNamespace(gained=lambda part: gains[part.fits[0].candidate.form])
     tried, named = Part(finding(own, 10.0), None, tuple(forms)), Named(None, (), None, None, {})
-    assert Fitting(campaign, lambda: None, 1).gained(tried, without, named) == gained
+    found, form = Fitting(campaign, lambda: None, 1).gained(tried, without, named)
+    assert found == gained and (form is not tried) == (found != first)
+
+
+@pytest.mark.parametrize(("nearer", "named"), [(3.1, ["run_in"]), (2.9, [])])
+def test_distances_are_asked_of_the_law_that_simulated_runs_ask_for(monkeypatch, nearer, named):
+    """The first of its laws gains nothing, and comes no nearer."""
+
+    def asked(self, part, *beside):
+        return 40.0, replace(part, settings={"form": 1.0})
+
+    monkeypatch.setattr(Fitting, "gained", asked)
+    monkeypatch.setattr(rejection, "_makes_up", lambda *given: True)
+    rows, by_law = Rows(finding("run_in", 20.0)), {"form": nearer, "on": 0.0}
+    assert agreed(monkeypatch, rows, {"run_in": 0.0}, nearer=by_law)[0] == named
 
 
 @pytest.mark.parametrize("check", ["units", "direction", "sampling", "springs", "speed"])
