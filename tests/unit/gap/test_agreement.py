@@ -180,6 +180,7 @@ DECIDED = [
     ({"load_dependence": 30.0}, 30.0, {"reached": (1.17, 1.17), "halved": (2.0, 1.48)}, 1),
     ({"load_dependence": 30.0}, 30.0, {"reached": (1.17, 1.17), "halved": (2.0, 1.6)}, 0),
     ({"static_strengthening": 11.0}, 20.0, {"lost": True}, 0),
+    ({"load_dependence": 11.0}, 900.0, {"lost": True}, 0),
     # what no effect stands for beside a greater finding is asked of runs that it explains
     (DRIFT, None, {"reached": (1.29, 1.0), "halved": (1.4, 1.0)}, 1),
     (DRIFT, None, {"reached": (1.31, 1.0), "halved": (1.4, 1.0)}, 2),
@@ -223,6 +224,7 @@ def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monke
     [
         (30.0, -2.9, 14.1, -2.9),  # a class, which simulated runs do not tell apart
         (30.0, -2.9, 13.9, -6.1),
+        (30.0, -2.9, 20.1, -2.9),  # or prefer, who would be as probable
         (30.0, -3.1, 19.9, -3.1),
         (30.0, -3.1, 14.1, -3.1),
         (30.0, -3.1, 13.9, -6.1),  # nor can noise confuse what simulated runs tell apart
@@ -272,6 +274,30 @@ def test_nothing_is_doubted_where_three_findings_leave_twice_the_noise(
     rows = Rows(*(finding(*each) for each in gains.items()), most=3, left=left)
     found, _ = agreed(monkeypatch, rows, dict.fromkeys(gains, 0.0), reached=reached)
     assert len(found) == names
+
+
+def test_two_findings_are_doubted_however_much_they_leave(monkeypatch):
+    """Without the one that is none they are one finding, which may be named."""
+    rows = Rows(finding("run_in", 900.0), finding("film_drag", 200.0), most=2, left=2.1)
+    found, _ = agreed(monkeypatch, rows, {"run_in": 900.0, "film_drag": 0.0}, reached=1.11)
+    assert found == ["run_in"]
+
+
+@pytest.mark.parametrize(("gained", "asked"), [(499.0, 2), (501.0, 3)])
+def test_lesser_findings_go_at_once_where_the_greatest_explains_the_runs(
+    monkeypatch, gained, asked
+):
+    """But where simulated runs are sure of one: then they are asked one by one."""
+    gains = {"run_in": 2.0 * SURE, "film_drag": 200.0, "surface_pattern": 100.0}
+    rows = Rows(*(finding(*each) for each in gains.items()), most=3)
+    agreed(monkeypatch, rows, {"run_in": 900.0, "film_drag": gained, "surface_pattern": 0.0})
+    assert len(rows.asked[1]) == 4 - asked
+
+
+def test_ageing_is_not_asked_for_beside_another_finding(monkeypatch):
+    rows = Rows(finding("run_in", 2.0 * SURE), offers=[finding("static_strengthening", 0.1)])
+    gains = {"static_strengthening": 900.0}
+    assert agreed(monkeypatch, rows, gains, sooner=0.02, nearer=20.0)[0] == ["run_in"]
 
 
 @pytest.mark.parametrize(

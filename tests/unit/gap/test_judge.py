@@ -172,6 +172,18 @@ def test_what_scatter_alone_explains_is_not_named(share, verdict):
     assert judge([], [], ladder, PHYSICS, strained=True).verdict == "unknown"
 
 
+@pytest.mark.parametrize(
+    ("held_out", "share", "verdict"),
+    [((1.0, 1.01), 0.81, "named"), ((1.0, 1.01), 0.79, "unknown"), ((None, None), 1.0, "unknown")],
+)
+def test_noise_before_and_after_is_no_worse_in_runs_held_out(held_out, share, verdict):
+    """Where most of what fitted runs miss is gone; without any held out these must get better."""
+    before, after = held_out
+    fit = (1.2, 1.1) if before else (0.99, 1.0)
+    ladder = [rung(fit[0], before), rung(fit[1], after, share)]
+    assert judge([finding("run_in")], ["run_in"], ladder, PHYSICS).verdict == verdict
+
+
 def test_fitted_runs_judge_where_none_is_held_out():
     ladder = [rung(9.0, None), rung(1.0, None, 1.0)]
     assert judge([finding("run_in")], ["run_in"], ladder, PHYSICS).verdict == "named"
@@ -294,6 +306,12 @@ def test_what_has_no_name_goes_for_a_name_that_is_as_probable(old, new, gained, 
         # where nuisances take all misfit it is told by evidence
         ({"a": (90.0, 0.0), "b": (12.1, 0.0)}, "ab"),
         ({"a": (90.0, 0.0), "b": (11.9, 0.0)}, "a"),
+        # a trend over the runs, which scatter takes up, by evidence alone; also behind a better one
+        ({"a": (90.0, 1.0), "load_dependence": (20.0, 0.0)}, ("a", "load_dependence")),
+        (
+            {"a": (90.0, 1.0), "b": (50.0, 0.1), "load_dependence": (20.0, 0.0)},
+            ("a", "load_dependence"),
+        ),
         # what has no name, and a fault, e^3 more, also where it is asked whether it stays
         ({"a": (90.0, 1.0), "other.b": (8.9, 1.0)}, ("a",)),
         ({"a": (90.0, 1.0), "other.b": (9.1, 1.0)}, ("a", "other.b")),
