@@ -65,8 +65,8 @@ def option_of_wave(
 ) -> Option:
     """A wave at its wave length alone, with the price of the scan that finds it."""
     factor = block_diag(*(factor_of(each, len(system.fitted)) for each in added))
-    count = periodic.wavenumbers_of(system.fitted, added[0].unknown.wave.kind).size
-    price = periodic.price_of_scan(count) + price_of(added[0].unknown.name)
+    price = periodic.price_of(added[0].unknown.wave, system.fitted)
+    price += price_of(added[0].unknown.name)
     return Option(tuple(each.unknown for each in added), (factor,), scales, price)
 
 

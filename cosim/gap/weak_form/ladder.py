@@ -229,8 +229,12 @@ class Search:
             rest = [other for other in found if other[0] != name]
             without = self._rung(rest)
             offers = first if not rest else self.offers(without, [n for n, _ in rest])
-            reference = rung.evidence  # others' places and phases are as finely searched
-            if name in offers and name not in {kind.name for kind in self.waves}:
+            reference = rung.evidence
+            if name in {kind.name for kind in self.waves}:
+                # it has been moved on since it was offered; its scan was as long
+                wave = added[0].unknown.wave
+                reference -= price_of(name) + periodic.price_of(wave, self.system.fitted)
+            elif name in offers:
                 reference = offers[name][0]
             if rest and name in TRENDS:
                 offers = {other: offers[other] for other in TRENDS if other in offers}
