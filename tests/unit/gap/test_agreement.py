@@ -300,6 +300,19 @@ def test_ageing_is_not_asked_for_beside_another_finding(monkeypatch):
     assert agreed(monkeypatch, rows, gains, sooner=0.02, nearer=20.0)[0] == ["run_in"]
 
 
+def test_rivals_are_beside_the_law_that_is_named_not_the_first_that_was_tried(monkeypatch):
+    """Runs that only the first law leaves off are none of the rival's."""
+    asked, best = [], Fitting.best_of
+
+    def by_another_law(self, parts, named):
+        return [replace(one, settings={"another": 1.0}) for one in parts], best(self, [], named)[1]
+
+    monkeypatch.setattr(Fitting, "best_of", by_another_law)
+    monkeypatch.setattr(agreement, "rivals_of", lambda fits, parts, *_: asked.append(parts) or {})
+    agreed(monkeypatch, Rows(finding("run_in", 2.0 * SURE)), {"run_in": 900.0})
+    assert [one.settings for one in asked[0]] == [{"another": 1.0}]
+
+
 @pytest.mark.parametrize(
     ("rows", "more", "own", "held_out", "gone"),
     [(-4.0, 499.0, 1.05, 1.0, False), (-4.0, 501.0, 1.05, 1.0, True),
