@@ -1,7 +1,8 @@
 """The verdict, in ten sentences.
 
- 1. Rows of unit noise are made of every run: the equation of motion inside slips, the surface's
-    speed in sticks, the spring force at break-aways (`weak_form`).
+ 1. Rows of unit noise are made of every run, also of those that are held out from fits: the
+    equation of motion inside slips, the surface's speed in sticks, the spring force at break-aways
+    (`weak_form`).
  2. What every rig has unknown is in the rows with its stated error: both coefficients, springs,
     zeros, set-points, the contact's own transition, friction that scatters from run to run.
  3. Whatever friction may depend on is an argument with one free curve; all have the same evidence,
@@ -24,7 +25,7 @@
     single one is doubted.
  7. The kernel is fitted with the findings over windows of three cycles, or up to where a block
     reaches the surface's speed without a stick, and judged in such windows of runs that no fit has
-    seen; 1 is noise.
+    seen, though rows of them have helped to find the name; 1 is noise.
  8. A finding goes, and rows are asked again without it: beside coarse steps, below e^500; below
     e^500 or beside a greater one, if derivatives of the simulated runs ask for it by less than e
     and these are left at 1.1 without any (not ageing, and no trend); the greatest, below e^500, if
