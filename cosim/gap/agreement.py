@@ -100,8 +100,8 @@ def agreement_on(fitting: Fitting, named: Named) -> Agreed | Sequence[Rejected]:
     is_near = judge.explains(models.ladder) and models.is_felt
     if not is_near and (doubted := rejected(fitting, parts, named, along - faint)):
         return [doubted]
-    rivals = rivals_of(fitting, parts, named, models)
-    if doubted := overruled(fitting, parts, named, rivals):
+    rivals = rivals_of(fitting, found, named, models)
+    if doubted := overruled(fitting, found, named, rivals):
         return [doubted]
     named = told_apart(named, rivals)
     found = [replace(part, finding=finding)

@@ -13,7 +13,7 @@ from cosim.gap.fitting import Fitting
 from cosim.gap.judge import explains, is_strained, judge, with_steps
 from cosim.gap.naming import Named, Naming
 from cosim.gap.plan.next_run import next_experiment
-from cosim.gap.rates import by_direction, rates_of
+from cosim.gap.rates import rates_of
 from cosim.gap.report_of_findings import (
     exponents_of,
     law_of,
@@ -99,7 +99,6 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
         verdict = replace(verdict, verdict="unknown", effects=())
     extended = models.fits[-1]
     curves = (law_of(system, rung, part, extended.values.get(HEIGHT, 1.0)) for part in parts)
-    known = {finding.name for finding in ladder.findings} | set(ladder.first_offers)
     gap = Gap(
         campaign=campaign,
         verdict=verdict.verdict,
@@ -120,7 +119,7 @@ def _answer(campaign: Campaign, agreed: Agreed, doubts: Sequence[Doubt]) -> Gap:
         ),
         scatter=models.scatter,
         rig=rig_numbers(campaign, extended),
-        rates=rates and by_direction(rates, known),
+        rates=rates,
         doubts=answered,
         next_experiment=(
             next_experiment(

@@ -62,8 +62,8 @@ class Fitting:
         others = [other for other in parts if other is not part]
         return self.fitted(named, others, is_shown=False, scatters=scatters)
 
-    def gained(self, part: Part, without: Models, named: Named) -> float:
-        """ln of how much more probable simulated runs are with a finding.
+    def gained(self, part: Part, without: Models, named: Named) -> tuple[float, Part]:
+        """ln of how much more probable simulated runs are with a finding, and by which of its laws.
 
         Laws that follow a curve alike move the block differently: where the first brings neither
         enough nor as much less, another form of it counts with which they are much more so.
@@ -73,8 +73,8 @@ class Fitting:
             for form in islice(self.forms(part, named), 1, None):
                 gained = without.gained(form)
                 if judge.much_more(gained):
-                    return gained
-        return first
+                    return gained, form
+        return first, part
 
     def forms(self, part: Part, named: Named) -> Iterator[Part]:
         """A finding by each law of its effect that is nearly as near to its curve."""

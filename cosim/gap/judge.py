@@ -1,51 +1,63 @@
 """The verdict, in ten sentences.
 
- 1. Rows of unit noise are made of every run: the equation of motion inside slips, the surface's
-    speed in sticks, the spring force at break-aways (`weak_form`).
+ 1. Rows of unit noise are made of every run, also of those that are held out from fits: the
+    equation of motion inside slips, the surface's speed in sticks, the spring force at break-aways
+    (`weak_form`).
  2. What every rig has unknown is in the rows with its stated error: both coefficients, springs,
     zeros, set-points, the contact's own transition, friction that scatters from run to run.
  3. Whatever friction may depend on is an argument with one free curve; all have the same evidence,
     of which a fault, and what no effect stands for, needs e^3 times as much.
- 4. An argument is a finding where the rows are e^6 times as probable with it (e^3 the first), and
-    it takes more than a small part of what was missing at first, or, where contact and scatter had
-    taken all of that, e^12 times, or goes from run to run as scatter does; the best joins, all
-    others are asked again.
- 5. Findings within e^3 of one another in the same place, and within e^6 in simulated runs, cannot
-    be told apart: a class, of effects alone where two are in its place; so are two within e^12 of
-    which simulated runs prefer the second. Where these do so by e^500, or e^200 if rows do not tell
-    the two apart, and rows prefer the first by e^200 at most, or by a 200th of its own if it does
-    not explain the runs, the first goes, if no effect stands for it only where the second explains
-    the runs. A tracker's filter that corners ask for by more than slips do for any finding takes
-    the place of all where simulated runs are nearer to the model with it.
+ 4. An argument is a finding where the rows are e^6 times as probable with it (e^3 the first), and,
+    beside others, it takes more than a small part of what was missing at first, or, where contact
+    and scatter had taken all of that, e^12 times, or goes from run to run as scatter does; the best
+    joins, all others are asked again, three are the most.
+ 5. Findings within e^3 of one another in the same place cannot be told apart, nor within e^6 where
+    of campaigns drawn with the second more than a tenth are given the name of the first: a class,
+    of effects alone where two are in its place. Of a lone finding three rivals are simulated that
+    rows put within e^12 of it (e^200 below e^500; a 200th of its own if it does not explain the
+    runs): one that these put e^6 behind is told from it, one within e^12 that they prefer is not.
+    Where they prefer one by e^500, or e^200 if rows do not tell the two apart, and held-out runs
+    come out better with it, the first goes, if no effect stands for it only where the second
+    explains the runs. A tracker's filter that corners ask for by more than rows do for any finding
+    takes the place of all where simulated runs are nearer to the model with it.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`; with
-    three that leave twice the noise in the rows, and runs that miss something, nothing is doubted.
+    three that leave twice the noise in the rows, and runs that miss something without them, no
+    single one is doubted.
  7. The kernel is fitted with the findings over windows of three cycles, or up to where a block
     reaches the surface's speed without a stick, and judged in such windows of runs that no fit has
-    seen; 1 is noise.
- 8. A finding of which derivatives of the simulated runs ask for nothing, by less than e, where
-    these are left at 1.1 without it, goes (not ageing, and no trend); and one below e^500, or
-    beside a greater one, or that does not explain the runs or takes nothing of the gap by itself,
-    goes, and the rows are not asked for it again, where the simulated runs are not e^6 times as
-    probable with it, and e^3 times without what a scatter may be worth or e^50 with it, e^30 by
-    another of its laws, or, below e^500 (e^12: a trend from run to run beside a greater one), it
-    takes neither all nor half of what they miss without it, at last or before friction may scatter,
-    or a greater one explains them before that; but for trends, none goes by itself that leaves runs
-    at 1.3 at most where they are beyond 2 without it, friction repeating itself. Where none is
-    left, the runs choose from what rows ask for less, as beside a finding. So for four rounds; then
-    rows are asked for one finding alone, and then for none; after 150 million simulated samples at
-    once. Beside fewer than two findings, and no fault of the camera, what rows ask for by e^6, or
-    derivatives of the simulated runs by e^25 where these are left at 1.1 at most, and static
+    seen, though rows of them have helped to find the name; 1 is noise.
+ 8. A finding goes, and rows are asked again without it: beside coarse steps, below e^500; below
+    e^500 or beside a greater one, if derivatives of the simulated runs ask for it by less than e
+    and these are left at 1.1 without any (not ageing, and no trend); the greatest, below e^500, if
+    alone it leaves half as much again and they ask for it by e^30 at most; and below e^500, beside
+    a greater one, or where runs are not explained or findings take nothing of the gap, if
+    - simulated runs are not e^6 times as probable with it (a fault e^9), or e^30 by another of its
+      laws, and e^3 times without what a scatter may be worth or e^50 with it (a trend needs neither
+      of these; ageing, e^100 and e^12),
+    - or it is below e^500 and another, and the others explain the runs before friction scatters,
+    - or it takes neither all nor half of what they miss without it, at last or before friction may
+      scatter, unless they miss nothing and it is alone, or are e^500 times as probable with it
+      (e^12: a trend beside others); of what the model cannot have, if they miss nothing without it,
+    - or all findings leave half as much again as the user's model.
+    For being faint none is doubted, trends excepted, that leaves runs at 1.3 at most where they are
+    beyond 2 without it, friction repeating itself. Where none is left, the runs choose from what
+    rows ask for less, as beside a finding. So for four rounds; then rows are asked for one finding
+    alone, and then for none; after 150 million simulated samples at once. Beside fewer than two
+    findings, no fault of the camera and no coarse steps, what rows ask for by e^6, or derivatives
+    of the simulated runs by e^25 where these are left at 1.1 at most, and beside none static
     friction over the hold time where the contact lets go by 10 ms sooner, is found where the runs
-    are e^50 times as probable with it, e^6 times without what a scatter may be worth (ageing, e^100
-    and e^12, whoever asked); of several that gain 0.6 of the greatest, or are within e^200 of it,
-    every law is tried. `none` is no finding left, and every run at 1.1 at most; without any held
-    out nothing tells.
- 9. `named`: findings, and held-out runs at 1.3 at most and not worse than before them (at 1.02
-    none is), and fitted ones, too, or most of their misfit gone; `partial` where held-out runs are
-    better but stay above that, and most of the misfit is gone, half by findings. `named`, and
-    `none`, also want friction to scatter by less than twice what is stated where it is scatter
-    that explains the runs.
-10. Everything else is `unknown`.
+    are e^50 times as probable with it, and e^6 without what a scatter may be worth (ageing, e^100
+    and e^12); of several that gain 0.6 of the greatest, or are within e^200 of it, every law is
+    tried. `none` is no finding left, and fitted runs and held-out ones at 1.1 at most, each taken
+    together; without any held out nothing tells.
+ 9. `named`, or `class`: findings, and the last model leaves held-out runs (fitted ones where there
+    are none) at 1.3 at most and better than the user's model does, or held-out ones at 1.02 with
+    most of the misfit gone, and fitted ones at 1.3, too, or most of their misfit gone; `partial`
+    where it is better, but not so, and most of the misfit is gone, and half of what is missing with
+    contact and scatter alone. All but `partial` want friction to scatter by less than twice what is
+    stated where it is scatter that explains the runs; that wants half gone before scatter.
+10. Everything else is `unknown`, and all that is in severe doubt; coarse steps of the tracker are
+    named beside other names (not a class), or alone where nothing else is missing.
 """
 
 from __future__ import annotations
@@ -357,7 +369,7 @@ def _alike(finding: Finding, name: str, rates: Rates | None) -> tuple[str, ...]:
 
     Also what these runs would too often call by this name, if it explains them nearly as well.
     """
-    confused = confirmed(rates, name)[1:] if rates is not None else ()
+    confused = confirmed(rates, finding.name)[1:] if rates is not None else ()
     near = sorted(finding.others, key=lambda other: -finding.others[other])
     return (
         name,

@@ -65,8 +65,8 @@ def option_of_wave(
 ) -> Option:
     """A wave at its wave length alone, with the price of the scan that finds it."""
     factor = block_diag(*(factor_of(each, len(system.fitted)) for each in added))
-    count = periodic.wavenumbers_of(system.fitted, added[0].unknown.wave.kind).size
-    price = periodic.price_of_scan(count) + price_of(added[0].unknown.name)
+    price = periodic.price_of(added[0].unknown.wave, system.fitted)
+    price += price_of(added[0].unknown.name)
     return Option(tuple(each.unknown for each in added), (factor,), scales, price)
 
 
@@ -164,7 +164,7 @@ def rates_of(
     """What this design would say of every finding, of what might stand in its place, of nothing.
 
     unknowns : of `Arguments`. Each finding is asked beside the others; the same seed draws the same
-    campaigns.
+    campaigns. Names are those of the ladder (`by_direction`).
     """
     table: dict[str, dict[str, int]] = {}
     random = np.random.default_rng(seed)
@@ -180,7 +180,8 @@ def rates_of(
         answers = decision.decided(decision.projected(rows)).answers()
         for place, (truth, _) in enumerate(truths):
             table.setdefault(truth, counted(answers[place * each : (place + 1) * each]))
-    return Rates(each, table)
+    known = {finding.name for finding in ladder.findings} | set(ladder.first_offers)
+    return by_direction(Rates(each, table), known)
 
 
 def _truths(

@@ -93,7 +93,7 @@ def lost(
     if not alone.is_lost_beside(without):
         return None
     without.let_scatter()
-    gained = fitting.gained(greatest, without, named)
+    gained, _ = fitting.gained(greatest, without, named)
     if judge.much_more(gained - price_of(greatest.finding.name)):
         return None
     return Rejected(greatest.finding.name, greatest.finding.gain, gained)
@@ -114,7 +114,7 @@ def rejected(
         for part in least_first:
             if part.finding.name in asked and not is_needed(fitting, part, parts, named):
                 without = fitting.without(part, parts, named)
-                gained = fitting.gained(part, without, named) if part.in_kernel else None
+                gained = fitting.gained(part, without, named)[0] if part.in_kernel else None
                 return Rejected(part.finding.name, part.finding.gain, gained)
     return None
 
@@ -127,7 +127,7 @@ def _is_asked_for(fitting: Fitting, part: Part, parts: Sequence[Part], named: Na
     """
     without = fitting.without(part, parts, named)
     is_lesser = part.finding.gain < max(other.finding.gain for other in parts)
-    gained = fitting.gained(part, without, named) if part.in_kernel else 0.0
+    gained, form = fitting.gained(part, without, named) if part.in_kernel else (0.0, part)
     is_sure = max(part.finding.gain, gained) >= judge.SURE
     if is_lesser and not is_sure and without.unscattered.of_verdict <= judge.EXPLAINED:
         return False
@@ -137,7 +137,7 @@ def _is_asked_for(fitting: Fitting, part: Part, parts: Sequence[Part], named: Na
         )
     name = part.finding.name
     return judge.runs_ask(gained - price_of(name)) and judge.not_by_scatter_alone(
-        name, gained, without.nearer(part)
+        name, gained, without.nearer(form)
     )
 
 

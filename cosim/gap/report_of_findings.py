@@ -75,15 +75,25 @@ def sentence_of(gap: Gap, parts: Sequence[Part], hints: Sequence[str] = ()) -> s
     if gap.verdict == "partial":
         nuisances = [rung.name for rung in gap.ladder if rung.name in ("contact", "scatter")]
         this = " and ".join(["this", *nuisances])
-        takes = f"explain{'s' * (not nuisances)} {percent(gap.share)} of the misfit"
-        is_all = percent(gap.share) == "all"
-        left = "in the runs that were held out something" if is_all else "something else"
-        return f"{found}; {this} {takes}{' of the fitted runs' * is_all}, and {left} is missing."
+        explain, share = f"explain{'s' * (not nuisances)}", percent(gap.share)
+        takes = f"{explain} {share} of the misfit{' of the fitted runs' * (share == 'all')}"
+        return f"{found}; {this} {takes}, and {_what_is_missing(gap, share == 'all')}."
     if parts:
         return f"Something is missing that is not in the catalogue; nearest to it: {_lower(found)}."
+    if any(doubt.check == "scatter" for doubt in gap.doubts):
+        return f"The stated model does not describe the runs: {_what_is_missing(gap)}."
     if gap.ladder[-1].gap.held_out is None and gap.ladder[-1].gap.fit <= NOTHING_MISSING:
         return "The fitted runs need nothing more, but no run is held out to confirm it."
     return "The model does not describe the runs, and no effect that was tried explains why."
+
+
+def _what_is_missing(gap: Gap, is_all: bool = False) -> str:
+    """Beside what is named. is_all : whether nothing is left to explain in the fitted runs"""
+    if any(doubt.check == "scatter" for doubt in gap.doubts):
+        return "something differs between the runs by more than friction is stated to scatter"
+    if is_all and gap.ladder[-1].gap.held_out is not None:
+        return "in the runs that were held out something is missing"
+    return "something else is missing"
 
 
 def _lower(text: str) -> str:

@@ -81,7 +81,8 @@ class Ranked:
     effect, form : id, and which of its laws or settings, in words
     evidence : ln of how much more probable the rows are with it than without
     probability : that it is what is missing, were one of those tried missing, all as probable
-        beforehand; where nothing was named, nothing is among them, and e^3 times the best
+        beforehand but for faults and what has no name, a twentieth; where nothing was named,
+        nothing is among them, by e^6, or e^3 times the best from there on
     gap : over windows, of the model with it; None where that model was not simulated
     parameters, intervals : `block.parameter` -> value, 90 % interval (low, high)
     undetermined : those of ``parameters`` of which the data say nothing

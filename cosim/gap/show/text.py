@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import product
 
 from stickslip.catalogue import Catalogue
 
@@ -93,9 +94,10 @@ def runner_up(gap: Gap) -> str:
 
 def rates_lines(gap: Gap) -> list[str]:
     """What else would have led to this answer, and how often."""
-    said = answer_text(gap.effects) if gap.effects else gap.verdict
+    is_class = gap.verdict == "class"
+    names = [answer_text(gap.effects)] if is_class else gap.effects or [gap.verdict]
     lines = []
-    for truth, answers in gap.rates.table.items() if gap.rates else ():
+    for said, (truth, answers) in product(names, gap.rates.table.items() if gap.rates else ()):
         if gap.rates and truth not in gap.effects and answers.get(said, 0) > 0:
             were = "nothing were missing" if truth == NONE else f"it were {truth}"
             times = f"{answers[said]} times in {gap.rates.each}"

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 # Smoothing and regimes.
-#: Half width of the cubic that finds slips, in 1 / omega: its velocity is off by
-#: (omega w)^4 / 40 = 0.5 % of an oscillation's, and its noise is a third of that of w = 0.3.
+#: Half width w of the cubic that finds slips, in 1 / omega: its velocity is off by
+#: (omega w)^4 / 504 = 4e-4 of an oscillation's, its acceleration by (omega w)^2 / 14 = 3 %, and the
+#: noise of its velocity is a third of that of w = 0.3.
 CUBIC_REACH = 0.65
-#: Half width of the quintic inside slips, in 1 / omega: off by 1e-3.
+#: Half width of the quintic inside slips, in 1 / omega: its acceleration is off by 1.3e-3, its
+#: velocity by 2e-5.
 QUINTIC_REACH = 1.0
 #: Samples nearer to one another than this, in 1 / omega, are averaged: sixty a swing are left.
 FINE_ENOUGH = 0.1
@@ -22,7 +24,8 @@ HOLE = 2.5
 LEAST_SLIDING, LEAST_SLIDING_SHARE = 6e-3, 0.06
 #: The same in parts of the fastest sliding, where a rig is so slow that this is less.
 SLOW_PART = 0.1
-#: Standard deviations of the smoothed velocity that noise alone does not reach in a record.
+#: Standard deviations of the smoothed velocity beyond which it is no noise: that reaches them once
+#: in seven swings, for a sample or two, which is no slip (`SLIP_SIGMAS`).
 VELOCITY_SIGMAS = 3.0
 #: In a slip the surface gets ahead of the block by more than so many standard deviations of a
 #: sample: some 2000 samples of noise alone do not.
@@ -43,9 +46,9 @@ MOVES = 3.0
 ROUNDS = 6
 
 # Test functions.
-#: Distance of the splines' knots, in 1 / omega: ten wave lengths of the free oscillation's motion
-#: fit into what is left of the spectrum, and a slip of half a period holds ten functions. For so
-#: long next to a slip a stick is not counted as one: the smoothed velocity still mixes both.
+#: Distance of the splines' knots, in 1 / omega: they pass half of what is five times as fast as the
+#: free oscillation, and a slip of half a period holds five functions, one of three quarters ten.
+#: For so long next to a slip a stick is not counted as one: the smoothed velocity still mixes both.
 KNOTS = 0.3
 
 #: Part by which a variance is enlarged, so that rounding leaves a covariance positive: slow swings
@@ -96,7 +99,8 @@ SCATTER_ASKED = (0.002, 0.006, 0.02, 0.06)
 ZERO_PARTS_ASKED = (0.1, 0.3, 1.0)
 
 # Arguments.
-#: Nodes of a curve: a law of one bend is followed to a thousandth.
+#: Nodes of a curve: a law that bends over a third of its range, as exp(-3 u) or 1 / (1 + 3 u), is
+#: followed to a thousandth.
 CURVE_NODES = 9
 #: The largest value of an argument in slip, but for outliers of the smoothed velocity.
 SLIP_PERCENTILE = 99.0
@@ -121,8 +125,8 @@ BENDS_ASKED = (0.03, 0.3, 1.0)
 HARMONICS = 4
 #: Wavenumbers are scanned at so many steps within the resolution 1 / (length of a run).
 SCAN_STEPS = 2
-#: The shortest wave lasts so long for the block, in 1 / omega: test functions see no shorter one,
-#: and what differs within a slip alone is the contact's.
+#: The shortest wave lasts so long for the block, in 1 / omega, a third of a swing: test functions
+#: pass four fifths of it, and what differs faster, within a slip alone, is the contact's.
 SHORTEST_WAVE = 2.0
 #: Most wavenumbers of a scan times samples of a run, for the sake of memory: long records of fast
 #: swings are scanned for long waves alone.
@@ -219,8 +223,8 @@ FAULT_SIZES = {
     "zero": 3e-3,
     "smoothing": 1.0,
 }
-#: Standard deviations of filters that are tried, s: a third of a frame of 60 a second, which none
-#: sees, up to some frames of 30 a second; their squares lie apart by less than a scale asked for.
+#: Standard deviations of filters that are tried, s: two fifths of a frame of 60 a second, which
+#: none sees, up to two frames of 30; their squares lie apart by less than a scale asked for.
 FILTER_WIDTHS = (0.007, 0.012, 0.02, 0.035, 0.06)
 
 #: Delays over 0.1 m for which a slow chip is asked, s: one is off by a fifth of itself at most, and

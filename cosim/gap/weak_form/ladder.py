@@ -119,7 +119,9 @@ class Search:
             # of two that tell no difference the first: time is simpler than travel
             if offer and (kind.name not in found or offer[0] > found[kind.name][0] + ALIKE):
                 found[kind.name] = offer
-        return self._by_direction(rung, found)
+        left = {*self.barred, *without}  # by any other argument that would go by these names
+        offers = self._by_direction(rung, found)
+        return {name: offer for name, offer in offers.items() if name not in left}
 
     def _by_direction(self, rung: Rung, offers: dict[str, Offer]) -> dict[str, Offer]:
         """Friction over the sliding speed is named by its direction: it grows, or falls.
@@ -131,7 +133,7 @@ class Search:
             here = rung.with_more(offer[1])
             curve = here.posterior[0][here.part_of(offer[1][0])]
             offers[GROWS if curve[-1] > 0.0 else FALLS] = offer
-        return {name: offer for name, offer in offers.items() if name not in self.barred}
+        return offers
 
     def climb(self, most: int = MOST_FINDINGS) -> Ladder:
         """Add, drop and exchange until nothing more is asked for, or there are so many findings."""
@@ -150,7 +152,6 @@ class Search:
             if (name := next(missed, None)) is None:
                 break
             found = self._exchanged([*found, (name, offers[name][1])])
-        found = self._without_idle(found)
         return self._ladder(found, first)
 
     def _joins(self, rung: Rung, name: str, offer: Offer) -> bool:
@@ -188,7 +189,7 @@ class Search:
 
         Where scatter and contact took it all from the first, at their price, evidence decides.
         """
-        gained = rung.evidence - without.evidence
+        gained = rung.evidence - without.evidence - price_of(name)
         if gained <= _least(without.added):
             return False
         if not without.added or name in TRENDS:
@@ -228,8 +229,12 @@ class Search:
             rest = [other for other in found if other[0] != name]
             without = self._rung(rest)
             offers = first if not rest else self.offers(without, [n for n, _ in rest])
-            reference = rung.evidence  # others' places and phases are as finely searched
-            if name in offers and name not in {kind.name for kind in self.waves}:
+            reference = rung.evidence
+            if name in {kind.name for kind in self.waves}:
+                # it has been moved on since it was offered; its scan was as long
+                wave = added[0].unknown.wave
+                reference -= price_of(name) + periodic.price_of(wave, self.system.fitted)
+            elif name in offers:
                 reference = offers[name][0]
             if rest and name in TRENDS:
                 offers = {other: offers[other] for other in TRENDS if other in offers}

@@ -119,6 +119,11 @@ def price_of_scan(wavenumbers: int, longer: int = 2) -> float:
     return float(np.log(wavenumbers / SCAN_STEPS * (WAVES_FITTED + longer)))
 
 
+def price_of(wave: Wave, runs: Sequence[RunRows]) -> float:
+    """The same of a wave that was found."""
+    return price_of_scan(wavenumbers_of(runs, wave.kind).size)
+
+
 def wavenumbers_of(runs: Sequence[RunRows], kind: Periodic) -> np.ndarray:
     """(w,) 1/m or 1/s, finely enough: from a wave seen twice in a run to what rows resolve."""
     spans = np.array([np.ptp(kind.coordinate(run)) for run in runs])

@@ -61,7 +61,7 @@ def agreed(
 
     reached : gap at the end of ladders, of all findings where two; halved : what the contact
     leaves, without and with; felt, lost : what findings do by themselves; sooner : by which a
-    contact lets go, s; nearer : ln of that gain that is no scatter's
+    contact lets go, s; nearer : ln of that gain that is no scatter's, or by what the model has
     """
     monkeypatch.setattr(agreement.Naming, "of", lambda campaign: rows)
     monkeypatch.setattr(fitting, "part_of", lambda campaign, system, rung, one, law: part(one))
@@ -89,7 +89,7 @@ def agreed(
             return form - (gained[over.finding.name] if over else 0.0)
 
         def nearer(self, part):
-            return nearer
+            return nearer[next(iter(part.settings))] if isinstance(nearer, dict) else nearer
 
         def promised(self, parts):
             return [rows.promises.get(part.finding.name) for part in parts]
@@ -185,6 +185,7 @@ DECIDED = [
     ({"load_dependence": 30.0}, 30.0, {"reached": (1.17, 1.17), "halved": (2.0, 1.48)}, 1),
     ({"load_dependence": 30.0}, 30.0, {"reached": (1.17, 1.17), "halved": (2.0, 1.6)}, 0),
     ({"static_strengthening": 11.0}, 20.0, {"lost": True}, 0),
+    ({"load_dependence": 11.0}, 900.0, {"lost": True}, 0),
     # what no effect stands for beside a greater finding is asked of runs that it explains
     (DRIFT, None, {"reached": (1.29, 1.0), "halved": (1.4, 1.0)}, 1),
     (DRIFT, None, {"reached": (1.31, 1.0), "halved": (1.4, 1.0)}, 2),
@@ -228,6 +229,7 @@ def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monke
     [
         (30.0, -2.9, 14.1, -2.9),  # a class, which simulated runs do not tell apart
         (30.0, -2.9, 13.9, -6.1),
+        (30.0, -2.9, 20.1, -2.9),  # or prefer, who would be as probable
         (30.0, -3.1, 19.9, -3.1),
         (30.0, -3.1, 14.1, -3.1),
         (30.0, -3.1, 13.9, -6.1),  # nor can noise confuse what simulated runs tell apart
@@ -277,6 +279,43 @@ def test_nothing_is_doubted_where_three_findings_leave_twice_the_noise(
     rows = Rows(*(finding(*each) for each in gains.items()), most=3, left=left)
     found, _ = agreed(monkeypatch, rows, dict.fromkeys(gains, 0.0), reached=reached)
     assert len(found) == names
+
+
+def test_two_findings_are_doubted_however_much_they_leave(monkeypatch):
+    """Without the one that is none they are one finding, which may be named."""
+    rows = Rows(finding("run_in", 900.0), finding("film_drag", 200.0), most=2, left=2.1)
+    found, _ = agreed(monkeypatch, rows, {"run_in": 900.0, "film_drag": 0.0}, reached=1.11)
+    assert found == ["run_in"]
+
+
+@pytest.mark.parametrize(("gained", "asked"), [(499.0, 2), (501.0, 3)])
+def test_lesser_findings_go_at_once_where_the_greatest_explains_the_runs(
+    monkeypatch, gained, asked
+):
+    """But where simulated runs are sure of one: then they are asked one by one."""
+    gains = {"run_in": 2.0 * SURE, "film_drag": 200.0, "surface_pattern": 100.0}
+    rows = Rows(*(finding(*each) for each in gains.items()), most=3)
+    agreed(monkeypatch, rows, {"run_in": 900.0, "film_drag": gained, "surface_pattern": 0.0})
+    assert len(rows.asked[1]) == 4 - asked
+
+
+def test_ageing_is_not_asked_for_beside_another_finding(monkeypatch):
+    rows = Rows(finding("run_in", 2.0 * SURE), offers=[finding("static_strengthening", 0.1)])
+    gains = {"static_strengthening": 900.0}
+    assert agreed(monkeypatch, rows, gains, sooner=0.02, nearer=20.0)[0] == ["run_in"]
+
+
+def test_rivals_are_beside_the_law_that_is_named_not_the_first_that_was_tried(monkeypatch):
+    """Runs that only the first law leaves off are none of the rival's."""
+    asked, best = [], Fitting.best_of
+
+    def by_another_law(self, parts, named):
+        return [replace(one, settings={"another": 1.0}) for one in parts], best(self, [], named)[1]
+
+    monkeypatch.setattr(Fitting, "best_of", by_another_law)
+    monkeypatch.setattr(agreement, "rivals_of", lambda fits, parts, *_: asked.append(parts) or {})
+    agreed(monkeypatch, Rows(finding("run_in", 2.0 * SURE)), {"run_in": 900.0})
+    assert [one.settings for one in asked[0]] == [{"another": 1.0}]
 
 
 @pytest.mark.parametrize(
@@ -412,7 +451,7 @@ def test_a_lesser_finding_is_asked_again_beside_what_is_found(monkeypatch, gain,
     """That may be what the rows took it for: here simulated runs no longer miss it."""
     rows = Rows(finding("run_in", gain), offers=[finding("film_drag", 40.0)])
     gains = iter([30.0, 30.0, 0.0])  # of run_in, alone and beside film_drag
-    monkeypatch.setattr(Fitting, "gained", lambda self, part, without, named: next(gains))
+    monkeypatch.setattr(Fitting, "gained", lambda self, part, *beside: (next(gains), part))
     monkeypatch.setattr(rejection, "_makes_up", lambda *given: True)
     found, rejected = agreed(monkeypatch, rows, {"film_drag": 60.0, "run_in": 30.0})
     assert [one.effect for one in rejected[:1]] == ["run_in"] * asked
@@ -557,7 +596,21 @@ def test_another_form_of_a_law_is_tried_where_runs_are_of_two_minds(
     campaign = SimpleNamespace(catalogue=SimpleNamespace(effects=()))
     without = SimpleNamespace(gained=lambda part: gains[part.fits[0].candidate.form])
     tried, named = Part(finding(own, 10.0), None, tuple(forms)), Named(None, (), None, None, {})
-    assert Fitting(campaign, lambda: None, 1).gained(tried, without, named) == gained
+    found, form = Fitting(campaign, lambda: None, 1).gained(tried, without, named)
+    assert found == gained and (form is not tried) == (found != first)
+
+
+@pytest.mark.parametrize(("nearer", "named"), [(3.1, ["run_in"]), (2.9, [])])
+def test_distances_are_asked_of_the_law_that_simulated_runs_ask_for(monkeypatch, nearer, named):
+    """The first of its laws gains nothing, and comes no nearer."""
+
+    def asked(self, part, *beside):
+        return 40.0, replace(part, settings={"form": 1.0})
+
+    monkeypatch.setattr(Fitting, "gained", asked)
+    monkeypatch.setattr(rejection, "_makes_up", lambda *given: True)
+    rows, by_law = Rows(finding("run_in", 20.0)), {"form": nearer, "on": 0.0}
+    assert agreed(monkeypatch, rows, {"run_in": 0.0}, nearer=by_law)[0] == named
 
 
 @pytest.mark.parametrize("check", ["units", "direction", "sampling", "springs", "speed"])

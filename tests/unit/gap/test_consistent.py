@@ -176,6 +176,15 @@ def test_the_class_in_the_headline_is_asked_of_the_error_rates(gap):
     assert text.rates_lines(replace(gap, rates=None)) == []
 
 
+@pytest.mark.parametrize("effects", [("film_drag", "run_in"), ("measurement.steps", "film_drag")])
+def test_of_several_names_the_error_rates_of_each_are_told(gap, effects):
+    """They are drawn one by one beside the others: no drawn answer is of two that are there."""
+    table = {"film_drag": {"film_drag": 50}, "structural_damping": {"film_drag": 3}}
+    gap = replace(gap, verdict="named", effects=effects, rates=Rates(50, table))
+    said = "If it were structural_damping, these runs would say film_drag 3 times in 50."
+    assert text.rates_lines(gap) == [said]
+
+
 @pytest.mark.parametrize("named", [True, False])
 def test_one_figure_of_scatter(gap, named):
     """Where scatter is a step of the ladder its text has it, and nothing else on the page."""

@@ -27,7 +27,7 @@ from cosim.gap.plan.next_run import NextRun
 from cosim.gap.report_of_findings import exponents_of, law_of, ranking_of, sentence_of
 from cosim.gap.result import Doubt, Rates, Rung, Score
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.ladder import Finding, Search, _is_better
+from cosim.gap.weak_form.ladder import BY_SPEED, FALLS, GROWS, Finding, Search, _is_better
 from cosim.gap.weak_form.unknowns import Unknown
 from cosim.gap.windows.numbers import Number
 
@@ -120,6 +120,15 @@ def test_what_the_design_confuses_is_told_apart_by_four_hundred_to_one(less, ver
     assert (found.verdict, found.effects) == verdict
 
 
+def test_the_table_of_confusions_is_asked_by_the_finding_s_name():
+    """Not by that of the user's own law which follows its curve: no drawn campaign has it."""
+    rates = Rates(50, {"run_in": {"run_in": 50}, "film_drag": {"run_in": 20, "film_drag": 30}})
+    ladder = [rung(9.0, 5.0), rung(9.0, 1.0, 1.0)]
+    one = finding("run_in", film_drag=-5.9)
+    found = judge([one], ["my_wear"], ladder, {*PHYSICS, "my_wear"}, rates)
+    assert (found.verdict, found.effects) == ("class", ("my_wear", "film_drag"))
+
+
 @pytest.mark.parametrize(
     ("low", "before", "strained"),
     [(0.045, 1.4, True), (0.035, 1.4, False), (0.045, 1.2, False)],
@@ -161,6 +170,18 @@ def test_what_scatter_alone_explains_is_not_named(share, verdict):
     assert judge(found, ["run_in"], ladder, PHYSICS).verdict == "named"
     assert judge(found, ["run_in"], ladder, PHYSICS, strained=True).verdict == verdict
     assert judge([], [], ladder, PHYSICS, strained=True).verdict == "unknown"
+
+
+@pytest.mark.parametrize(
+    ("held_out", "share", "verdict"),
+    [((1.0, 1.01), 0.81, "named"), ((1.0, 1.01), 0.79, "unknown"), ((None, None), 1.0, "unknown")],
+)
+def test_noise_before_and_after_is_no_worse_in_runs_held_out(held_out, share, verdict):
+    """Where most of what fitted runs miss is gone; without any held out these must get better."""
+    before, after = held_out
+    fit = (1.2, 1.1) if before else (0.99, 1.0)
+    ladder = [rung(fit[0], before), rung(fit[1], after, share)]
+    assert judge([finding("run_in")], ["run_in"], ladder, PHYSICS).verdict == verdict
 
 
 def test_fitted_runs_judge_where_none_is_held_out():
@@ -285,12 +306,43 @@ def test_what_has_no_name_goes_for_a_name_that_is_as_probable(old, new, gained, 
         # where nuisances take all misfit it is told by evidence
         ({"a": (90.0, 0.0), "b": (12.1, 0.0)}, "ab"),
         ({"a": (90.0, 0.0), "b": (11.9, 0.0)}, "a"),
+        # a trend over the runs, which scatter takes up, by evidence alone; also behind a better one
+        ({"a": (90.0, 1.0), "load_dependence": (20.0, 0.0)}, ("a", "load_dependence")),
+        (
+            {"a": (90.0, 1.0), "b": (50.0, 0.1), "load_dependence": (20.0, 0.0)},
+            ("a", "load_dependence"),
+        ),
+        # what has no name, and a fault, e^3 more, also where it is asked whether it stays
+        ({"a": (90.0, 1.0), "other.b": (8.9, 1.0)}, ("a",)),
+        ({"a": (90.0, 1.0), "other.b": (9.1, 1.0)}, ("a", "other.b")),
         # more than three are no explanation
         ({name: (90.0 - at, 1.0) for at, name in enumerate("abcd")}, "abc"),
     ],
 )
 def test_what_rows_ask_for(unknowns, found):
     assert climbed(**unknowns) == list(found)
+
+
+@pytest.mark.parametrize(("ends", "offered"), [((1.0, 1.0), []), ((1.0, -1.0), ["falls"])])
+def test_what_grows_with_the_speed_is_found_once(ends, offered):
+    """As a force or as a coefficient: with the one found, the other is no second effect."""
+    force, coefficient = (SimpleNamespace(name=name) for name in BY_SPEED)
+
+    class Speeds:
+        added, evidence = (), 0.0
+        system = SimpleNamespace(offers={})
+
+        def offered(self, variants):
+            return 9.0, variants[0]
+
+        def with_more(self, more):
+            end = ends[BY_SPEED.index(more[0].name)]
+            return SimpleNamespace(posterior=([np.array([end])],), part_of=lambda one: 0)
+
+    search = Search(Speeds.system, {one.name: [one] for one in (force, coefficient)}, ())
+    names = {GROWS: "grows", FALLS: "falls"}
+    assert set(search.offers(Speeds())) == {GROWS, *([FALLS] if offered else [])}
+    assert [names[name] for name in search.offers(Speeds(), [GROWS])] == offered
 
 
 def test_what_moves_the_block_across_has_a_name_and_no_curve():
@@ -320,6 +372,18 @@ def test_nothing_else_is_missing_of_what_all_is_explained(share, said):
         ladder=[rung(5.0, 5.0), rung(1.0, 1.8)], extended=SimpleNamespace(values={}),
     )  # fmt: skip
     assert sentence_of(gap, [Part(finding("run_in"))]).endswith(said)
+
+
+@pytest.mark.parametrize("parts", [[], [Part(finding("run_in"))]])
+def test_where_only_a_strained_scatter_explains_the_runs_that_is_said(parts):
+    """No run is off any more: neither "in the runs held out" nor "explains nothing" is so."""
+    gap = SimpleNamespace(
+        verdict="partial" if parts else "unknown", effects=(), exponents=(), classes=(), share=1.0,
+        doubts=(Doubt("scatter", "friction scatters ...", (), False),), ladder=[rung(1.0, 1.0)],
+        extended=SimpleNamespace(values={}),
+    )  # fmt: skip
+    said = "something differs between the runs by more than friction is stated to scatter."
+    assert sentence_of(gap, parts).endswith(said)
 
 
 @pytest.mark.parametrize(("separation", "hardly"), [(2.9, True), (3.1, False)])

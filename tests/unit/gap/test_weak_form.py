@@ -16,7 +16,7 @@ from cosim.gap.naming import Naming
 from cosim.gap.scatter import Scatter, scatter_text
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.arguments import Arguments
-from cosim.gap.weak_form.constants import SCATTER_RANGE
+from cosim.gap.weak_form.constants import ALIKE, SCATTER_RANGE
 from cosim.gap.weak_form.evidence import posterior
 from cosim.gap.weak_form.ladder import Search
 from cosim.gap.weak_form.rig_unknowns import MU_K, MU_S, SCATTER, ZERO_NAME
@@ -132,6 +132,22 @@ def test_what_static_friction_takes_of_a_drift_is_fitted_to_the_runs(tmp_path):
     models = fitting.fitted(named, parts)
     assert models.fits[-1].values["run_in.static_absolute"] == pytest.approx(0.5, abs=0.05)
     assert models.ladder[-1].gap.fit < 1.05
+
+
+def test_what_stands_in_a_wave_s_place_is_offered_at_the_same_price(tmp_path):
+    """A scan chooses among many waves: the one found paid for that as those do that were not.
+
+    The finding has been moved on since it was offered, by less than what tells two apart.
+    """
+    system = system_of(written(tmp_path, surface_pattern={"amplitude": 0.02, "wavelength": 0.07}))
+    arguments = Arguments(system.campaign, system.runs, system.level)
+    waves = periodic.kinds(system.level.kinetic)
+    ladder = Search(system, arguments.unknowns(), waves, arguments.near).climb()
+    (finding,) = ladder.findings
+    offered = {name: offer[0] for name, offer in ladder.first_offers.items()}
+    for name in ("other.shaking", "spring_hardening"):
+        less = offered[name] - offered["surface_pattern"]
+        assert finding.others[name] == pytest.approx(less, abs=ALIKE)
 
 
 def test_a_trend_over_the_runs_is_found_where_scatter_would_have_to_take_it(tmp_path):
