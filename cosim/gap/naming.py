@@ -5,20 +5,21 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from cosim.gap.data import Campaign
+from cosim.gap.data import Campaign, MeasuredRun
 from cosim.gap.weak_form import periodic
 from cosim.gap.weak_form.arguments import Arguments
 from cosim.gap.weak_form.camera_faults import SMOOTHING, camera_faults, filters
 from cosim.gap.weak_form.constants import MOST_FINDINGS
 from cosim.gap.weak_form.corners import with_corners
 from cosim.gap.weak_form.ladder import Finding, Ladder, Search
-from cosim.gap.weak_form.planar import Planar, planar_effects, rows_in_plane
+from cosim.gap.weak_form.planar import ROTATION, Planar, planar_effects, rows_in_plane
 from cosim.gap.weak_form.rows import RunRows, rows_of
 from cosim.gap.weak_form.surface import best_phase, tracks_of
 from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
 from cosim.gap.weak_form.track import thinned, with_rows
 from cosim.gap.weak_form.unknowns import Unknown
+from cosim.gap.windows.camera import undone
 
 #: effect, fault or other finding -> its variants.
 Unknowns = dict[str, list[Unknown]]
@@ -76,7 +77,10 @@ class Naming:
         tracks = tracks_of(campaign, runs)
         rows = [rows_of(track, campaign.rig) for track in tracks]
         planar = planar_effects(campaign, rows)
-        if planar.answer:
+        if planar.answer == ROTATION:
+            turned_back = [_turned_back(run, planar) for run in runs]
+            rows = [rows_of(track, campaign.rig) for track in tracks_of(campaign, turned_back)]
+        elif planar.answer:
             rows = rows_in_plane(tracks, campaign, planar)
         system, arguments, unknowns = asked_of(campaign, rows)
         if planar.answer:
@@ -141,3 +145,11 @@ class Naming:
             others = {name: value - gain for name, value in planar.evidence.items()
                       if name == planar.runner_up}  # fmt: skip
             yield Finding(planar.answer, (), gain, others, planar.numbers, planar.settings)
+
+
+def _turned_back(run: MeasuredRun, planar: Planar) -> MeasuredRun:
+    """As a camera that is not turned would have seen it: a turned one mixes y into x."""
+    if not planar.settings.get(f"in@{run.name}", 1.0):
+        return run
+    angle, _ = planar.numbers[ROTATION]
+    return replace(run, track=undone(run.motion, {ROTATION: angle}))

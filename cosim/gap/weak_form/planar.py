@@ -200,11 +200,9 @@ def rows_in_plane(
     """Rows along x of all runs, with the effect in them that moves the block across.
 
     Springs, sliding speed and surface are those of the place in the plane; friction along x is its
-    part f U_x / U. A turned camera sees x shortened by cos alpha, and the springs along x are so.
+    part f U_x / U.
     """
     planes = planar.fits[planar.answer].planes if planar.fits else {}
-    if planar.answer == ROTATION:
-        planes = {}
     rows = []
     for track in tracks:
         plane = planes.get(track.run.name)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from gap_campaigns import campaign_with, motion, noisy
 
+from cosim.gap.naming import Naming
 from cosim.gap.weak_form import across
 from cosim.gap.weak_form import planar as in_plane
 from cosim.gap.weak_form.across import disc
@@ -43,8 +44,8 @@ def measured(
         y = y + creep * np.sqrt(moved.time / DURATION)
         columns = {
             "t": moved.time,
-            "x": noisy(x * np.cos(angle), number, NOISE),
-            "y": noisy(y - x * np.sin(angle), number + 50, NOISE),
+            "x": noisy(x * np.cos(angle) + y * np.sin(angle), number, NOISE),
+            "y": noisy(y * np.cos(angle) - x * np.sin(angle), number + 50, NOISE),
         }
         if turn_noise:
             columns["phi"] = noisy(np.asarray(moved["phi"]), number + 90, turn_noise)
@@ -117,6 +118,13 @@ def test_a_turned_frame_and_a_diagonal_that_is_off_are_told_from_turned_springs(
     assert planar.answer == "spring_misalignment" and planar.fits[planar.answer].gap < 1.3
     found = {name: value for name, (value, _) in planar.numbers.items()}
     assert found == pytest.approx(numbers, rel=0.05)  # springs are off by some percent
+
+
+def test_a_swing_across_that_a_turned_camera_mixes_into_x_asks_for_nothing_along_it(tmp_path):
+    campaign = measured(tmp_path, rotation=[0.09] * 3, initial={"y": 5e-3})
+    named = Naming.of(campaign).named()
+    assert [each.name for each in named.findings] == ["measurement.rotation"]
+    assert named.rung.gap < 1.1
 
 
 @pytest.mark.parametrize("turned", [(1, 1, 1), (1, 0, 1)])
