@@ -162,7 +162,8 @@ class SteadySliding:
         self._into_belt += float(fluxes.from_contact.mean()) * duration
         self._produced += friction * duration
         self._time += duration
-        self._left = max(0.0, 1.0 - self.sensitivity * self._interface())
+        if self.sensitivity > 0.0:
+            self._left = max(0.0, 1.0 - self.sensitivity * self._interface())
 
     def _warm_air(self, duration: float, speed: float) -> None:
         """Half of what the air warms in a step: the bodies are that much colder than it."""
