@@ -170,8 +170,10 @@ def line(axes: Axes, x: Array, y: Array, **options: Any) -> None:
 #: Letters of a panel's label that stand upright beside it; more stand above it, and of still more
 #: the unit's name in a line of its own.
 BESIDE, LONGEST_TITLE = 24, 42
-#: Letters of a line below a figure; entries of a legend beside each other, and of longer ones.
-LONGEST_LINE, MOST_IN_A_ROW, LONG_IN_A_ROW = 130, 6, 2
+#: Letters of a line below a figure; in an inch of a legend's row, a stroke counting as so many.
+LONGEST_LINE, IN_AN_INCH, STROKE = 130, 14.5, 7
+#: Most entries of a legend beside each other.
+MOST_IN_A_ROW = 6
 
 
 @styled
@@ -218,12 +220,19 @@ def _say_around(figure: Figure, axes: NDArray[Any], shown: TimeFigure) -> None:
     if shown.phase:
         handles.append(Patch(facecolor=SLIP, edgecolor="none", label=shown.phase))
     if handles:
-        is_long = max(len(str(handle.get_label())) for handle in handles) > LONGEST_TITLE
-        beside = min(len(handles), LONG_IN_A_ROW if is_long else MOST_IN_A_ROW)
         place: Any = "outside upper right" if len(handles) < 3 else "outside lower center"
-        figure.legend(handles=handles, loc=place, ncols=beside)
+        legend(figure, handles, place)
     if shown.note:
         figure.supxlabel(textwrap.fill(shown.note, LONGEST_LINE), x=0.008, ha="left", fontsize=9)
+
+
+def legend(figure: Figure, handles: Sequence[Artist], place: Any) -> None:
+    """As many entries beside each other as the figure is wide for."""
+    letters = [STROKE + len(str(handle.get_label())) for handle in handles]
+    beside, most = min(len(handles), MOST_IN_A_ROW), IN_AN_INCH * figure.get_figwidth()
+    while beside > 1 and sum(map(max, np.array_split(letters, beside))) > most:
+        beside -= 1
+    figure.legend(handles=handles, loc=place, ncols=beside)
 
 
 def _beside(axes: Axes, words: str, at: Any, place: Any, points: Any, **look: Any) -> None:

@@ -16,7 +16,7 @@ from ..columns import Data
 from ..contents import mechanics_of
 from ..live import Live, TimeFigure
 from ..palette import BLUE, DARK_RED, GREY, INK, PALE_BLUE, PALE_GREY, RED, SERIES, SLIP
-from ..style import draw_over_time, line, panels, plain_ticks, styled
+from ..style import draw_over_time, legend, line, panels, plain_ticks, styled
 from . import top_view
 from .over_time import titled
 from .phase_portrait import Way, phase_portrait
@@ -164,8 +164,7 @@ def draw_phase_portrait(dataset: Data) -> Figure:
             _draw_way(axes, way)
         axes.set(xlabel=plane.across, ylabel=plane.upwards)
     _title(figure, "Phase portrait", dataset)
-    handles, labels = panels[0].get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=len(handles))
+    legend(figure, panels[0].get_legend_handles_labels()[0], "outside lower center")
     return figure
 
 

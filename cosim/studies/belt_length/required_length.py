@@ -5,7 +5,7 @@ belt of the nominal rig, the shortest in 5, 50 and 95 % of the rigs that may be 
 many of them the belt that is there is long enough.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from importlib import import_module
@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from cosim.processes import processes
 from cosim.result import Result
 from cosim.scenario import Scenario, as_scenario
 from thermal.arrays import Array
@@ -25,22 +26,22 @@ from .rigs import MOST_MELTING, Rigs
 from .uncertainty import INTERVAL, quantiles
 from .unknowns import ENTRY, INTERFACE, Melts, scenario_case
 
-#: Lengths at which the rigs are looked at.
-POINTS = 40
+#: Further belts, on which a part of the rigs is run: that many over the whole range, and at most so
+#: many where a level of the rigs' rises is at the limit, until none is farther off, relative.
+_SPREAD, _NEAR, _NEAR_ENOUGH = 3, 4, 0.05
+FEWER = 4
 #: The lengths go from this part of the nominal shortest belt to this many times its length: the
 #: sampled rigs need hardly less, and up to ten times as much.
 _PART, _TIMES = 0.7, 16.0
 #: And at least to this many times the belt that is there, where nearly any belt does.
 _TIMES_OWN = 4.0
-#: Smallest rise that is told apart from none, in parts of the limit.
-_FLOOR = 0.03
 #: Why there is no doubt where none was wanted.
 NOT_ASKED = "no doubt was asked for"
 #: The levels that are told, with what they are called.
 LEVELS = (f"{INTERVAL[0]:.0%} level", "median", f"{INTERVAL[1]:.0%} level")
 #: Of an answer, what JSON has, beside speed and length.
 TOLD = (
-    *("limit", "run", "interface", "evaluations", "unexplained", "reason", "melts", "lengths"),
+    *("limit", "run", "interface", "evaluations", "reason", "melts", "lengths"),
     "levels",
 )
 
@@ -80,10 +81,9 @@ class Answer(Result):
     case : what was asked, with the length of the belt that is there
     limit : largest rise that is allowed, K
     run, interface : does the belt come round cold, is the interface steady
-    lengths : m, (n,); of the sampled rigs
+    lengths : m, (n,); of belts on which sampled rigs were run
     levels : K, (2, 3, n): for both questions 5, 50 and 95 % of the rigs' rises over ``lengths``
-    evaluations : runs of the model for the doubt; unexplained: share of the variance that is missed
-        in its place, for both questions
+    evaluations : runs of the model for the doubt
     reason : why there is no doubt, "" where there is
     melts : share of the sampled rigs, on the case's own belt, in which the ice comes to melt;
         their rises are told as if it did not
@@ -97,9 +97,8 @@ class Answer(Result):
     lengths: Array
     levels: Array
     evaluations: int = 0
-    unexplained: tuple[float, float] = (0.0, 0.0)
     reason: str = ""
-    rigs: Rigs | None = None
+    rigs: Mapping[float, Rigs] = field(default_factory=dict, repr=False)
     melts: float = 0.0
     scenario: str = field(default="", repr=False)
 
@@ -167,9 +166,10 @@ def how_long(
         transfer to the air is said, it is that of a belt moving through still air (`Case.film`),
         not the scenario's default
     limit : largest rise that is allowed, K, > 0, such as what a camera tells apart
-    samples : runs of the model for the doubt, a power of two from 32; 0 for none
+    samples : rigs of the doubt on each belt asked about, a power of two from 32, each a run of the
+        model; a quarter of them on up to seven others; 0 for none
     jobs : processes
-    lengths : of further belts, m, on which the sampled rigs are to be known
+    lengths : of further belts, m, on which as many rigs are to be known
     progress : called with the number of runs for the doubt that are done since it was
 
     Returns an `Answer`. Raises StudyError in one line for a scenario without a belt, or whose belt
@@ -201,16 +201,35 @@ def how_long(
     )
     if not samples:
         return replace(plain, reason=NOT_ASKED)
-    low, high = _range(case, cold or LONGEST, [case.length, *lengths])
-    try:
-        rigs = Rigs(case, samples, (low, high), _FLOOR * limit, jobs, progress)
-    except Melts:
-        return replace(plain, reason="the air is as warm as melting ice")
-    melts = rigs.melting(case.length)
-    if melts > MOST_MELTING:
-        why = f"in {melts:.0%} of the sampled rigs the ice comes to melt"
-        return replace(plain, reason=why, melts=melts)
-    return _doubted(plain, rigs, np.geomspace(low, high, POINTS), melts)
+    belts = sorted({case.length, *lengths})
+    with processes(jobs) as mapped:
+
+        def sampled(length: float, count: int) -> Rigs:
+            return Rigs(case.with_length(length), count, mapped, progress)
+
+        try:
+            own = sampled(case.length, samples)
+        except Melts:
+            return replace(plain, reason="the air is as warm as melting ice")
+        if own.melting > MOST_MELTING:
+            why = f"in {own.melting:.0%} of the sampled rigs the ice comes to melt"
+            return replace(plain, reason=why, melts=own.melting)
+        rigs = {one: own if one == case.length else sampled(one, samples) for one in belts}
+        found = dict(rigs)
+        for one in np.geomspace(*_range(case, cold or LONGEST, belts), _SPREAD).tolist():
+            found[one] = sampled(one, samples // FEWER)
+        for _ in range(_NEAR):
+            answer = _doubted(plain, found)
+            length = _farthest(answer)
+            if length is None:
+                break
+            found[length] = sampled(length, samples // FEWER)
+    return replace(_doubted(plain, found), rigs=rigs)
+
+
+def runs_for(samples: int, belts: int) -> int:
+    """Most runs of the model for rigs on so many belts that are asked about."""
+    return belts * samples + (_SPREAD + _NEAR) * (samples // FEWER)
 
 
 def _range(case: Case, shortest: float, belts: Sequence[float]) -> tuple[float, float]:
@@ -222,29 +241,41 @@ def _range(case: Case, shortest: float, belts: Sequence[float]) -> tuple[float, 
     return low, max(high, 1.01 * max(belts), 1.5 * low)
 
 
-def _doubted(plain: Answer, rigs: Rigs, lengths: Array, melts: float) -> Answer:
-    """An answer with what the sampled rigs say."""
-    drawn, levels = rigs.drawn(), []
+def _farthest(answer: Answer) -> float | None:
+    """The shortest belt of a level, m, that is farthest off the belts on which rigs were run."""
+    told = [
+        one.length
+        for question in (answer.run, answer.interface)
+        for one in question.levels
+        if one is not None and one.length is not None
+    ]
+    off = [float(np.min(np.abs(np.log(answer.lengths / length)))) for length in told]
+    return told[int(np.argmax(off))] if off and max(off) > _NEAR_ENOUGH else None
 
-    def sure(question: Question, rise: int) -> Question:
-        own = rigs.rise(rise, drawn, plain.case.length)
-        levels.append(np.array([quantiles(rigs.rise(rise, drawn, one)) for one in lengths]).T)
+
+def _doubted(plain: Answer, rigs: Mapping[float, Rigs]) -> Answer:
+    """An answer with what the sampled rigs say, on belts of some lengths (m)."""
+    lengths = np.array(sorted(rigs))
+
+    def sure(question: Question, rise: int) -> tuple[Question, Array]:
+        levels = np.array([quantiles(rigs[one].rises(rise)) for one in lengths.tolist()]).T
         belts = (
             between(lengths.tolist(), each.tolist(), plain.limit, name)
-            for each, name in zip(levels[-1], LEVELS, strict=True)
+            for each, name in zip(levels, LEVELS, strict=True)
         )
         found: Any = dict(zip(("low", "median", "high"), belts, strict=True))
+        own = rigs[plain.case.length].rises(rise)
         share = float(np.mean(own <= plain.limit))
-        return replace(question, rises=quantiles(own), share=share, **found)
+        return replace(question, rises=quantiles(own), share=share, **found), levels
 
+    run, run_levels = sure(plain.run, ENTRY)
+    interface, interface_levels = sure(plain.interface, INTERFACE)
     return replace(
         plain,
-        run=sure(plain.run, ENTRY),
-        interface=sure(plain.interface, INTERFACE),
+        run=run,
+        interface=interface,
         lengths=lengths,
-        levels=np.array(levels),
-        evaluations=rigs.evaluations,
-        unexplained=(rigs.unexplained[ENTRY], rigs.unexplained[INTERFACE]),
-        rigs=rigs,
-        melts=melts,
+        levels=np.array([run_levels, interface_levels]),
+        evaluations=sum(one.samples for one in rigs.values()),
+        melts=rigs[plain.case.length].melting,
     )

@@ -1,19 +1,21 @@
-"""All rigs that may be meant: what is not known of one is drawn, and polynomials answer for each.
+"""All rigs that may be meant: what is not known of one is drawn, and the model is run for each.
 
-The model is run for some of them, evenly spread; through its answers, the parts that a rise is made
-of (`unknowns`), polynomials are laid that stand in for it. How much of the variance they miss is
-measured on runs that they have not seen. On one belt, or with the length as one more dimension.
+The rises of these runs, each with many draws of what they are linear in, are the answer: nothing
+stands between it and the model. On one belt, for what a rise does over the length has steps where
+a place comes round once more, which no smooth fit has.
 
-The polynomials are Legendre's on the unit cube, orthogonal under the even distribution of the
-points, up to a degree p in the hyperbolic norm (sum n_i^q)^(1/q) <= p, which has few mixed terms
-(Blatman and Sudret 2011, J. Comput. Phys. 230, 2345-2367); least squares; of the model's values or
-of their logarithms; degree, norm and logarithm are those with the least error when each point is
-left out.
+Shares of the variance need some 1e5 rigs. There polynomials stand in for the model, laid through
+the parts that a rise is made of (`unknowns`). They are Legendre's on the unit cube, orthogonal
+under the even distribution of the points, up to a degree p in the hyperbolic norm
+(sum n_i^q)^(1/q) <= p, which has few mixed terms (Blatman and Sudret 2011, J. Comput. Phys. 230,
+2345-2367); least squares; of the model's values or of their logarithms; degree, norm and logarithm
+are those with the least error when each point is left out.
 """
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import starmap
 from typing import Any
 
 import numpy as np
@@ -22,41 +24,33 @@ from numpy.polynomial.legendre import legvander
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
-from cosim.processes import processes
+from cosim.processes import Map
 from thermal.arrays import Array
 
 from .case import Case
-from .unknowns import COLUMNS, ENTRY, ICE, INTERFACE, SAMPLE, answers, combined, unknowns_of, values
+from .unknowns import COLUMNS, ENTRY, ICE, SAMPLE, answers, combined, unknowns_of, values
 
-#: A rig: its case, and the values of what is not known of it.
-Meant = tuple[Case, dict[str, float]]
-
-#: Fewest runs of the model through which a polynomial is laid; a quarter more test it.
+#: Fewest rigs of a doubt.
 FEWEST_SAMPLES = 32
-_TESTED = 0.25
 #: Runs of the model between two words of how far it is.
 _AT_ONCE = 8
-#: Rigs among which a share of them is counted.
-DRAWN = 2048
+#: Draws among which quantiles and shares of the rigs are counted.
+DRAWN = 2**13
 #: Largest share of the rigs that may melt their ice: rises are as if none did, which is too much
 #: for those that do, and no answer where half of them are.
 MOST_MELTING = 0.5
 
 
 class Rigs:
-    """The sampled rigs of a case, on its belt, or on belts between two lengths.
+    """The sampled rigs of a case, on its belt.
 
     Attributes
     ----------
     unknowns : what is drawn, with the ranges of the case
-    evaluations : runs of the model
-    unexplained : share of the variance that the polynomials miss, of each rise; where the rigs have
-        several lengths, of the variance between rigs of one length, in the logarithm
+    samples : runs of the model
 
-    samples: runs of the model for the polynomials, a power of two from FEWEST_SAMPLES. lengths:
-    (shortest, longest), m; left out, the case's own. floor: rises below it (K) are taken for it, so
-    that where a belt never comes round logarithms have an end; with lengths only. jobs: processes.
-    progress: called with the number of runs that are done since it was.
+    samples: a power of two from FEWEST_SAMPLES. mapped: over processes; progress: called with the
+    number of runs that are done since it was.
     Raises `Melts` where the air is as warm as melting ice.
     """
 
@@ -64,116 +58,84 @@ class Rigs:
         self,
         case: Case,
         samples: int,
-        lengths: tuple[float, float] | None = None,
-        floor: float = 0.0,
-        jobs: int = 1,
+        mapped: Map = starmap,
         progress: Callable[[int], object] = lambda count: None,
     ) -> None:
-        self.unknowns = unknowns_of(case)
-        #: Of those that the polynomials are laid over; the linear ones enter afterwards.
+        self.unknowns, self.samples = unknowns_of(case), samples
+        #: Of those that the model is run for; the linear ones enter afterwards.
         self._columns = [i for i, one in enumerate(self.unknowns) if not (one.linear or one.fixed)]
-        self._lengths, self._floor = lengths, floor
         self._melts_at = case.rig.ice.melting_point_degC - case.ambient_degC
-        self.evaluations = runs_for(samples)
-        draws = qmc.Sobol(len(self._columns) + (lengths is not None), rng=1)
-        points = np.concatenate((draws.random(samples), draws.random(self.evaluations - samples)))
-        shares = np.zeros((self.evaluations, len(self.unknowns)))
-        shares[:, self._columns] = points[:, : len(self._columns)]
-        places = points[:, -1]
-        parts = _answered(self._meant(case, shares, places), jobs, progress)
-        if lengths is not None:
-            parts[..., :SAMPLE] = np.maximum(parts[..., :SAMPLE], floor)
-        # a rise falls by orders of magnitude with the length, and is needed at the limit; what the
-        # room does goes either way, and has no logarithm
-        heats = (False, True) if lengths is None else (True,)
-        points, fit, tested = self._points(shares, places), slice(samples), slice(samples, None)
-        self._polynomials = {
-            rise: [
-                fitted(points[fit], parts[fit, rise, i], heats if i < SAMPLE else (False,))
-                for i in COLUMNS
-            ]
-            for rise in (ENTRY, INTERFACE, ICE)
-        }
-        self.unexplained = {
-            rise: self._misses(rise, shares[tested], places[tested], parts[tested, rise])
-            for rise in self._polynomials
-        }
+        self._sampled = np.zeros((samples, len(self.unknowns)))
+        self._sampled[:, self._columns] = qmc.Sobol(len(self._columns), rng=1).random(samples)
+        each: Any = pd.DataFrame(values(self.unknowns, self._sampled)).to_dict("records")
+        self._parts = _answered(case, each, mapped, progress)
+        # neighbours in the sequence are evenly spread, so that those of one rig are
+        self._rig = np.repeat(np.arange(samples), max(1, DRAWN // samples))
+        drawn = qmc.Sobol(len(self.unknowns), rng=2).random(self._rig.size)
+        drawn[:, self._columns] = self._sampled[self._rig][:, self._columns]
+        self._drawn = values(self.unknowns, drawn)
 
-    def rise(self, which: int, shares: Array, length: float) -> Array:
-        """ENTRY, INTERFACE or ICE, K: (n,), of rigs at shares (n, unknowns) of the ranges, 0 ... 1.
+    def rises(self, which: int) -> Array:
+        """ENTRY, INTERFACE or ICE, K, of all draws: (n,)."""
+        return self._combined(self._parts[:, which])
 
-        length: of the belt, m, where the rigs have several.
-        """
-        place = 0.0
-        if self._lengths is not None:
-            low, high = self._lengths
-            place = math.log(length / low) / math.log(high / low)
-        return self._rise(which, shares, np.full(len(shares), place))
+    @property
+    def melting(self) -> float:
+        """Share of the rigs in which the ice's face comes to melt."""
+        return float(np.mean(self.rises(ICE) >= self._melts_at))
 
-    def drawn(self, count: int = DRAWN) -> Array:
-        """Shares of the ranges, evenly spread: (count, unknowns); count: a power of two."""
-        return np.asarray(qmc.Sobol(len(self.unknowns), rng=2).random(count))
-
-    def melting(self, length: float) -> float:
-        """Share of the rigs, on a belt of a length, m, in which the ice's face comes to melt."""
-        return float(np.mean(self.rise(ICE, self.drawn(), length) >= self._melts_at))
-
-    def _rise(self, which: int, shares: Array, places: Array) -> Array:
-        """places: (n,) of the lengths between the shortest and the longest, in the logarithm."""
-        points = self._points(shares, places)
-        parts = np.stack([one(points) for one in self._polynomials[which]], axis=1)
+    def entry(self, shares: Array) -> Array:
+        """Rise of the belt at entry by the polynomials, K: (n,), of rigs at shares (n, unknowns) of
+        the ranges, 0 ... 1."""
+        points = self._points(shares)
+        parts = np.stack([one(points) for one in self._polynomials], axis=1)
         return combined(parts, values(self.unknowns, shares))
 
-    def _points(self, shares: Array, places: Array) -> Array:
-        """Where the polynomials are asked: at levels in their middle, at the length last."""
+    @property
+    def unexplained(self) -> float:
+        """Share of the variance of the rise at entry that polynomials miss in runs left out."""
+        missed = self._combined(np.stack([one.left_out for one in self._polynomials], axis=1))
+        rises = self.rises(ENTRY)
+        spread = np.var(rises)
+        return float(np.mean((missed - rises) ** 2) / spread) if spread > 0.0 else 0.0
+
+    @cached_property
+    def _polynomials(self) -> list["Polynomial"]:
+        """Of each part of the rise at entry."""
+        points = self._points(self._sampled)
+        # what sample and room do goes either way, and has no logarithm
+        return [
+            fitted(points, self._parts[:, ENTRY, i], (False, True) if i < SAMPLE else (False,))
+            for i in COLUMNS
+        ]
+
+    def _points(self, shares: Array) -> Array:
+        """Where the polynomials are asked: at levels in their middle."""
         found = [self.unknowns[i].levelled(shares[:, i]) for i in self._columns]
-        return np.stack(found if self._lengths is None else [*found, places], axis=1)
+        return np.stack(found, axis=1) if found else np.empty((len(shares), 0))
 
-    def _meant(self, case: Case, shares: Array, places: Array) -> list[Meant]:
-        """The belts and the values that shares and places stand for."""
-        low, high = self._lengths or (case.length, case.length)
-        belts = [case.with_length(low * (high / low) ** float(place)) for place in places]
-        each: Any = pd.DataFrame(values(self.unknowns, shares)).to_dict("records")
-        return list(zip(belts, each, strict=True))
-
-    def _misses(self, which: int, shares: Array, places: Array, parts: Array) -> float:
-        """Share of a rise's variance over unseen runs; the linear unknowns are drawn for each."""
-        drawn = np.random.default_rng(1).random(shares.shape)
-        drawn[:, self._columns] = shares[:, self._columns]
-        true = spread = combined(parts, values(self.unknowns, drawn))
-        found = self._rise(which, drawn, places)
-        if self._lengths is not None:
-            # what a length does is no doubt about a rig: all of them on the belt in the middle
-            spread = self._rise(which, drawn, np.full(len(drawn), 0.5))
-            spread, found, true = (
-                np.log(np.maximum(rises, self._floor)) for rises in (spread, found, true)
-            )
-        return float(np.mean((found - true) ** 2) / np.var(spread))
+    def _combined(self, parts: Array) -> Array:
+        """A rise of all draws, K, from its parts in each rig (samples, 5)."""
+        return combined(parts[self._rig], self._drawn)
 
 
-def runs_for(samples: int) -> int:
-    """Runs of the model for polynomials through so many, tests included."""
-    return samples + round(_TESTED * samples)
-
-
-def _answered(meant: list[Meant], jobs: int, progress: Callable[[int], object]) -> Array:
-    """`answers` to each: (n, 3, 5), in as many processes."""
+def _answered(
+    case: Case, rigs: list[dict[str, float]], mapped: Map, progress: Callable[[int], object]
+) -> Array:
+    """`answers` of each: (n, 3, 5)."""
     # neighbours share blocks of ice, whose modes take time
-    order = np.lexsort(
-        [[one[key] for _, one in meant] for key in ("contact_area", "ice_conductivity")]
-    )
-    shares, found = np.array_split(order, max(jobs, len(meant) // _AT_ONCE)), []
-    with processes(jobs) as mapped:
-        for some in mapped(_each, [([meant[i] for i in share],) for share in shares]):
-            found.append(some)
-            progress(len(some))
-    parts = np.empty((len(meant), 3, len(COLUMNS)))
+    order = np.lexsort([[one[key] for one in rigs] for key in ("contact_area", "ice_conductivity")])
+    shares, found = np.array_split(order, max(1, len(rigs) // _AT_ONCE)), []
+    for some in mapped(_each, [(case, [rigs[i] for i in share]) for share in shares]):
+        found.append(some)
+        progress(len(some))
+    parts = np.empty((len(rigs), 3, len(COLUMNS)))
     parts[order] = np.concatenate(found)
     return parts
 
 
-def _each(meant: list[Meant]) -> Array:
-    return np.array([answers(*one) for one in meant]).reshape(-1, 3, len(COLUMNS))
+def _each(case: Case, rigs: list[dict[str, float]]) -> Array:
+    return np.array([answers(case, one) for one in rigs])
 
 
 #: Degrees and norms that are tried; a fit takes at most this part of the points for its terms.
@@ -182,11 +144,15 @@ _DEGREES, _NORMS, _MOST_TERMS = (1, 2, 3, 4, 5), (0.5, 0.75, 1.0), 0.6
 
 @dataclass(frozen=True)
 class Polynomial:
-    """indices (terms, dimensions), coefficients (terms,); of the logarithm if `logarithm`."""
+    """indices (terms, dimensions), coefficients (terms,); of the logarithm if `logarithm`.
+
+    left_out: value at each point of the fit, (points,), by a fit without that point.
+    """
 
     indices: NDArray[np.intp]
     coefficients: Array
     logarithm: bool
+    left_out: Array
 
     def __call__(self, points: Array) -> Array:
         """Values at points (n, dimensions) of the unit cube."""
@@ -205,13 +171,10 @@ def fitted(points: Array, rises: Array, kinds: tuple[bool, ...] = (False, True))
         for logarithm in (kinds if np.all(rises > 0.0) else (False,))
         for indices in _index_sets(points.shape[1], int(_MOST_TERMS * len(points)))
     ]
-    return min(fits, key=lambda fit: fit[1])[0]
+    return min(fits, key=lambda fit: float(np.sum((fit.left_out - rises) ** 2)))
 
 
-def _fit(
-    points: Array, rises: Array, indices: NDArray[np.intp], logarithm: bool
-) -> tuple[Polynomial, float]:
-    """The fit, and the root mean square error of each point by a fit without it."""
+def _fit(points: Array, rises: Array, indices: NDArray[np.intp], logarithm: bool) -> Polynomial:
     terms = _terms(points, indices)
     goal = np.log(rises) if logarithm else rises
     q, r = np.linalg.qr(terms)
@@ -219,13 +182,12 @@ def _fit(
     fit = terms @ coefficients
     left_out = goal - (goal - fit) / np.maximum(1.0 - np.sum(q**2, axis=1), 1e-6)
     said = np.exp(np.minimum(left_out, 50.0)) if logarithm else left_out
-    error = float(np.sqrt(np.mean((said - rises) ** 2)))
-    return Polynomial(indices, coefficients, logarithm), error
+    return Polynomial(indices, coefficients, logarithm, said)
 
 
 def _terms(points: Array, indices: NDArray[np.intp]) -> Array:
     """The polynomials of the indices at points: (n, terms)."""
-    each = legvander(2.0 * points - 1.0, int(indices.max()))
+    each = legvander(2.0 * points - 1.0, int(indices.max(initial=0)))
     terms = np.ones((len(points), len(indices)))
     for dimension in range(points.shape[1]):
         terms *= each[:, dimension, indices[:, dimension]]

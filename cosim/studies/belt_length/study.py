@@ -5,6 +5,7 @@ Bad input is named by the option of `stickslip belt-length`, or by file and key.
 
 import math
 from argparse import Namespace
+from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from itertools import product
@@ -18,9 +19,9 @@ from thermal import Belt, NoSteadyState, ParameterError
 from .case import AIR, OWN_KEYS, Case, StudyError
 from .drift import changes, drift, friction_effect, wait
 from .lengths import shortest_belts
-from .required_length import Answer, how_long
+from .required_length import Answer, how_long, runs_for
 from .result import Options, Row, Study
-from .rigs import FEWEST_SAMPLES, runs_for
+from .rigs import FEWEST_SAMPLES
 from .uncertainty import uncertainty
 
 Progress = Callable[[int], object]
@@ -126,7 +127,7 @@ def _chosen(base: Case, values: dict[str, Any]) -> Case:
 
 
 def _row(case: Case, options: Options, answer: Answer | None) -> Row:
-    rigs = None if answer is None else answer.rigs
+    rigs = None if answer is None else answer.rigs.get(case.length)
     doubted = options.samples and (answer is None or rigs is not None)
     return Row(
         case,
@@ -144,9 +145,10 @@ def steps(study: Study, wanted: list[Case], is_own: bool) -> int:
 
     is_own: the doubt is that of an own rig's drives, not of each case.
     """
-    doubts = len({case.drive for case in wanted}) if is_own else len(wanted)
-    places = 0 if study.grid is None else study.grid.drift.size
-    return doubts * runs_for(study.options.samples) + len(wanted) + places
+    samples, places = study.options.samples, 0 if study.grid is None else study.grid.drift.size
+    belts = Counter(case.drive for case in wanted).values()
+    runs = sum(runs_for(samples, count) if is_own else samples * count for count in belts)
+    return runs + len(wanted) + places
 
 
 def work_off(
@@ -161,7 +163,7 @@ def work_off(
     with processes(min(jobs, len(calls))) as mapped:
         for row in mapped(_row, calls):
             study.rows.append(row)
-            progress(1 if answers else 1 + runs_for(study.options.samples))
+            progress(1 if answers else 1 + study.options.samples)
     study.complete = True
 
 
@@ -172,7 +174,7 @@ def answer_all(study: Study, wanted: list[Case], jobs: int, progress: Progress) 
         drives.setdefault(case.drive, []).append(case)
     limit, samples = study.options.limit, study.options.samples
     for belts in drives.values():
-        left = runs_for(samples)
+        left = runs_for(samples, len(belts))
 
         def done(count: int) -> None:
             nonlocal left

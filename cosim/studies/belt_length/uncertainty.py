@@ -2,7 +2,7 @@
 
 Variance-based sensitivity after Saltelli 2010: Sobol's sequence, first-order and total indices with
 95 % intervals. They need some 1e5 drifts, so a polynomial stands in for the model in
-each of the answers that a rise is made of (`rigs`).
+each of the answers that a rise is made of (`rigs`); quantiles are of the model's own rises.
 """
 
 from collections.abc import Callable, Sequence
@@ -41,9 +41,9 @@ class Uncertainty:
     its range, drift_low and drift_high, the rest as the case is but for with_others (key -> value:
     one of nothing is seen in something); basis: where the range comes from.
     interface_...: the same quantiles of the interface's rise at constant speed. evaluations: runs
-    of the model; ...unexplained: share of the variance that the polynomials miss on the runs that
-    they have not seen. melts: share of the rigs in which the ice comes to melt; the rises are as if
-    it did not.
+    of the model; unexplained: share of the variance that the polynomials of the influences miss, of
+    each run by those without it. melts: share of the rigs in which the ice comes to melt; the rises
+    are as if it did not.
     """
 
     low: float
@@ -56,7 +56,6 @@ class Uncertainty:
     interface_low: float
     interface_median: float
     interface_high: float
-    interface_unexplained: float
     melts: float = 0.0
 
     def table(self) -> list[Record]:
@@ -70,30 +69,24 @@ def uncertainty(case: Case, samples: int, rigs: Rigs | None = None) -> Uncertain
 
     None where the ice of more than MOST_MELTING of the rigs comes to melt.
 
-    samples: runs of the model for the polynomials, a power of two from FEWEST_SAMPLES. rigs: those
-    that are there already, of belts between which the case's own is.
+    samples: rigs, a power of two from FEWEST_SAMPLES. rigs: those that are there already.
     """
     try:
         rigs = Rigs(case, samples) if rigs is None else rigs
-        melts = rigs.melting(case.length)
-        if melts > MOST_MELTING:
+        if rigs.melting > MOST_MELTING:
             return None
         single_changes = _single_changes(case, rigs.unknowns)
     except Melts:
         return None
-    drawn = rigs.drawn(REPLICATES * SEQUENCE)
-    drifts = rigs.rise(ENTRY, drawn, case.length)
-    interface = rigs.rise(INTERFACE, drawn, case.length)
-    keys = [one.key for one in rigs.unknowns]
+    drifts = rigs.rises(ENTRY)
     return Uncertainty(
         *quantiles(drifts),
-        _influences(keys, drifts, lambda shares: rigs.rise(ENTRY, shares, case.length)),
+        _influences([one.key for one in rigs.unknowns], drifts, rigs.entry),
         single_changes,
-        rigs.evaluations + 2 * len(single_changes),
-        rigs.unexplained[ENTRY],
-        *quantiles(interface),
-        rigs.unexplained[INTERFACE],
-        melts,
+        rigs.samples + 2 * len(single_changes),
+        rigs.unexplained,
+        *quantiles(rigs.rises(INTERFACE)),
+        rigs.melting,
     )
 
 

@@ -87,6 +87,9 @@ def test_axes_are_labelled_with_units_and_drawn_in_full(make, plate):
     for text in figure.findobj(Text):
         if text.get_text() and text.get_visible():
             assert text.get_fontsize() >= SMALLEST_TYPE, text.get_text()
+    for legend in figure.legends:
+        box = legend.get_window_extent()
+        assert figure.bbox.x0 <= box.x0 and box.x1 <= figure.bbox.x1, plate.name
 
 
 def row_label(figure, axes) -> str:

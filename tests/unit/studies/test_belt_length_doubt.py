@@ -126,15 +126,13 @@ def test_rigs_whose_ice_melts_are_counted(found):
 
 
 def test_intervals_of_the_indices_and_what_the_polynomials_miss(found):
-    assert found.evaluations == SAMPLES + SAMPLES // 4 + 2 * len(UNKNOWNS)
+    assert found.evaluations == SAMPLES + 2 * len(UNKNOWNS)
     for one in found.influences:
         assert max(one["first_order_half_width"], one["total_half_width"]) < 0.05, one["key"]
     assert found.unexplained < 0.05
     # half of the sampled rigs warm more than the rig as it is
     assert found.low < run_drift(CASE) < found.median < found.high
     assert found.interface_low < found.interface_median < found.interface_high
-    # harder to fit than the entry: 0.13 here, 0.03 with the default 128 samples
-    assert found.interface_unexplained < 0.2
     totals = [influence["total"] for influence in found.influences]
     firsts = [influence["first_order"] for influence in found.influences]
     assert sum(firsts) < 1.0 < sum(totals), "some of it only comes together"
