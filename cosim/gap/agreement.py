@@ -207,9 +207,8 @@ def _promising(fitting: Fitting, named: Named, without: Models) -> list[Part]:
             parts[name], rows[name] = part, evidence - named.ladder.rung.evidence
     gains = without.promised(list(parts.values()))
     promised = {name: gain or 0.0 for name, gain in zip(parts, gains, strict=True)}
-    sooner, is_lone = without.fits[-1].values.get(LOADING, 0.0), not named.ladder.findings
-    left = without.ladder[-1].gap
-    names = judge.promising(promised, rows, left, is_lone, sooner)
+    sooner, left = without.fits[-1].values.get(LOADING, 0.0), without.ladder[-1].gap
+    names = judge.promising(promised, rows, left, sooner)
     return [parts[name] for name in names]
 
 

@@ -44,12 +44,12 @@
     rows ask for less, as beside a finding. So for four rounds; then rows are asked for one finding
     alone, and then for none; after 150 million simulated samples at once. Beside fewer than two
     findings, no fault of the camera and no coarse steps, what rows ask for by e^6, or derivatives
-    of the simulated runs by e^25 where these are left at 1.1 at most, and beside none static
-    friction over the hold time where the contact lets go by 10 ms sooner, is found where the runs
-    are e^50 times as probable with it, and e^6 without what a scatter may be worth (ageing, e^100
-    and e^12); of several that gain 0.6 of the greatest, or are within e^200 of it, every law is
-    tried. `none` is no finding left, and fitted runs and held-out ones at 1.1 at most, each taken
-    together; without any held out nothing tells.
+    of the simulated runs by e^25 where these are left at 1.1 at most, and static friction over the
+    hold time where the contact lets go by 10 ms sooner, is found where the runs are e^50 times as
+    probable with it, and e^6 without what a scatter may be worth (ageing, e^100 and e^12); of
+    several that gain 0.6 of the greatest, or are within e^200 of it, every law is tried. `none` is
+    no finding left, and fitted runs and held-out ones at 1.1 at most, each taken together; without
+    any held out nothing tells.
  9. `named`, or `class`: findings, and the last model leaves held-out runs (fitted ones where there
     are none) at 1.3 at most and better than the user's model does, or held-out ones at 1.02 with
     most of the misfit gone, and fitted ones at 1.3, too, or most of their misfit gone; `partial`
@@ -260,8 +260,7 @@ def is_asked_for_ageing(sooner: float) -> bool:
 
 
 def promising(
-    promised: Mapping[str, float], rows: Mapping[str, float], left: Score, is_lone: bool,
-    sooner: float,
+    promised: Mapping[str, float], rows: Mapping[str, float], left: Score, sooner: float,
 ) -> list[str]:  # fmt: skip
     """What simulated runs are asked for beside the findings, the most promising first.
 
@@ -269,14 +268,14 @@ def promising(
     have taken up so that rows do not see it.
 
     promised, rows : name -> ln of how much more probable runs would be with it, to first order, and
-    rows are; left : gap of the model without it; is_lone : beside no finding; sooner : by which
-    time the contact lets go, s: that is all that ageing does to first order
+    rows are; left : gap of the model without it; sooner : by which time the contact lets go, s:
+    that is all that ageing does to first order
     """
     asked = {name: gain for name, gain in rows.items() if gain > LEAST_GAIN}
     for name, gain in promised.items():
         if gain - price_of(name) > PROMISED and not leaves(left):
             asked[name] = max(gain - price_of(name), asked.get(name, 0.0))
-    if AGEING in rows and is_lone and is_asked_for_ageing(sooner):
+    if AGEING in rows and is_asked_for_ageing(sooner):
         asked[AGEING] = math.inf
     return sorted(asked, key=lambda name: -asked[name])[:HINTS]
 

@@ -299,10 +299,11 @@ def test_lesser_findings_go_at_once_where_the_greatest_explains_the_runs(
     assert len(rows.asked[1]) == 4 - asked
 
 
-def test_ageing_is_not_asked_for_beside_another_finding(monkeypatch):
+def test_ageing_is_asked_for_beside_another_finding_too(monkeypatch):
     rows = Rows(finding("run_in", 2.0 * SURE), offers=[finding("static_strengthening", 0.1)])
-    gains = {"static_strengthening": 900.0}
-    assert agreed(monkeypatch, rows, gains, sooner=0.02, nearer=20.0)[0] == ["run_in"]
+    gains = {"run_in": 900.0, "static_strengthening": 900.0}
+    found, _ = agreed(monkeypatch, rows, gains, sooner=0.02, nearer=20.0)
+    assert found == ["run_in", "static_strengthening"]
 
 
 def test_rivals_are_beside_the_law_that_is_named_not_the_first_that_was_tried(monkeypatch):
