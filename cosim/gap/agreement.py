@@ -21,7 +21,7 @@ from cosim.gap.rejection import (
 )
 from cosim.gap.result import Rejected, Score
 from cosim.gap.rivals import overruled, rivals_of, told_apart
-from cosim.gap.weak_form.camera_faults import SMOOTHING, likeliest_filters
+from cosim.gap.weak_form.camera_faults import SMOOTHING, filter_among, likeliest_filters
 from cosim.gap.weak_form.constants import MOST_FINDINGS
 from cosim.gap.weak_form.ladder import Finding, price_of
 from cosim.gap.windows.run_model import LOADING
@@ -126,11 +126,22 @@ def _with_likeliest_filter(fitting: Fitting, named: Named) -> Named:
     if named.filtered:
         forms.append(named)
 
-    def missed(form: Named) -> float:
+    def models(form: Named) -> Models:
         parts = [fitting.part(form, each) for each in form.findings]
-        return fitting.fitted(form, parts, is_shown=False, scatters=False).unscattered.worst
+        return fitting.fitted(form, parts, is_shown=False, scatters=False)
 
-    return min(forms, key=missed)
+    def missed(form: Named) -> float:
+        return models(form).unscattered.worst
+
+    chosen = min(forms, key=missed)
+    # corners of fast runs, whose sticks are shorter than the filter, tell nothing of it
+    some = [] if chosen is named else models(chosen).runs_with(SMOOTHING)
+    if not some:
+        return chosen
+    among = filter_among(rows, chosen.findings[0].main.unknown, some)
+    evidence, added = rows.offered([among])
+    found = replace(finding, gain=evidence - rows.evidence, added=(added,))
+    return min(chosen, _with_filter(filtered, found), key=missed)
 
 
 def _with_filter(named: Named, finding: Finding) -> Named:

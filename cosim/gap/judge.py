@@ -19,7 +19,8 @@
     Where they prefer one by e^500, or e^200 if rows do not tell the two apart, and held-out runs
     come out better with it, the first goes, if no effect stands for it only where the second
     explains the runs. A tracker's filter that corners ask for by more than rows do for any finding
-    takes the place of all where simulated runs are nearer to the model with it.
+    takes the place of all where simulated runs are nearer to the model with it; these tell which
+    of them have it, too, by e^6.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`; with
     three that leave twice the noise in the rows, and runs that miss something without them, no
     single one is doubted.

@@ -23,10 +23,11 @@ from cosim.gap.report_of_findings import text_of
 from cosim.gap.result import Rung, Score
 from cosim.gap.scatter import Scatter, averaged_over, scatter_text
 from cosim.gap.weak_form.added import Added
-from cosim.gap.weak_form.constants import STICK_SCATTER
+from cosim.gap.weak_form.constants import LEAST_GAIN, STICK_SCATTER
 from cosim.gap.weak_form.system import Rung as Rows
 from cosim.gap.weak_form.system import System
 from cosim.gap.windows import Fitted, Number, fit, user_model, windows_of_campaign
+from cosim.gap.windows.fit import judge
 from cosim.gap.windows.run_model import BREAK_AWAY
 from cosim.gap.windows.score_test import ScoreTest
 from cosim.gap.windows.windows import Windows
@@ -229,6 +230,28 @@ class Models:
     def nearer(self, part: Part) -> float:
         """The same by the runs' distances and what is stated alone: no scatter is averaged over."""
         return self._beside(part)[0].gain_over(self.fits[-1])
+
+    def runs_with(self, fault: str) -> list[str]:
+        """Names of the runs in which a fault of the last model is.
+
+        As it has them, but those which it follows better by e^6 the other way round, of what all
+        runs share as it is.
+        """
+        (numbers, settings, _), last, found = self.free[-1], self.fits[-1], []
+        measured = {run.name: run for run in self.campaign.runs}
+        for run in last.runs:
+            key, near = f"{fault}_in@{run.name}", {run.name: run.states}
+            without, with_it = (
+                judge(
+                    self.campaign, self.windows, numbers, {**settings, **last.values, key: there},
+                    runs=[measured[run.name]], starts=[last.values], near=near,
+                )
+                for there in (0.0, 1.0)
+            )  # fmt: skip
+            gained = with_it.gain_over(without)
+            is_in = gained > 0.0 if abs(gained) > LEAST_GAIN else settings[key] > 0.0
+            found += [run.name] if is_in else []
+        return found
 
     def promised(self, parts: Sequence[Part]) -> list[float | None]:
         """The same of several to first order, from derivatives at the last model (`ScoreTest`)."""

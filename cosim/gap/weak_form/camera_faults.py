@@ -340,6 +340,12 @@ def likeliest_filters(rung: Rung, variants: Sequence[Unknown]) -> Iterator[tuple
             yield evidence - rung.evidence, added
 
 
+def filter_among(rung: Rung, unknown: Unknown, some: Collection[str]) -> Unknown:
+    """The same filter in runs of these names."""
+    kind, width = FILTERS[int(unknown.settings["kind"])], float(unknown.settings["width"])
+    return _in_runs(rung, _filter(kind, width), some)
+
+
 def _filter(kind: str, width: float) -> Unknown:
     words = f"{kind}, {1e3 * width:.0f} ms"
     number = FILTERS.index(kind)

@@ -94,22 +94,29 @@ def _drift(time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
 
 
 def _filtered(places: np.ndarray, time: np.ndarray, values: Mapping[str, float]) -> np.ndarray:
-    """By the tracker's filter, of each stretch without lost samples by itself."""
+    """By the tracker's filter, of each stretch without lost samples by itself.
+
+    A model that is lost is seen nowhere.
+    """
     interval = float(np.median(np.diff(time)))
     width = fault(values, "smoothing") / interval
     if width <= 0.0:
         return places
     kind = FILTERS[int(values.get("measurement.smoothing_kind", 0.0))]
-    gaps = np.flatnonzero(np.diff(time) > GAP * interval) + 1
-    parts = zip(np.split(places, gaps), np.split(time, gaps), strict=True)
-    return np.concatenate([_evenly_smoothed(*part, width, kind) for part in parts])
+    lost = np.isnan(places).any(axis=1)
+    gaps = np.flatnonzero((np.diff(time) > GAP * interval) | np.diff(lost)) + 1
+    smooth = places.copy()
+    for rows in np.split(np.arange(time.size), gaps):
+        if rows.size > 1 and not lost[rows[0]]:
+            smooth[rows] = _evenly_smoothed(places[rows], time[rows], width, kind)
+    return smooth
 
 
 def _evenly_smoothed(places: np.ndarray, time: np.ndarray, width: float, kind: str) -> np.ndarray:
     """A filter is one over time: samples whose times jitter are drawn from an even course."""
     even = np.linspace(time[0], time[-1], time.size)
     is_even = np.allclose(time, even, rtol=0.0, atol=JITTER * (time[-1] - time[0]) / time.size)
-    if is_even or np.isnan(places).any():  # a model that is lost is seen nowhere
+    if is_even:
         return _smoothed(places, width, kind)
     smooth = _smoothed(CubicSpline(time, places)(even), width, kind)
     return np.asarray(CubicSpline(even, smooth)(time))

@@ -669,7 +669,8 @@ def test_simulated_runs_choose_between_a_long_filter_and_what_rows_find(
     runs = SimpleNamespace(
         part=lambda form, found: found.name,
         fitted=lambda form, parts, **as_asked: SimpleNamespace(
-            unscattered=Score(max(missed[name] for name in parts), None)
+            unscattered=Score(max(missed[name] for name in parts), None),
+            runs_with=lambda fault: [],
         ),
     )
     found = named(finding("measurement.clock", 10.0), named(finding(SMOOTHING, 10.0)))

@@ -141,3 +141,19 @@ def test_what_findings_do_to_the_gap_by_themselves(after, felt, lost):
     models = Models(None, None, {}, [None], 1)
     models.ladder = [SimpleNamespace(name="", gap=Score(gap, None)) for gap in (2.0, after)]
     assert (models.is_felt, models.is_lost) == (felt, lost)
+
+
+def test_simulated_runs_tell_in_which_of_them_a_fault_is_by_a_factor_of_e6(monkeypatch):
+    """costs : of a run without it and with it; else it stays as the rows have it"""
+    costs = {"run1": (30.0, 10.0), "run2": (10.0, 30.0), "run3": (10.0, 20.0), "run4": (20.0, 10.0)}
+    there = {f"measurement.smoothing_in@{name}": float(n % 2) for n, name in enumerate(costs)}
+    monkeypatch.setattr(
+        models, "judge",
+        lambda campaign, windows, numbers, values, runs, **_: fitted(
+            1.0, costs[runs[0].name][int(values[f"measurement.smoothing_in@{runs[0].name}"])]
+        ),
+    )  # fmt: skip
+    runs = [SimpleNamespace(name=name, states=None) for name in costs]
+    ladder = Models(SimpleNamespace(runs=runs), None, {}, [], 1)
+    ladder.free, ladder.fits = [([], there, 0.0)], [SimpleNamespace(runs=runs, values={})]
+    assert ladder.runs_with("measurement.smoothing") == ["run1", "run4"]

@@ -300,6 +300,19 @@ def test_a_filter_of_simulated_runs_knows_of_lost_samples(kind):
     assert off[~is_near].max() < (0.04 if kind == PAST else 1e-3)  # a past of one sample's steps
 
 
+@pytest.mark.parametrize("kind", FILTERS)
+def test_a_filter_sees_nothing_of_a_model_where_it_is_lost(kind):
+    """And as much as ever of the rest, but for a sample that stands by itself."""
+    time = np.arange(0.0, 4.0, 0.01)
+    values = {"measurement.smoothing": 0.05, "measurement.smoothing_kind": FILTERS.index(kind)}
+    places = np.outer(0.2 * time, np.ones(3))
+    places[[100, *range(102, 200)]] = np.nan
+    seen = camera.seen(places, time, values)
+    np.testing.assert_array_equal(np.isnan(seen), np.isnan(places))
+    late = 0.2 * 0.05 if kind == PAST else 0.0
+    np.testing.assert_allclose(seen[250:, 0], 0.2 * time[250:] - late, atol=1e-3)
+
+
 def test_a_filter_is_one_over_time_whatever_the_samples_times_do():
     """A ramp comes out as it was; samples that jitter by 4 ms at 0.2 m/s are off by 0.8 mm."""
     time = np.arange(0.0, 4.0, 0.02) + np.random.default_rng(1).uniform(-0.007, 0.007, 200)
