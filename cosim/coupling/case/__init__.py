@@ -102,6 +102,7 @@ def run_scenario(
     thermal.ParameterError (all ValueErrors of one line) for input that cannot be, ParticipantError
     when a model fails before the first step.
 
+    >>> from cosim import read_scenario
     >>> run = run_scenario(read_scenario("reference").changed({"run.duration": 0.5}))
     >>> run.result.status, run.result["thermal.interface_temperature"].shape
     ('complete', (51,))
