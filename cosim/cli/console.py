@@ -9,9 +9,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 #: Loggers of the product: what computes says there what a user should know (WARNING: a note), what
-#: whoever watches a terminal waits for (WAITING: a note there), and what it does (INFO).
+#: whoever watches a terminal waits for (above INFO: a note there), and what it does (INFO).
 LOGGERS = ("stickslip", "thermal", "cosim")
-WAITING = logging.INFO + 5
 
 _quiet = False
 
@@ -37,7 +36,7 @@ class _Notes(logging.Handler):
     """Records as notes; those below WARNING are asked for with `-v`, and come as they are."""
 
     def emit(self, record: logging.LogRecord) -> None:
-        if record.levelno >= WAITING:
+        if record.levelno > logging.INFO:
             note(record.getMessage())
         else:
             _write(record.getMessage())
@@ -49,7 +48,7 @@ def saying(quiet: bool, verbose: bool) -> Iterator[None]:
     global _quiet
     before, _quiet = _quiet, quiet
     watched = sys.stderr is not None and sys.stderr.isatty()
-    usual = WAITING if watched else logging.WARNING
+    usual = logging.INFO + 1 if watched else logging.WARNING
     handler = _Notes(logging.INFO if verbose else usual)
     loggers = [logging.getLogger(name) for name in LOGGERS]
     levels = [logger.level for logger in loggers]

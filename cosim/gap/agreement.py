@@ -11,14 +11,7 @@ from cosim.gap.extended import Part, rounding_of
 from cosim.gap.fitting import Fitting
 from cosim.gap.models import Models
 from cosim.gap.naming import Named, Naming
-from cosim.gap.rejection import (
-    lost,
-    outdone,
-    plainly_needed,
-    rejected,
-    unpromising,
-    unsure,
-)
+from cosim.gap.rejection import lost, outdone, plainly_needed, rejected, unpromising, unsure
 from cosim.gap.result import Rejected, Score
 from cosim.gap.rivals import overruled, rivals_of, told_apart
 from cosim.gap.weak_form.camera_faults import SMOOTHING, filter_among, likeliest_filters
@@ -130,18 +123,17 @@ def _with_likeliest_filter(fitting: Fitting, named: Named) -> Named:
         parts = [fitting.part(form, each) for each in form.findings]
         return fitting.fitted(form, parts, is_shown=False, scatters=False)
 
-    def missed(form: Named) -> float:
-        return models(form).unscattered.worst
-
-    chosen = min(forms, key=missed)
+    tried = [(form, models(form)) for form in forms]
+    chosen, best = min(tried, key=lambda each: each[1].unscattered.worst)
     # corners of fast runs, whose sticks are shorter than the filter, tell nothing of it
-    some = [] if chosen is named else models(chosen).runs_with(SMOOTHING)
+    some = [] if chosen is named else best.runs_with(SMOOTHING)
     if not some:
         return chosen
     among = filter_among(rows, chosen.findings[0].main.unknown, some)
     evidence, added = rows.offered([among])
     found = replace(finding, gain=evidence - rows.evidence, added=(added,))
-    return min(chosen, _with_filter(filtered, found), key=missed)
+    moved = _with_filter(filtered, found)
+    return moved if models(moved).unscattered.worst < best.unscattered.worst else chosen
 
 
 def _with_filter(named: Named, finding: Finding) -> Named:

@@ -313,12 +313,12 @@ def needs_no_misfit(name: str, gained: float, is_lone: bool) -> bool:
     return gained > (UNDECIDED if name in TRENDS and not is_lone else SURE)
 
 
-def is_plainly_needed(left: Score, before: Score) -> bool:
-    """Whether a finding takes what is missing by so much that no doubt of it is worth a fit.
+def explains_half(left: Score, before: Score) -> bool:
+    """Whether the runs are explained with a finding, by half of what is missing without it.
 
     left, before : with the finding, and without, of friction that repeats itself
     """
-    return leaves(before, PLAIN) and not leaves(left, EXPLAINED) and halves(left, before)
+    return not leaves(left, EXPLAINED) and halves(left, before)
 
 
 def halves(left: Score, before: Score) -> bool:

@@ -244,7 +244,7 @@ class Models:
             without, with_it = (
                 judge(
                     self.campaign, self.windows, numbers, {**settings, **last.values, key: there},
-                    runs=[measured[run.name]], starts=[last.values], near=near,
+                    runs=[measured[run.name]], starts=[last.values], near=near, jobs=self.jobs,
                 )
                 for there in (0.0, 1.0)
             )  # fmt: skip

@@ -31,10 +31,9 @@ def plainly_needed(
     for part in parts:
         if part.finding.name in asked and part.in_kernel and part.finding.name not in TRENDS:
             left = fitting.without(part, parts, named, scatters=False).unscattered
-            if not judge.leaves(left, judge.PLAIN):
-                continue
-            found = fitting.fitted(named, parts, scatters=False).unscattered
-            if judge.is_plainly_needed(found, left):
+            if judge.leaves(left, judge.PLAIN) and judge.explains_half(
+                fitting.fitted(named, parts, scatters=False).unscattered, left
+            ):
                 needed.add(part.finding.name)
     return needed
 

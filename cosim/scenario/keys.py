@@ -7,14 +7,7 @@ from pydantic.fields import FieldInfo
 
 from cosim.scenario.defaults import IN_PROPORTION, stated
 from cosim.scenario.scenario import scenario_type
-from cosim.scenario.validation import (
-    allowed,
-    entries_of,
-    known_keys,
-    spaced,
-    table_of,
-    unit_of,
-)
+from cosim.scenario.validation import allowed, entries_of, known_keys, spaced, table_of, unit_of
 
 
 class Key(NamedTuple):
