@@ -143,7 +143,8 @@ def time_to_rest(p: Floats, u: Floats, w: Floats) -> float:
     rest = stopping_time(p, w)
     speed = scaled_sliding_speed(w)
     far = rest < 0.0 or rest > p[P_LONGEST_STEP]
-    if p[P_LOCAL_LAW] == 0.0 or far or speed <= rest_speed(p, u):
+    is_even = p[P_LOCAL_LAW] == 0.0 and p[P_TRANSITION_SPEED] == 0.0
+    if is_even or far or speed <= rest_speed(p, u):
         return rest
     time = 0.0
     for i in range(3):

@@ -125,3 +125,11 @@ def test_without_a_transition_the_age_is_lost_at_once():
     ]
     for name in runs[0].columns:
         np.testing.assert_array_equal(runs[0][name], runs[1][name])
+
+
+def test_of_the_excess_nothing_is_left_out_but_what_rounding_takes():
+    """Thirty of `(v / v_s)^p` are felt to their digits, 45 not at all."""
+    law = {"mu_s": 0.1, "mu_k": 0.0, "transition_speed": 4e-3, "transition_exponent": 1.3}
+    speeds = 4e-3 * np.array([30.0, 45.0]) ** (1.0 / 1.3)
+    left = friction_coefficient(Parameters(friction=law), speeds)
+    np.testing.assert_allclose(left, [0.1 * np.exp(-30.0), 0.0], rtol=1e-12)

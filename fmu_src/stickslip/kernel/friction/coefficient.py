@@ -121,7 +121,7 @@ def set_excess(p: Floats, u: Floats, w: Floats, mu: float) -> None:
 
 def transition(p: Floats, w: Floats, speed: float) -> float:
     """What of the excess of `set_excess` is left at a local sliding speed, m/s."""
-    if w[W_EXCESS] == 0.0:
+    if w[W_EXCESS] == 0.0 or speed > p[P_TRANSITION_END]:
         return 0.0
     x = speed / p[P_TRANSITION_SPEED]
     if p[P_TRANSITION_EXPONENT] != 1.0:

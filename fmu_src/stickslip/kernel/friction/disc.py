@@ -123,8 +123,13 @@ def add_law_at_points(p: Floats, u: Floats, w: Floats, sliding: float, k: float)
 
     Albrecht's twelve points of a disc, exact to the seventh degree (Stroud, Approximate Calculation
     of Multiple Integrals, 1971, S2 7-1): on the axes, and on two squares. Those at x and -x slide
-    alike.
+    alike. What they leave of the moment goes with the seventh power of k; what the corners of one
+    square leave, exact to the third degree, with its third.
     """
+    if k <= p[P_FEW_POINTS] * p[P_FEW_POINTS] * p[P_FEW_POINTS]:
+        add_law_at_point(p, u, w, sliding, k, 0.5, 0.5, 0.5)
+        add_law_at_point(p, u, w, sliding, k, 0.5, -0.5, 0.5)
+        return
     axis = 0.5 * sqrt(3.0)
     near = sqrt((27.0 - 3.0 * sqrt(29.0)) / 104.0)
     far = sqrt((27.0 + 3.0 * sqrt(29.0)) / 104.0)

@@ -64,7 +64,8 @@ def set_sliding_coefficients(
     (sx, sy, sr) is the scaled sliding velocity; sr is a rim speed. The mean local sliding speed
     (m/s) goes to ``w[W_MEAN_SPEED]``. Where mu_k depends on the local speed, the closed form takes
     its value at the mean speed and a quadrature adds what differs from that. The age of the contact
-    (rate_and_state) belongs to the whole of it and goes with the mean speed.
+    (rate_and_state) belongs to the whole of it and goes with the mean speed. No point of the disc
+    slides more slowly than it slides less its rim spins.
     """
     mu = kinetic_coefficient(p, u, w)
     sliding = sqrt(sx * sx + sy * sy)
@@ -72,14 +73,16 @@ def set_sliding_coefficients(
     mean_speed = w[W_PAIR] * sliding + w[W_PAIR + 1] * abs(sr)
     w[W_MEAN_SPEED] = mean_speed
     reference = mu
-    if p[P_LOCAL_LAW] == 1.0:
+    slowest = max(0.0, sliding - abs(sr))
+    is_local = p[P_LOCAL_LAW] == 1.0 or slowest < p[P_TRANSITION_END]
+    if is_local:
         set_excess(p, u, w, mu)
         reference = sliding_coefficient(p, u, w, mu, mean_speed)
     aged = state_coefficient(p, u, w, mean_speed)
     whole = max(0.0, reference + aged)
     w[W_PAIR] *= whole
     w[W_PAIR + 1] *= whole
-    if p[P_LOCAL_LAW] == 1.0 and sr != 0.0:
+    if is_local and sr != 0.0:
         w[W_KINETIC] = mu
         w[W_AGED] = aged
         w[W_WHOLE] = whole

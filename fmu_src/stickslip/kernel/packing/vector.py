@@ -74,6 +74,9 @@ def set_start(v: Floats, d: Floats, p: Floats) -> None:
     p[P_INITIAL + 2] += departure(d, D_START_ANGLE, turn)
 
 
+# (speed / v_s)^p from which nothing is left of the excess: exp(-44) of it is below the rounding of
+# any coefficient.
+NOTHING_LEFT = 44.0
 # Of its excess, what friction may err by where bristles are left out: worth some 1e-7 m of the way.
 LAG = 1e-4
 
@@ -82,6 +85,7 @@ def set_friction_law(v: Floats, p: Floats) -> None:
     """Everything of friction but the effects' own numbers; mass and normal force are there."""
     p[P_TRANSITION_SPEED] = v[V_FRICTION_TRANSITION_SPEED]
     p[P_TRANSITION_EXPONENT] = v[V_FRICTION_TRANSITION_EXPONENT]
+    p[P_TRANSITION_END] = p[P_TRANSITION_SPEED] * NOTHING_LEFT ** (1.0 / p[P_TRANSITION_EXPONENT])
     p[P_MU_S] = with_coefficient_factor(p, v, v[V_FRICTION_MU_S])
     p[P_MU_K] = with_coefficient_factor(p, v, v[V_FRICTION_MU_K])
     p[P_MU_SCALE] = p[P_MU_K]
@@ -157,7 +161,7 @@ def set_kind_of_law(p: Floats) -> None:
     The numbers of the effects are there.
     """
     falls = p[P_TRANSITION_SPEED] > 0.0
-    if falls or p[P_TABLE_POINTS] > 0.0 or has_local_law(p):
+    if p[P_TABLE_POINTS] > 0.0 or has_local_law(p):
         p[P_LOCAL_LAW] = 1.0
     p[P_FEEDING] = float(MOVING)
     if p[P_BRISTLE_STIFFNESS] > 0.0:
