@@ -28,7 +28,7 @@ from .parameters import ParameterError, ThermalParameters
 
 #: Shifts (1/s) at which the belt's answer is that of all its functions: from the tenth part of a
 #: short step to the slowest of its modes, each at most so many times the next; and, over the rate
-#: of the first mode that carries no heat, the two lowest. See `ice.krylov`.
+#: of the first mode that carries no heat, the two lowest. See `ice.sample`.
 _FASTEST, _APART, _LOWEST = 3000.0, 4.2, (0.3, 1e-3)
 
 #: Heat transfer to the ice that its space also answers at, W/m2K, and the shifts where it matters.
