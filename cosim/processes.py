@@ -41,15 +41,9 @@ HUNG_UP_SECONDS = 1.0
 #: lets its work end.
 LOOK_SECONDS = 0.25
 #: Of many processes each has one: two of BLAS on two cores would else be four.
+_BLAS = ("OMP", "OPENBLAS", "MKL", "BLIS")
 ONE_THREAD = dict.fromkeys(
-    (
-        "OMP_NUM_THREADS",
-        "OPENBLAS_NUM_THREADS",
-        "MKL_NUM_THREADS",
-        "BLIS_NUM_THREADS",
-        "VECLIB_MAXIMUM_THREADS",
-    ),
-    "1",
+    (*(f"{name}_NUM_THREADS" for name in _BLAS), "VECLIB_MAXIMUM_THREADS"), "1"
 )
 DONE, FAILED, SAID = "done", "failed", "said"
 PROGRAM = (

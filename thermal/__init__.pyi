@@ -1,7 +1,7 @@
 from .belt.parameters import Belt as Belt
 from .belt.parameters import Layer as Layer
 from .belt.single_pass import SinglePass as SinglePass
-from .contact.exchange import Contact as Contact
+from .contact import Contact as Contact
 from .ice.mesh_file import MeshError as MeshError
 from .ice.parameters import Ice as Ice
 from .model import BeltIceModel as BeltIceModel

@@ -9,12 +9,10 @@ from dataclasses import astuple, dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from .arrays import Array
+from .arrays import Array, interpolated
 from .belt.material_frame import BeltField
-from .belt.supported_belt import SupportedBelt
-from .contact.exchange import Fluxes, IceFace, exchange
-from .contact.footprint import Footprint
-from .grids import interpolated
+from .belt.supports import SupportedBelt
+from .contact import Fluxes, Footprint, IceFace, exchange
 from .ice.block import StandingBlock, standing_block
 from .ice.cylinder import Cylinder
 from .ice.melting import Meltwater

@@ -20,8 +20,7 @@ from xml.etree import ElementTree
 import meshio
 import numpy as np
 
-from .arrays import Array
-from .grids import grid_points, interpolated, quadrilaterals
+from .arrays import Array, grid_points, interpolated, quadrilaterals
 from .model import BeltIceModel
 
 

@@ -10,7 +10,7 @@ from stickslip.quantity import Table, quantity
 
 from .belt.air import NotLaminar, heated_belt
 from .belt.parameters import Belt, Layer
-from .contact.exchange import Contact
+from .contact import Contact
 from .ice.parameters import Ice
 
 #: Most cells along the belt: a slip of the unit must not exhaust the memory.

@@ -1,7 +1,7 @@
 """Belt and ice as small matrices: what a solver without finite elements needs of them.
 
 Of each, the Galerkin space is cut down to a rational Krylov space that answers heat at the contact
-as the whole does (`thermal.ice.krylov`): of the belt through its thickness, where a solver steps it
+as the whole does (`thermal.ice.sample`): of the belt through its thickness, where a solver steps it
 column by column; of the ice as a body. The trial functions are orthonormal in the capacity, and the
 films stay apart from conduction, so that a solver finds the modes for any heat transfer by
 diagonalising one small symmetric matrix.
@@ -20,15 +20,15 @@ from .arrays import Array
 from .assembly import HeatSpace
 from .belt.parameters import Belt
 from .belt.thickness import section
-from .contact.footprint import Footprint
+from .contact import Footprint
 from .ice.block import standing_block
-from .ice.krylov import response_space
+from .ice.sample import response_space
 from .materials import GRAVITY
 from .parameters import ParameterError, ThermalParameters
 
 #: Shifts (1/s) at which the belt's answer is that of all its functions: from the tenth part of a
 #: short step to the slowest of its modes, each at most so many times the next; and, over the rate
-#: of the first mode that carries no heat, the two lowest. See `ice.krylov`.
+#: of the first mode that carries no heat, the two lowest. See `ice.sample`.
 _FASTEST, _APART, _LOWEST = 3000.0, 4.2, (0.3, 1e-3)
 
 #: Heat transfer to the ice that its space also answers at, W/m2K, and the shifts where it matters.

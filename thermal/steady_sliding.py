@@ -23,8 +23,7 @@ from numpy.typing import NDArray
 
 from .arrays import Array
 from .belt.rig_frame import BeltSeries
-from .contact.exchange import BeltFace, Fluxes, IceFace, exchange
-from .contact.footprint import Footprint
+from .contact import BeltFace, Fluxes, Footprint, IceFace, exchange
 from .ice.block import standing_block
 from .ice.body import IceBody
 from .parameters import ThermalParameters

@@ -4,9 +4,9 @@ from collections.abc import Iterable
 
 from cosim.cli.console import note
 from cosim.scenario import Scenario, ScenarioError, read_scenario
-from cosim.scenario.changes import changes_of
 from cosim.scenario.keys import taken_line
 from cosim.scenario.scenario import scenario_of
+from cosim.scenario.toml_file import changes_of
 
 
 def given_scenario(source: str, settings: Iterable[str] = ()) -> Scenario:

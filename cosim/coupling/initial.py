@@ -12,8 +12,7 @@ import numpy as np
 
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.participant import CouplingError, capabilities
-from cosim.coupling.schemes.iterated import QuasiNewton, Vector
-from cosim.coupling.schemes.scheme import Scheme, ending_early_first
+from cosim.coupling.schemes import QuasiNewton, Scheme, Vector, ending_early_first
 from cosim.coupling.step_control.control import HALVE, StepControl
 from cosim.coupling.system import Address, CoupledSystem
 from cosim.coupling.tolerance import bounds, nominals

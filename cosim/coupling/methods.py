@@ -3,8 +3,15 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from cosim.coupling.schemes.iterated import Aitken, Iterated, QuasiNewton, Relaxation
-from cosim.coupling.schemes.scheme import GaussSeidel, Jacobi, Scheme
+from cosim.coupling.schemes import (
+    Aitken,
+    GaussSeidel,
+    Iterated,
+    Jacobi,
+    QuasiNewton,
+    Relaxation,
+    Scheme,
+)
 from cosim.coupling.step_control.adaptive import (
     AdaptiveStep,
     Defect,

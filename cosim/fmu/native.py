@@ -25,10 +25,9 @@ from stickslip.words import SAID, WHY_NOT
 
 from cosim.files import write_bytes
 from cosim.fmu import c_tables
-from cosim.fmu.archive import digest_of, guid_of, packed
+from cosim.fmu.archive import digest_of, extras, guid_of, packed
 from cosim.fmu.description import UnitFacts, build_description, fmi2_description, fmi3_description
 from cosim.fmu.exchange import INDICATORS, variables
-from cosim.fmu.extras import extras
 from cosim.fmu.libraries import FMI2, FMI3, Sources, of_platforms
 from cosim.fmu.variables import Variable
 
@@ -42,17 +41,8 @@ DESCRIPTION = (
 #: Files that make the sources.
 MAKERS = (
     *Path(c_generation.__file__).parent.glob("c*.py"),
-    *map(
-        Path(__file__).with_name,
-        (
-            "native.py",
-            "c_tables.py",
-            "exchange.py",
-            "libraries.py",
-            "variables.py",
-            "variables.toml",
-        ),
-    ),
+    *map(Path(__file__).with_name, ("native.py", "c_tables.py", "exchange.py", "libraries.py")),
+    *map(Path(__file__).with_name, ("variables.py", "variables.toml")),
 )
 
 

@@ -27,10 +27,9 @@ from stickslip.scratch import scratch_folder
 
 from cosim.files import write_bytes
 from cosim.fmu import description
-from cosim.fmu.archive import digest_of, guid_of, packed
+from cosim.fmu.archive import digest_of, extras, guid_of, packed
 from cosim.fmu.description import UnitFacts, fmi2_description
 from cosim.fmu.description.documentation import of_mechanics
-from cosim.fmu.extras import extras
 from cosim.fmu.native import DESCRIPTION, NAME
 from cosim.fmu.pythonfmu_library import corrected
 from cosim.fmu.variables import WATCHED, Variable, variables

@@ -28,9 +28,8 @@ from stickslip.quantity import Table, quantity
 
 from cosim.names import nearest
 from cosim.scenario import defaults as defaults_of_files
-from cosim.scenario.changes import changed_tables, changes_named, is_of_change
 from cosim.scenario.method import Method
-from cosim.scenario.toml_file import parsed, text_of
+from cosim.scenario.toml_file import changed_tables, changes_named, is_of_change, parsed, text_of
 from cosim.scenario.validation import ScenarioError, checked, known_keys, spaced, unit_of
 from thermal import Ambient, Belt, Contact, Ice, ParameterError, ThermalParameters
 from thermal.materials import ICE, MATERIALS

@@ -3,14 +3,18 @@
 The estimate is of the least work that the parameters ask for, on a usual core; it is right to a
 factor of ten or so. It decides between minutes and days; a run.patience that is long enough lets
 anything through that the models can do.
+
+Beside it, numbers that no rig has and that another unit would make usual: grams, millimetres.
 """
+
+from math import log
 
 from stickslip import Parameters, status
 from stickslip.packing import GRAVITY
 
 from cosim.scenario.durations import in_words
 from cosim.scenario.scenario import Scenario
-from cosim.scenario.validation import ScenarioError
+from cosim.scenario.validation import WORDS, ScenarioError
 
 #: A run that takes longer says so when it starts, s.
 WORTH_SAYING = 60.0
@@ -88,3 +92,27 @@ def _check_heat(scenario: Scenario) -> float:
             "coarser mesh, or more patience"
         )
     return preparing + seconds
+
+
+def doubted(parameters: Parameters) -> str:
+    """A sentence on the numbers that are likely in another unit; "" where none is.
+
+    That one is named which makes the number most like the default.
+    """
+    found, usual = [], Parameters()
+    for key, ((least, most), units) in WORDS["usual"].items():
+        value, default = _number(parameters, key), _number(usual, key)
+        size = abs(value)
+        off = {
+            unit: abs(log(size * factor / default))
+            for unit, factor in units.items()
+            if not least <= size <= most and least <= size * factor <= most
+        }
+        if off:
+            found.append(f"{key} = {value:g} ({min(off, key=off.__getitem__)}?)")
+    return f"{', '.join(found)}: no rig has that in SI units" if found else ""
+
+
+def _number(parameters: Parameters, key: str) -> float:
+    table, _, name = key.partition(".")
+    return float(getattr(getattr(parameters, table), name))

@@ -16,8 +16,7 @@ from stickslip.quantity import Table, quantity
 
 from cosim.coupling import Affine, Curve
 from cosim.names import unknown_name
-from cosim.scenario.changes import changed_tables
-from cosim.scenario.toml_file import parsed, text_of
+from cosim.scenario.toml_file import changed_tables, parsed, text_of
 from cosim.scenario.validation import checked
 from cosim.systems.specification import (
     NOT_GIVEN,

@@ -20,8 +20,10 @@ from thermal.arrays import Array
 from thermal.relaxation import STEP_SIZES, step
 
 from .parameters import Belt
-from .supports import CONTACT
 from .thickness import thickness_of
+
+#: The faces of the belt.
+CONTACT, BACK = 0, 1
 
 Spectrum = NDArray[np.complex128]
 

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from thermal.arrays import Array
-from thermal.contact.footprint import Footprint
+from thermal.contact import Footprint
 from thermal.relaxation import step
 
 from .parameters import Belt

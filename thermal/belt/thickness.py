@@ -17,9 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 from skfem import CellBasis, ElementLineP2, FacetBasis, MeshLine
 
-from thermal.arrays import Array
+from thermal.arrays import Array, graded
 from thermal.assembly import Body
-from thermal.grids import graded
 from thermal.materials import Medium
 from thermal.relaxation import eigenmodes
 

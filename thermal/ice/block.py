@@ -2,7 +2,7 @@
 
 from typing import TypeAlias
 
-from thermal.contact.footprint import Footprint
+from thermal.contact import Footprint
 from thermal.parameters import ParameterError, ThermalParameters
 
 from .cylinder import Cylinder

@@ -11,9 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 from skfem import CellBasis, ElementQuad2, FacetBasis, MeshQuad
 
-from thermal.arrays import Array
+from thermal.arrays import Array, graded, grid_points, quadrilaterals
 from thermal.assembly import Body
-from thermal.grids import graded, grid_points, quadrilaterals
 from thermal.materials import Medium
 
 from .body import IceBody

@@ -18,9 +18,7 @@ import numpy as np
 
 from thermal.arrays import Array
 from thermal.belt.material_frame import BeltField
-from thermal.contact.exchange import Fluxes, IceFace
-from thermal.contact.footprint import Footprint
-from thermal.contact.water import BeltWater, MeltFilm
+from thermal.contact import BeltWater, Fluxes, Footprint, IceFace, MeltFilm
 from thermal.materials import GRAVITY
 from thermal.parameters import ThermalParameters
 
@@ -177,29 +175,12 @@ class Meltwater:
 
     def state(self) -> Array:
         """Everything that a continuation needs, as a copy."""
-        return np.concatenate(
-            (
-                [
-                    self.ablation.speed,
-                    self.film.mass,
-                    self.film.squeezed,
-                    self.melted,
-                    self.wiped,
-                    self.wiped_ice,
-                ],
-                self.on_belt.water,
-                self.on_belt.frozen,
-            )
-        )
+        masses = [self.film.mass, self.film.squeezed, self.melted, self.wiped, self.wiped_ice]
+        on_belt = self.on_belt.water, self.on_belt.frozen
+        return np.concatenate(([self.ablation.speed, *masses], *on_belt))
 
     def restore(self, state: Array) -> None:
         """Take a state that `state` returned."""
-        (
-            self.ablation.speed,
-            self.film.mass,
-            self.film.squeezed,
-            self.melted,
-            self.wiped,
-            self.wiped_ice,
-        ) = (float(x) for x in state[:6])
+        self.ablation.speed, self.film.mass, self.film.squeezed = map(float, state[:3])
+        self.melted, self.wiped, self.wiped_ice = map(float, state[3:6])
         self.on_belt.water[:], self.on_belt.frozen[:] = state[6:].reshape(2, -1)

@@ -19,7 +19,7 @@ from cosim.coupling.record import RunFolder
 from cosim.interrupts import Patience
 from cosim.manifest import ResultFolder
 from cosim.report.coupling import doubts
-from cosim.scenario.changes import changes_of
+from cosim.scenario.toml_file import changes_of
 from cosim.systems import SystemRun, read_system, run_system
 from cosim.systems.run import check_system
 from cosim.systems.show import FILES, write_system

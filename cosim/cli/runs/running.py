@@ -26,8 +26,7 @@ from cosim.report.coupling import doubts
 from cosim.report.run_text import bounds_sentences, closing_lines
 from cosim.scenario import Scenario, ScenarioError, check_work
 from cosim.scenario.durations import in_words
-from cosim.scenario.units import doubted
-from cosim.scenario.work import WORTH_SAYING
+from cosim.scenario.work import WORTH_SAYING, doubted
 
 RESULT_FILES = ("result.nc", "result.csv", "summary.json", "report.html", LOG)
 #: By which keys the JSON of a run is known.

@@ -25,7 +25,7 @@ from cosim.coupling.record.folder import (
     save_checkpoint,
 )
 from cosim.coupling.record.table import GrowingTable
-from cosim.coupling.schemes.scheme import Scheme
+from cosim.coupling.schemes import Scheme
 from cosim.coupling.step_control.control import StepControl
 from cosim.coupling.system import CoupledSystem
 from cosim.files import OutputError, write_text

@@ -15,8 +15,7 @@ from cosim.coupling.conversion import POWER, told_dimension
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.messages import SMALLEST
 from cosim.coupling.participant import CouplingError
-from cosim.coupling.schemes.iterated import Iterated, Vector
-from cosim.coupling.schemes.scheme import Remembers, Scheme
+from cosim.coupling.schemes import Iterated, Remembers, Scheme, Vector
 from cosim.coupling.step_control.control import OFTEN, StepControl, Stepper
 from cosim.coupling.system import Address, Connection, CoupledSystem, find_port
 from cosim.coupling.tolerance import Tolerance

@@ -12,7 +12,7 @@ from typing import ClassVar
 from cosim.coupling.exchange import Exchange
 from cosim.coupling.messages import UNCONVERGED
 from cosim.coupling.participant import CouplingError
-from cosim.coupling.schemes.scheme import EndedEarly, Remembers, Scheme, StepDone
+from cosim.coupling.schemes import EndedEarly, Remembers, Scheme, StepDone
 from cosim.coupling.system import CoupledSystem
 
 STOP, HALVE, ACCEPT = "stop", "halve", "accept"

@@ -17,8 +17,7 @@ from ..material import figure_of_material, live_of_material
 from ..quantities import TABLES
 from .belt_map import belt_temperature
 from .heat import heat, melting, temperatures
-from .motion import friction_force, motion
-from .over_time import time_figure
+from .over_time import friction_force, motion, time_figure
 from .phase_portrait import phase_portrait_live
 from .top_view import top_view_live
 

@@ -12,8 +12,7 @@ from cosim.report.live import Live, packed
 from cosim.report.palette import BLUE, GREY, INK, RED, Scaled, readable
 
 from .events import through_events
-from .motion import DEGREES, SMALLEST_ANGLE_DEG
-from .over_time import zoom_of
+from .over_time import DEGREES, SMALLEST_ANGLE_DEG, zoom_of
 
 DEGREES_PER_SECOND = Scaled(180.0 / np.pi, "°/s")
 RAMP = "speed ramp"

@@ -11,8 +11,7 @@ from cosim.report.columns import Array, Data
 from cosim.report.contents import mechanics_of, value_of
 from cosim.report.live import Live, packed
 
-from .motion import SMALLEST_ANGLE_DEG
-from .over_time import zoom_of
+from .over_time import SMALLEST_ANGLE_DEG, zoom_of
 
 
 class Pose(NamedTuple):

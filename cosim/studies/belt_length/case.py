@@ -7,12 +7,11 @@ from functools import lru_cache
 from typing import Any, NamedTuple, Self
 
 from cosim.coupling.case.thermal_participant import prepared_block
-from cosim.scenario.changes import changed_tables
+from cosim.scenario.toml_file import changed_tables
 from thermal import Belt, Contact, Ice, SlidingState, SteadySliding, ThermalParameters
-from thermal.belt.air import convection, heated_belt, laminar_span, radiation
-from thermal.belt.frost import Frost, frost
+from thermal.belt.air import Frost, convection, frost, heated_belt, laminar_span, radiation
 from thermal.belt.single_pass import SinglePass
-from thermal.contact.footprint import Footprint
+from thermal.contact import Footprint
 from thermal.ice.body import IceBody
 from thermal.materials import GRAVITY, MELTING_POINT_DEGC
 

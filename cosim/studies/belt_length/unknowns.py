@@ -29,7 +29,7 @@ from stickslip.packaged import packaged_tables
 
 from thermal import Belt, Layer
 from thermal.arrays import Array
-from thermal.contact.footprint import Footprint
+from thermal.contact import Footprint
 from thermal.materials import GRAVITY
 
 from ...names import unknown_name

@@ -14,7 +14,7 @@ from stickslip.packing import GRAVITY
 from stickslip.parameters import EffectTables
 from stickslip.reference.coulomb_oscillator import BeltStart, CoulombOscillator
 from stickslip.steady_motion import Assessment, Interface, RunEnded, assess, with_pretension
-from stickslip.steady_motion.numbers import at_speed, with_ratio
+from stickslip.steady_motion.borders import at_speed, with_ratio
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP, regime_of
 from stickslip.steady_motion.stability import cycle_stability, guided
 from stickslip.steady_motion.starts import RAMP, REST, RIDING, other_starts

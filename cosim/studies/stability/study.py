@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from stickslip.steady_motion import numbers as rig
+from stickslip.steady_motion import borders as rig
 from stickslip.steady_motion.borders import COUNT, FARTHEST, all_borders, follower
 from stickslip.steady_motion.regimes import STICK_SLIP
 from stickslip.steady_motion.starts import RAMP, REST, STARTS, disturbed, other_starts
@@ -25,7 +25,7 @@ from .maps import MAPPED, Case, NotAMotion, PretensionMap, RegimeMap, run_length
 
 #: From one value to another; None is beyond what was searched.
 Window = tuple[float | None, float | None]
-#: What the command line calls the numbers of `numbers.numbers_of`.
+#: What the command line calls the numbers of `borders.numbers_of`.
 NUMBERS = {
     "speed": rig.SPEED,
     "ramp": rig.RAMP,

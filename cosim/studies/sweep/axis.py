@@ -15,7 +15,7 @@ from stickslip import Parameters
 
 from cosim.names import nearest_key
 from cosim.scenario import Scenario
-from cosim.scenario.changes import value_of
+from cosim.scenario.toml_file import value_of
 from cosim.scenario.validation import known_keys, unit_of
 
 LINK = "+"

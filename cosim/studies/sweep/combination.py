@@ -21,7 +21,7 @@ from stickslip.catalogue import CATALOGUE, Catalogue
 from cosim.report import contents, heat_numbers, run_summary
 from cosim.report.dataset import run_columns, trajectory_columns
 from cosim.scenario import Scenario, ScenarioError
-from cosim.scenario.changes import changed_tables
+from cosim.scenario.toml_file import changed_tables
 
 from . import features as feature_module
 from .axis import list_entry

@@ -15,7 +15,7 @@ from xml.etree.ElementTree import tostring
 from cosim.coupling import UnitDefinition
 from cosim.coupling.fmu.variables import NUMERIC
 from cosim.names import unknown_name
-from cosim.scenario.changes import changed_tables
+from cosim.scenario.toml_file import changed_tables
 from cosim.scenario.validation import checked
 from cosim.systems.specification import (
     Hop,

@@ -86,7 +86,7 @@ bool model_begin(Model *model, double values[], double tolerance, char message[]
     return true;
 }
 
-/* --- the exchange at the contact, thermal/contact/exchange.py --- */
+/* --- the exchange at the contact, thermal/contact.py --- */
 
 typedef struct {
     double free_mean, free_end, mean_rise, end_rise; /* of the ice's face; K, K m2/W */

@@ -1,6 +1,6 @@
 /* What becomes of ice that melts: a film below the block, water and ice on the belt.
 
-   The equations are those of thermal/contact/water.py. */
+   The equations are those of thermal/contact.py. */
 #ifndef WATER_H
 #define WATER_H
 

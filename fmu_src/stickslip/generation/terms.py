@@ -5,12 +5,15 @@ every effect that is on; for the states their rates, starts and scales; the ques
 asks of the effects: whether they feel an input, have a memory, or vary over the contact; and what
 makes their numbers in ``p`` from values and random draws when parameters are packed. The calls are
 direct, and what is off costs a comparison.
+
+Before that it is checked that a declaration is what the kernel can be made of, each rule with its
+own line.
 """
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from ..effects.effect import Effect, Term
-from .check import check
 from .functions import EffectFunctions, arguments
 from .places import ARRAY, CONSTANTS, LOCAL, MEMORY, PACKED, PLACES, RATE, SCALE, WORDS, Place
 from .slots import (
@@ -301,3 +304,48 @@ def _packed_function(place: Place, effects: Sequence[Effect]) -> str:
     terms = [(e, term) for e in effects for term in packed_terms(e) if term.__name__ == place.name]
     calls = [(is_on(effect, term), _packed_call(effect, term)) for effect, term in terms]
     return _place_text(place, f"p: {ARRAY}, v: {ARRAY}, value: float", calls)
+
+
+#: Every name that means something to a term of some place.
+KERNEL_WORDS = {
+    *WORDS,
+    *CONSTANTS,
+    *(word for place in (*PLACES, RATE, SCALE) for word in (*place.words, place.so_far) if word),
+}
+
+
+def check(effect: Effect) -> None:
+    """That terms have places, names are told apart, and what is off is zero; else ValueError."""
+    places = [place.name for place in (*PLACES, *PACKED)]
+    for term in effect.terms:
+        if term.__name__ not in places:
+            there = ", ".join(sorted(places))
+            effect.refuse(f"no place {term.__name__!r} in the kernel; there are {there}")
+    if kernel_terms(effect):
+        _check_zero_is_off(effect)
+    _check_names(effect)
+
+
+def _check_zero_is_off(effect: Effect) -> None:
+    for name in effect.switch:
+        if effect.table.model_fields[name].default != 0.0:
+            effect.refuse(f"{name} is not off at 0")
+
+
+def _check_names(effect: Effect) -> None:
+    """A term takes its numbers by their names: each must have one, which is no word's."""
+    states = [state.name for state in effect.states]
+    derived = [function.__name__ for function in effect.derived]
+    own = Counter([*effect.table.model_fields, *derived, *states, *effect.sums, *effect.draws])
+    words = sorted(own.keys() & KERNEL_WORDS)
+    if words:
+        effect.refuse(f"{', '.join(words)}: the kernel's own words")
+    twice = sorted(name for name, times in own.items() if times > 1)
+    if twice:
+        effect.refuse(f"{', '.join(twice)}: two numbers of one name")
+    for state in effect.states:
+        if state.start and state.start not in effect.table.model_fields:
+            effect.refuse(
+                f"state {state.name} starts from {state.start!r}, which is no parameter; there are "
+                f"{', '.join(effect.table.model_fields)}"
+            )

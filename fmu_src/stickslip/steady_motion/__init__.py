@@ -2,8 +2,8 @@
 
 from .assessment import Assessment as Assessment
 from .assessment import assess as assess
+from .borders import with_pretension as with_pretension
 from .live import Interface as Interface
 from .live import RunEnded as RunEnded
-from .numbers import with_pretension as with_pretension
 from .regimes import regimes as regimes
 from .stability import stability as stability

@@ -6,6 +6,8 @@ leaves its line. Between the last two values the border is bisected.
 And how far the springs must be stretched for a block to keep to its line. Springs without
 pretension push sideways where they are compressed, and turn the block away from the line on which
 friction drags it. Pretension holds it there, as the tension of a string does.
+
+The numbers are those of a rig that decide what its block does.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -17,10 +19,87 @@ import numpy as np
 
 from ..parameters import Parameters
 from .live import DRY, Interface, RunEnded
-from .numbers import Number, numbers_of, with_pretension
 from .regimes import ENDED, regime_of
 from .stability import GRAZING, Stability, cycle_stability
 from .starts import disturbed
+
+SPEED, RAMP, DAMPING = "surface.speed", "surface.run_up_time", "structural_damping.coefficient"
+PRETENSION, RATIO = "pretension", "mu_s/mu_k"
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number that can be changed.
+
+    Attributes
+    ----------
+    key, unit : `table.key` of a scenario, or what it is made of
+    value : as the rig has it
+    least : below which it cannot be
+    first : what is tried first where it is 0
+    change : the rig with another value
+    """
+
+    key: str
+    unit: str
+    value: float
+    least: float
+    first: float
+    change: Callable[[Parameters, float], Parameters]
+
+
+def numbers_of(parameters: Parameters) -> list[Number]:
+    """Speed, its ramp, damping, pretension where the block is not guided, and mu_s/mu_k."""
+    rig, surface, friction = parameters.rig, parameters.surface, parameters.friction
+    damping = parameters.structural_damping.coefficient
+    found = [
+        Number(SPEED, "m/s", abs(surface.speed), 0.0, 0.01, at_speed),
+        Number(RAMP, "s", surface.run_up_time, 0.0, 1.0, _setting("surface", "run_up_time")),
+        Number(
+            DAMPING,
+            "N s/m",
+            damping,
+            0.0,
+            1e-3 * parameters.critical_damping,
+            _setting("structural_damping", "coefficient"),
+        ),
+    ]
+    if rig.degrees_of_freedom != ("x",):
+        stretched = round(rig.spring_length - rig.spring_natural_length, 12)
+        first = 0.01 * rig.spring_length
+        found.append(Number(PRETENSION, "m", stretched, 0.0, first, with_pretension))
+    if friction.mu_k > 0.0 and not friction.has_table:
+        ratio = friction.mu_s / friction.mu_k
+        found.append(Number(RATIO, "1", ratio, 1.0, 0.1, with_ratio))
+    return found
+
+
+def at_speed(parameters: Parameters, speed: float) -> Parameters:
+    """The same rig on a surface of another speed; a block that starts with the surface's keeps it.
+
+    The direction is that of the rig.
+    """
+    surface = parameters.surface
+    speed = -abs(speed) if surface.speed < 0.0 else abs(speed)
+    changed = parameters.with_values("surface", speed=speed)
+    rides = parameters.initial.vx == surface.speed
+    return changed.with_values("initial", vx=speed) if rides else changed
+
+
+def with_ratio(parameters: Parameters, ratio: float) -> Parameters:
+    """The same rig with another mu_s/mu_k at its mu_k."""
+    return parameters.with_values("friction", mu_s=ratio * parameters.friction.mu_k)
+
+
+def with_pretension(parameters: Parameters, pretension: float) -> Parameters:
+    """The same rig, its springs stretched by ``pretension`` (m) as installed."""
+    natural = parameters.rig.spring_length - pretension
+    return parameters.with_values("rig", spring_natural_length=natural)
+
+
+def _setting(table: str, key: str) -> Callable[[Parameters, float], Parameters]:
+    return lambda parameters, value: parameters.with_values(table, **{key: value})
+
 
 #: Factors at which a number is tried, up and down, and of one that is 0, times its first value.
 FACTORS, FROM_NOTHING = (1.1, 1.25, 1.5, 2.0), (1.0, 2.0, 5.0, 10.0)

@@ -11,7 +11,7 @@ from numpy.fft import irfft
 
 from thermal import BeltIceModel
 from thermal.belt.material_frame import BeltField, Response
-from thermal.contact.exchange import IceFace, exchange
+from thermal.contact import IceFace, exchange
 from thermal.steady_sliding import FOREVER, NoSteadyState, check_gives_heat
 
 

@@ -14,8 +14,7 @@ from linear_participant import Linear
 from cosim.coupling import Connection, CoupledSystem, GaussSeidel, run
 from cosim.coupling.record import Keep, RunFolder
 from cosim.coupling.record.folder import CheckpointError, load_checkpoint
-from cosim.coupling.schemes.iterated import Aitken, Iterated, QuasiNewton
-from cosim.coupling.schemes.scheme import Jacobi
+from cosim.coupling.schemes import Aitken, Iterated, Jacobi, QuasiNewton
 from cosim.coupling.step_control.adaptive import AdaptiveStep, Defect, Doubling
 from cosim.coupling.tolerance import Tolerance
 from cosim.files import OutputError

@@ -8,7 +8,7 @@ from command_line import refusal
 
 from cosim.cli import main
 from cosim.scenario import ScenarioError, read_scenario
-from cosim.scenario.changes import changed_tables, changes_named, changes_of
+from cosim.scenario.toml_file import changed_tables, changes_named, changes_of
 
 #: Every command that takes a scenario, with what else it needs.
 COMMANDS = {

@@ -8,8 +8,8 @@ from stickslip.units import in_unit
 
 from cosim.cli import main
 from cosim.scenario import ScenarioError, packaged_scenarios, read_scenario
-from cosim.scenario.units import doubted
 from cosim.scenario.validation import WORDS, not_in
+from cosim.scenario.work import doubted
 
 
 def said(**numbers):

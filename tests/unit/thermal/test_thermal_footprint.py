@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from thermal.contact.footprint import Footprint, disc_on_strip
+from thermal.contact import Footprint, disc_on_strip
 
 CELL = 1e-3
 

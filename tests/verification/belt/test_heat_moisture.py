@@ -3,7 +3,7 @@
 import pytest
 from scipy.optimize import brentq
 
-from thermal.belt.frost import frost, saturation_over_ice
+from thermal.belt.air import frost, saturation_over_ice
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,14 @@ import pytest
 from refusals import one_line
 from sample_meshes import box, cylinder, write
 
-from thermal.ice.base_layers import cut_at_base, layer_height
-from thermal.ice.mesh_file import MeshError, base_of, mesh_of, read_sample
+from thermal.ice.mesh_file import (
+    MeshError,
+    base_of,
+    cut_at_base,
+    layer_height,
+    mesh_of,
+    read_sample,
+)
 
 EXTENT = (0.08, 0.06, 0.1)
 

@@ -19,8 +19,7 @@ from thermal import (
 )
 from thermal.ice.body import IceBody
 from thermal.ice.cylinder import Cylinder
-from thermal.ice.krylov import response_space
-from thermal.ice.sample import Sample, assembled
+from thermal.ice.sample import Sample, assembled, response_space
 from thermal.relaxation import mean_decay
 from thermal.steady_sliding import SteadySliding
 

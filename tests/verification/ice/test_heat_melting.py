@@ -9,7 +9,7 @@ from scipy.optimize import brentq
 from scipy.special import erfc
 
 from thermal import Contact, Ice
-from thermal.contact.exchange import BeltFace, exchange
+from thermal.contact import BeltFace, exchange
 from thermal.ice.body import IceMelted
 from thermal.ice.cylinder import Cylinder
 from thermal.ice.melting import Ablation

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from thermal import Ambient, Belt, BeltIceModel, Contact, Ice, ThermalParameters
-from thermal.contact.water import BeltWater, MeltFilm
+from thermal.contact import BeltWater, MeltFilm
 from thermal.materials import WATER_DENSITY, WATER_VISCOSITY
 
 AREA, LENGTH = 5e-3, 0.07

@@ -7,9 +7,16 @@ import pytest
 from line_rig import published
 from stickslip.reference.coulomb_oscillator import BeltStart, CoulombOscillator
 from stickslip.steady_motion import Interface
-from stickslip.steady_motion.borders import all_borders, nearest_borders
+from stickslip.steady_motion.borders import (
+    DAMPING,
+    RAMP,
+    RATIO,
+    SPEED,
+    all_borders,
+    nearest_borders,
+    numbers_of,
+)
 from stickslip.steady_motion.live import OutOfWork, Work
-from stickslip.steady_motion.numbers import DAMPING, RAMP, RATIO, SPEED, numbers_of
 from stickslip.steady_motion.regimes import SLIDING, STICK_SLIP
 from stickslip.steady_motion.starts import RAMP as FROM_RAMP
 from stickslip.steady_motion.starts import REST, RIDING, other_starts

@@ -23,7 +23,7 @@ from stickslip.reference.linearised import Scheme
 from stickslip.reference.scheme_options import PRINTED, SchemeEffects
 
 from ....gap.data import Campaign, MeasuredRun
-from ....scenario.changes import changed_tables
+from ....scenario.toml_file import changed_tables
 from ..cases import CYCLES, SAMPLE, SCATTER, SETTLING, STEADY, Case, longest
 from ..motion import WINDOW, Motion
 from ..motion import figures as read_off
