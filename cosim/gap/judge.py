@@ -15,12 +15,13 @@
     of campaigns drawn with the second more than a tenth are given the name of the first: a class,
     of effects alone where two are in its place. Of a lone finding three rivals are simulated that
     rows put within e^12 of it (e^200 below e^500; a 200th of its own if it does not explain the
-    runs): one that these put e^6 behind is told from it, one within e^12 that they prefer is not.
-    Where they prefer one by e^500, or e^200 if rows do not tell the two apart, and held-out runs
-    come out better with it, the first goes, if no effect stands for it only where the second
-    explains the runs. A tracker's filter that corners ask for by more than rows do for any finding
-    takes the place of all where simulated runs are nearer to the model with it; these tell which
-    of them have it, too, by e^6.
+    runs; if it does, derivatives alone tell where they promise less than half as much, by e^12):
+    one that these put e^6 behind is told from it, one within e^12 that they prefer is not. Where
+    they prefer one by e^500, or e^200 if rows do not tell the two apart, and held-out runs come out
+    better with it, the first goes, if no effect stands for it only where the second explains the
+    runs. A tracker's filter that corners ask for by more than rows do for any finding takes the
+    place of all where simulated runs are nearer to the model with it; these tell which of them have
+    it, too, by e^6.
  6. A finding that no effect of the catalogue stands for, or a third one, makes it `unknown`; with
     three that leave twice the noise in the rows, and runs that miss something without them, no
     single one is doubted.
@@ -345,6 +346,16 @@ def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
     near = {name: less for name, less in finding.others.items()
             if less > -within and finding.gain + less > ALIKE}  # fmt: skip
     return sorted(near, key=lambda name: -near[name])[:RIVALS]
+
+
+def promises_less(promised: float | None, of_finding: float | None) -> float | None:
+    """ln of how much less probable derivatives of the simulated runs have a rival than a finding.
+
+    Where it is less than half as well worth, and they plainly tell; else None
+    """
+    if promised is None or of_finding is None or promised > TAKEN * of_finding:
+        return None
+    return promised - of_finding if promised - of_finding < -UNDECIDED else None
 
 
 def overrules(rows: float, simulated: float) -> bool:

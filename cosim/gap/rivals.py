@@ -22,19 +22,31 @@ Rivals = Mapping[str, tuple[Part, float]]
 def rivals_of(fitting: Fitting, parts: Sequence[Part], named: Named, models: Models) -> Rivals:
     """Of a lone finding along x what the rows would nearly have in its place, simulated.
 
-    What no effect stands for is no more than the model without it.
+    What no effect stands for is no more than the model without it. No model is fitted with a rival
+    of which derivatives promise too little.
     """
     lone = _lone(parts)
     if lone is None or fitting.is_too_long:
         return {}
-    finding = lone.finding
-    near = judge.rivals_of(finding, judge.explains(models.ladder))
-    rivals = {name: _in_place(fitting, named, name) for name in near}
+    does_explain = judge.explains(models.ladder)
+    tried = [
+        _in_place(fitting, named, name) for name in judge.rivals_of(lone.finding, does_explain)
+    ]
+    rivals = [rival for rival in tried if rival.in_kernel]
     if not rivals:
         return {}
     without = fitting.without(lone, parts, named)
-    return {name: (rival, _more(fitting, rival, lone, without, named))
-            for name, rival in rivals.items() if rival.in_kernel}  # fmt: skip
+    own, *promised = (
+        without.promised([lone, *rivals]) if does_explain and lone.in_kernel
+        else [None] * (1 + len(rivals))
+    )  # fmt: skip
+    found = {}
+    for rival, gain in zip(rivals, promised, strict=True):
+        more = judge.promises_less(gain, own)
+        if more is None:
+            more = _more(fitting, rival, lone, without, named)
+        found[rival.finding.name] = rival, more
+    return found
 
 
 def _more(fitting: Fitting, rival: Part, lone: Part, without: Models, named: Named) -> float:

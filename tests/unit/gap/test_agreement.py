@@ -256,8 +256,9 @@ def test_rivals_of_a_finding_are_simulated(monkeypatch, gain, rows, gained, told
     gains = {"run_in": 20.0, "film_drag": gained}
     ends = [SimpleNamespace(gap=Score(1.0, 1.0))]
     models = SimpleNamespace(
-        gained=lambda part, over: gains[part.finding.name] - gains[over.finding.name], ladder=ends
-    )
+        gained=lambda part, over: gains[part.finding.name] - gains[over.finding.name], ladder=ends,
+        promised=lambda parts: [9.0] * len(parts),
+    )  # fmt: skip
     monkeypatch.setattr(fits, "fitted", lambda named, parts, **_: models)
     parts = list(map(part, found))
     alike = rivals.rivals_of(fits, parts, named, models)
@@ -265,6 +266,37 @@ def test_rivals_of_a_finding_are_simulated(monkeypatch, gain, rows, gained, told
     assert again.others == pytest.approx({"film_drag": told, "other.order": -1.0})
     assert kept == beside
     assert rivals.overruled(fits, parts, named, alike) is None
+
+
+@pytest.mark.parametrize(
+    ("promised", "own", "reached", "told"),
+    [
+        (49.0, 100.0, 1.29, -51.0),  # half, and what plainly tells
+        (51.0, 100.0, 1.29, -7.0),
+        (5.0, 17.1, 1.29, -12.1),
+        (5.0, 16.9, 1.29, -7.0),
+        (49.0, 100.0, 1.31, -7.0),  # nor where the finding does not explain the runs
+        (None, 100.0, 1.29, -7.0),
+        (49.0, None, 1.29, -7.0),
+    ],
+)
+def test_no_model_is_fitted_with_a_rival_of_which_derivatives_promise_little(
+    monkeypatch, promised, own, reached, told
+):
+    wave = Added(Unknown("surface_pattern", "", None, np.eye(1)))
+    one = Finding("run_in", (wave,), 30.0, {"film_drag": -11.9})
+    system = SimpleNamespace(rung=lambda added=(): SimpleNamespace(evidence=0.0))
+    ladder = SimpleNamespace(first_offers={"film_drag": (18.1, (wave,))}, system=system)
+    named = Named(ladder, (one,), system, system.rung(), {})
+    monkeypatch.setattr(fitting, "part_of", lambda campaign, system, rung, one, law: part(one))
+    models = SimpleNamespace(
+        gained=lambda part, over: -7.0, promised=lambda parts: [own, promised],
+        ladder=[SimpleNamespace(gap=Score(reached, reached))],
+    )  # fmt: skip
+    fits = Fitting(None, lambda: None, 1)
+    monkeypatch.setattr(fits, "fitted", lambda named, parts, **_: models)
+    ((_, more),) = rivals.rivals_of(fits, [part(one)], named, models).values()
+    assert more == pytest.approx(told)
 
 
 @pytest.mark.parametrize(
