@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from stickslip.effects.effect import Candidate
 
-from cosim.gap import agreement, find, fitting, models, rejection, rivals
+from cosim.gap import agreement, find, fitting, models, rejection
 from cosim.gap.extended import CURVE_NUMBERS, Part
 from cosim.gap.fitting import Fitting
 from cosim.gap.judge import SURE
@@ -225,81 +225,6 @@ def test_the_least_finding_is_asked_first_and_the_greatest_of_what_is_left(monke
 
 
 @pytest.mark.parametrize(
-    ("gain", "rows", "gained", "told"),
-    [
-        (30.0, -2.9, 14.1, -2.9),  # a class, which simulated runs do not tell apart
-        (30.0, -2.9, 13.9, -6.1),
-        (30.0, -2.9, 20.1, -2.9),  # or prefer, who would be as probable
-        (30.0, -3.1, 19.9, -3.1),
-        (30.0, -3.1, 14.1, -3.1),
-        (30.0, -3.1, 13.9, -6.1),  # nor can noise confuse what simulated runs tell apart
-        (499.0, -11.9, 20.1, 0.0),  # they contradict the rows
-        (2e4, -2.9, 13.9, -6.1),
-        (2e4, -11.9, 20.1, 0.0),
-        (30.0, -12.1, 40.0, -12.1),
-    ],
-)
-@pytest.mark.parametrize("across", [0, 1])
-def test_rivals_of_a_finding_are_simulated(monkeypatch, gain, rows, gained, told, across):
-    """Beside 20 of the finding; what no model has stays as the rows have it."""
-    wave = Added(Unknown("surface_pattern", "", None, np.eye(1)))
-    one = Finding("run_in", (wave,), gain, {"film_drag": rows, "other.order": -1.0})
-    beside = [Finding("turning_surface", (), 900.0, {})] * across
-    rung = SimpleNamespace(evidence=0.0)
-    system = SimpleNamespace(rung=lambda added=(): rung)
-    offers = {name: (gain + less, (wave,)) for name, less in one.others.items()}
-    found = (*beside, one)
-    named = Named(SimpleNamespace(first_offers=offers, system=system), found, system, rung, {})
-    monkeypatch.setattr(fitting, "part_of", lambda campaign, system, rung, one, law: (
-        Part(one) if one.name == "other.order" else part(one)))  # fmt: skip
-    fits = Fitting(None, lambda: None, 1)
-    gains = {"run_in": 20.0, "film_drag": gained}
-    ends = [SimpleNamespace(gap=Score(1.0, 1.0))]
-    models = SimpleNamespace(
-        gained=lambda part, over: gains[part.finding.name] - gains[over.finding.name], ladder=ends,
-        promised=lambda parts: [9.0] * len(parts),
-    )  # fmt: skip
-    monkeypatch.setattr(fits, "fitted", lambda named, parts, **_: models)
-    parts = list(map(part, found))
-    alike = rivals.rivals_of(fits, parts, named, models)
-    *kept, again = rivals.told_apart(named, alike).findings
-    assert again.others == pytest.approx({"film_drag": told, "other.order": -1.0})
-    assert kept == beside
-    assert rivals.overruled(fits, parts, named, alike) is None
-
-
-@pytest.mark.parametrize(
-    ("promised", "own", "reached", "told"),
-    [
-        (49.0, 100.0, 1.29, -51.0),  # half, and what plainly tells
-        (51.0, 100.0, 1.29, -7.0),
-        (5.0, 17.1, 1.29, -12.1),
-        (5.0, 16.9, 1.29, -7.0),
-        (49.0, 100.0, 1.31, -7.0),  # nor where the finding does not explain the runs
-        (None, 100.0, 1.29, -7.0),
-        (49.0, None, 1.29, -7.0),
-    ],
-)
-def test_no_model_is_fitted_with_a_rival_of_which_derivatives_promise_little(
-    monkeypatch, promised, own, reached, told
-):
-    wave = Added(Unknown("surface_pattern", "", None, np.eye(1)))
-    one = Finding("run_in", (wave,), 30.0, {"film_drag": -11.9})
-    system = SimpleNamespace(rung=lambda added=(): SimpleNamespace(evidence=0.0))
-    ladder = SimpleNamespace(first_offers={"film_drag": (18.1, (wave,))}, system=system)
-    named = Named(ladder, (one,), system, system.rung(), {})
-    monkeypatch.setattr(fitting, "part_of", lambda campaign, system, rung, one, law: part(one))
-    models = SimpleNamespace(
-        gained=lambda part, over: -7.0, promised=lambda parts: [own, promised],
-        ladder=[SimpleNamespace(gap=Score(reached, reached))],
-    )  # fmt: skip
-    fits = Fitting(None, lambda: None, 1)
-    monkeypatch.setattr(fits, "fitted", lambda named, parts, **_: models)
-    ((_, more),) = rivals.rivals_of(fits, [part(one)], named, models).values()
-    assert more == pytest.approx(told)
-
-
-@pytest.mark.parametrize(
     ("left", "reached", "names"), [(1.9, 1.11, 1), (2.1, 1.11, 3), (2.1, 1.09, 1)]
 )
 def test_nothing_is_doubted_where_three_findings_leave_twice_the_noise(
@@ -349,37 +274,6 @@ def test_rivals_are_beside_the_law_that_is_named_not_the_first_that_was_tried(mo
     monkeypatch.setattr(agreement, "rivals_of", lambda fits, parts, *_: asked.append(parts) or {})
     agreed(monkeypatch, Rows(finding("run_in", 2.0 * SURE)), {"run_in": 900.0})
     assert [one.settings for one in asked[0]] == [{"another": 1.0}]
-
-
-@pytest.mark.parametrize(
-    ("rows", "more", "own", "held_out", "gone"),
-    [(-4.0, 499.0, 1.05, 1.0, False), (-4.0, 501.0, 1.05, 1.0, True),
-     (-4.0, 501.0, 1.05, 1.06, False), (-4.0, 501.0, 2.0, 1.29, True),
-     (-4.0, 501.0, 2.0, 1.31, True), (-4.0, 501.0, None, 1.29, True),
-     (-4.0, 501.0, None, 1.31, False), (-2.0, 201.0, 1.05, 1.0, True),
-     (-2.0, 199.0, 1.05, 1.0, False), (-2.0, 201.0, 1.05, 1.06, False)],
-)  # fmt: skip
-def test_simulated_runs_overrule_rows_that_a_contact_may_have_turned(
-    monkeypatch, rows, more, own, held_out, gone
-):
-    """rows : ln of how much more probable these are with it; own : gap with what the rows have;
-    None where no effect stands for it"""
-    lone = finding("run_in", 30.0, {"film_drag": rows})
-    gaps = {"run_in": own or 2.0, "film_drag": held_out}
-    assert overruled(monkeypatch, part(lone) if own else Part(lone), more, gaps) is gone
-
-
-def overruled(monkeypatch, lone, more, gaps):
-    """Whether film_drag overrules; gaps : of held-out runs with each, 2 without any."""
-
-    def fitted(self, named, parts, **_):
-        gap = Score(1.0, gaps[parts[0].effect] if parts else 2.0)
-        return SimpleNamespace(gained=lambda part: 20.0, ladder=[SimpleNamespace(gap=gap)])
-
-    monkeypatch.setattr(Fitting, "fitted", fitted)
-    others = {"film_drag": (part(finding("film_drag", 30.0)), more)}
-    fits = Fitting(None, lambda: None, 1)
-    return rivals.overruled(fits, [lone], None, others) is not None
 
 
 @pytest.mark.parametrize(
