@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Protocol
 
 import numpy as np
@@ -18,6 +19,8 @@ DAMPING, LEAST, MOST, EASIER, HARDER = 1e-3, 1e-7, 1e5, 0.2, 6.0
 #: Derivatives are followed by Broyden's update (Math. Comp. 19 (1965)) while a step gains so much
 #: of what they promise, and taken anew where it does not, and before a fit ends.
 FOLLOWED = 0.5
+#: Evaluations that show where a start leads.
+FIRST_TRIES = 8
 #: Longest step, in scales of the numbers: beyond it the derivatives say nothing.
 LONGEST = 10.0
 
@@ -33,12 +36,18 @@ class Rows(Protocol):
 
 
 def descend(
-    rows: Rows, at: np.ndarray, low: np.ndarray, high: np.ndarray, tries: int
-) -> np.ndarray:
-    """The least sum of squares nearby, in at most so many evaluations."""
+    rows: Rows, at: np.ndarray, low: np.ndarray, high: np.ndarray, tries: int,
+    hopeless: float = inf,
+) -> np.ndarray:  # fmt: skip
+    """The least sum of squares nearby, in at most so many evaluations.
+
+    hopeless : sum of squares that is left beyond which none follows the first `FIRST_TRIES`
+    """
     off, damping, is_exact = rows.residuals(at), DAMPING, True
     cost, columns = float(off @ off), rows.derivatives(at)
-    for _ in range(tries):
+    for number in range(tries):
+        if number == FIRST_TRIES and cost > hopeless:
+            break
         normal, slope = columns.T @ columns, columns.T @ off
         step = _step(normal, slope, at, (low, high), damping)
         gain = -float(2.0 * slope @ step + step @ normal @ step)

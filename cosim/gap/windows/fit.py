@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 
@@ -18,6 +19,8 @@ from .windows import Windows
 #: friction beside a wrong zero is nearly as good. And the gap of fitted runs up to which the
 #: model is near enough for that to matter.
 ASIDE, NEAR_ENOUGH = (-0.75, 0.75), 2.0
+#: Squares, in those of a model that the numbers hold, from which a start seldom leads back.
+HOPELESS = 2.0
 #: Of friction along the surface.
 WAVE_LENGTH = "surface_pattern.wavelength"
 
@@ -35,12 +38,16 @@ def fit(
     windows : run's name -> windows, as of `windows_of_campaign`; settings : key or label -> value
     of what else of the model is not at its default; scatter : see `judge`; starts : labels ->
     values to set out from, of which the best is followed; other numbers are at their own starts
-    near : a model whose start states are near; jobs : runs simulated at a time
+    near : a model that these numbers hold, whose start states are near; jobs : runs simulated at a
+    time
     """
     settings = dict(settings or {})
     runs = [run for run in campaign.fit_runs if run.name in windows]
     states = {run.name: run.states for run in near.runs} if near else {}
-    problem = Problem(campaign, runs, windows, numbers, settings, near=states, jobs=jobs)
+    hopeless = HOPELESS * (near.cost - near.held_out_cost) if near else inf
+    problem = Problem(
+        campaign, runs, windows, numbers, settings, near=states, jobs=jobs, hopeless=hopeless
+    )
     fitted = problem.solved(starts)
     held_out = [run for run in campaign.held_out_runs if run.name in windows]
     if not held_out:

@@ -6,13 +6,14 @@ from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import cache
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
 
 from cosim.gap.data import Campaign, MeasuredRun
 
-from .descent import descend
+from .descent import FIRST_TRIES, descend
 from .fitted import Fitted, Leeway
 from .numbers import Number, owners_of, unknowns_of
 from .run_fit import RunFit
@@ -20,9 +21,9 @@ from .run_model import RunModel
 from .start_states import Started
 from .windows import Windows
 
-#: Most evaluations of a fit, and of one that only shows which starts lead on: those whose sum of
-#: squares is then at most so many times that of the best.
-MOST_TRIES, FIRST_TRIES, LEADS = 20, 8, 1.25
+#: Most evaluations of a fit; starts that lead on: those whose sum of squares is, after
+#: `FIRST_TRIES`, at most so many times that of the best.
+MOST_TRIES, LEADS = 20, 1.25
 #: Gap up to which nothing is missing, and there is no other minimum to look for.
 IN_STEP = 1.05
 #: Fits in a row, each from better states of windows that were off course.
@@ -49,11 +50,12 @@ class Problem:
     def __init__(
         self, campaign: Campaign, runs: Sequence[MeasuredRun], windows: Mapping[str, Windows],
         numbers: Sequence[Number], settings: Mapping[str, float], leeway: Leeway | None = None,
-        near: Mapping[str, np.ndarray] | None = None, jobs: int = 2,
+        near: Mapping[str, np.ndarray] | None = None, jobs: int = 2, hopeless: float = inf,
     ):  # fmt: skip
         """leeway : what another fit left open of some of the numbers, in place of their priors;
-        near : run's name -> start states of a model nearby; jobs : runs simulated at a time."""
-        self.settings, self.threads = dict(settings), _threads(jobs)
+        near : run's name -> start states of a model nearby; jobs : runs simulated at a time;
+        hopeless : sum of squares beyond which no start is followed for long."""
+        self.settings, self.threads, self.hopeless = dict(settings), _threads(jobs), hopeless
         self.unknowns = unknowns_of(campaign, runs, numbers)
         self.labels = [unknown.label for unknown in self.unknowns]
         self.leeway = None if leeway is None else leeway.of(self.labels)
@@ -130,7 +132,7 @@ class Problem:
     def _settled(self, at: Point) -> Point:
         """The best nearby; again from where windows off course find better states."""
         self._go_on_from(at)
-        for _ in range(REPEATS):
+        for _ in range(0 if at.cost > self.hopeless else REPEATS):
             at = self._descended(at.scaled, MOST_TRIES)
             if not self._retried(at.scaled):
                 break
@@ -177,7 +179,8 @@ class Problem:
             return self._point(at)
         low = [u.number.scaled(u.number.low) for u in self.unknowns]
         high = [u.number.scaled(u.number.high) for u in self.unknowns]
-        found = descend(self, np.clip(at, low, high), np.array(low), np.array(high), tries)
+        found = descend(self, np.clip(at, low, high), np.array(low), np.array(high), tries,
+                        self.hopeless)  # fmt: skip
         return self._point(found)
 
     def _fitted(self, at: np.ndarray) -> Fitted:

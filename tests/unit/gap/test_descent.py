@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from cosim.gap.windows.descent import CLOSE, descend
+from cosim.gap.windows.descent import CLOSE, FIRST_TRIES, descend
 
 TIMES = np.linspace(0.0, 4.0, 400)
 TRUTH = np.array([2.0, 0.7, 3.0, 0.4])
@@ -65,3 +65,16 @@ def test_a_small_step_that_is_refused_ends_a_fit(promised, evaluations):
     refused, wide = Refused(), np.array([np.inf])
     assert descend(refused, np.zeros(1), -wide, wide, 2) == 0.0
     assert refused.asked == evaluations
+
+
+@pytest.mark.parametrize(("hopeless", "goes_on"), [(0.99, False), (1.01, True)])
+def test_a_start_that_leads_nowhere_is_left(hopeless, goes_on):
+    """Where the sum of squares after some evaluations says so."""
+    left, wide = [], np.full(4, np.inf)
+    for most, tries in ((np.inf, FIRST_TRIES), (np.inf, 50), (hopeless, 50)):
+        swing, far = Decay(), np.array([0.1, 3.0, 1.0, 2.0])
+        bound = most * left[0] if left else most
+        at = descend(swing, far, -wide, wide, tries, bound)
+        left.append(float(np.sum(swing.residuals(at) ** 2)))
+    assert left[1] < left[0]
+    assert left[2] == left[goes_on]

@@ -1,5 +1,6 @@
 """Numbers fitted in windows: known truth comes back, and no other optimiser finds a smaller gap."""
 
+import importlib
 import math
 from dataclasses import replace
 from itertools import pairwise
@@ -377,6 +378,39 @@ def test_shared_numbers_that_no_step_leads_back_begin_inside_what_the_fit_leaves
     assert Leeway(("a", "b"), np.ones(2), 10.0 * np.eye(2)).excess(found, labels) < 1.0
     assert found[2] == far[2]
     assert (found[0] - 1.0) / (found[1] - 1.0) == pytest.approx(4.0 / -9.0)
+
+
+def test_a_start_is_left_that_leads_to_twice_the_squares_of_the_model_that_it_holds(
+    plain, monkeypatch
+):
+    near, asked = SimpleNamespace(cost=30.0, held_out_cost=10.0, runs=()), []
+
+    class Asked(Problem):
+        def __init__(self, *given, hopeless=math.inf, **further):
+            asked.append(hopeless)
+            super().__init__(*given, hopeless=hopeless, **further)
+
+        def solved(self, starts=()):
+            raise LookupError
+
+    monkeypatch.setattr(importlib.import_module("cosim.gap.windows.fit"), "Problem", Asked)
+    for model in (near, None):
+        with pytest.raises(LookupError):
+            fit(plain, windows_of_campaign(plain), *user_model(plain), near=model)
+    assert asked == [40.0, math.inf]
+
+
+@pytest.mark.parametrize(("cost", "settled"), [(39.9, True), (40.1, False)])
+def test_windows_of_a_model_that_is_lost_are_not_tried_again(monkeypatch, cost, settled):
+    tried = []
+    monkeypatch.setattr(Problem, "_go_on_from", lambda self, at: None)
+    monkeypatch.setattr(Problem, "_descended", lambda self, at, tries: Point(at, [], cost))
+    monkeypatch.setattr(Problem, "_retried", lambda self, at: tried.append(at))
+    monkeypatch.setattr(Problem, "_point", lambda self, at: Point(at, [], cost))
+    problem = object.__new__(Problem)
+    problem.hopeless = 40.0
+    problem._settled(Point(np.zeros(1), [], cost))
+    assert bool(tried) is settled
 
 
 def test_what_a_fit_takes_is_counted(plain, monkeypatch):
