@@ -26,11 +26,8 @@ def rooms() -> list[str]:
     """The folders that benchmarks and what tests share are imported from."""
     tops = HERE, TESTS / "helpers"
     folders = (folder for top in tops for folder in (top, *sorted(top.glob("*/"))))
-    return [
-        str(folder)
-        for folder in folders
-        if any(folder.glob("*.py")) and not (folder / "__init__.py").exists()
-    ]
+    own = (each for each in folders if not (each / "__init__.py").exists())
+    return [str(folder) for folder in own if any(folder.glob("*.py"))]
 
 
 def listed() -> str:

@@ -1,7 +1,5 @@
 """What a benchmark found, as a JSON file that `compare.py` compares with another."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import os

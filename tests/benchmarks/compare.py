@@ -8,8 +8,6 @@ Exit status 1 where something got worse or is no longer there. Seconds of two ma
 that has other work, say little: ratios to a peer that was timed in the same run say more.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

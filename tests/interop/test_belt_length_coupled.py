@@ -21,19 +21,14 @@ AMBIENT = -8.0
 
 def scenario(case, **tables):
     """The rig of a case along x, 15 W/m2K to the air."""
-    return Scenario.from_tables(
-        {
-            "name": "belt",
-            "rig": {"mass": case.mass, "degrees_of_freedom": ["x"]},
-            "springs": {"stiffness": case.stiffness},
-            "friction": {"mu_s": case.static_over_kinetic * case.friction, "mu_k": case.friction},
-            "surface": {"speed": case.speed},
-            "belt": {"length": case.length, "air_heat_transfer": 15.0},
-            "run": {"duration": RUN},
-            "coupling": {"macro_step": MACRO_STEP},
-        }
-        | tables
-    )
+    own = dict(
+        name="belt", rig={"mass": case.mass, "degrees_of_freedom": ["x"]},
+        springs={"stiffness": case.stiffness}, surface={"speed": case.speed},
+        friction={"mu_s": case.static_over_kinetic * case.friction, "mu_k": case.friction},
+        belt={"length": case.length, "air_heat_transfer": 15.0},
+        run={"duration": RUN}, coupling={"macro_step": MACRO_STEP},
+    )  # fmt: skip
+    return Scenario.from_tables(own | tables)
 
 
 def coupled(case, fmu):
@@ -75,11 +70,9 @@ def test_quasi_steady_estimate_is_what_a_coupled_run_shows(fmu, speed):
 def ramped(case, belt, ramp=10.0, run=20.0):
     """A scenario of a ramp and a run at constant speed, s."""
     return scenario(
-        case,
-        belt={"length": case.length, "air_heat_transfer": 15.0} | belt,
-        surface={"speed": case.speed, "run_up_time": ramp},
-        run={"duration": ramp + run},
-    )
+        case, belt={"length": case.length, "air_heat_transfer": 15.0} | belt,
+        surface={"speed": case.speed, "run_up_time": ramp}, run={"duration": ramp + run},
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("speed", [pytest.param(0.15, marks=pytest.mark.slow), 0.82])
@@ -87,13 +80,9 @@ def test_the_drift_of_a_ramped_scenario_is_what_its_coupled_run_shows(fmu, speed
     """Railing heat and rollers and all; the ramp begins with sticks, the run ends in a cycle."""
     case = Case(1.2, speed)
     belt = {
-        "railing_length": 0.08,
-        "railing_friction": 0.1,
-        "railing_conductance": 15.0,
-        "rollers": 2,
-        "roller_conductance": 100.0,
-        "roller_rise": 0.1,
-    }
+        "railing_length": 0.08, "railing_friction": 0.1, "railing_conductance": 15.0, "rollers": 2,
+        "roller_conductance": 100.0, "roller_rise": 0.1,
+    }  # fmt: skip
     given = ramped(case, belt, 5.0, 10.0)
     result = run_scenario(given, fmu=fmu).result
     own = scenario_case(given)

@@ -17,14 +17,10 @@ SCENARIO = """
 name = "short"
 effects = ["{name}.py"]
 defaults = "plain"
-[rig]
-spring_natural_length = 0.17
-[initial]
-vx = 0.15
-[{name}]
-fall = {fall}
-[run]
-duration = 1.0
+rig.spring_natural_length = 0.17
+initial.vx = 0.15
+{name}.fall = {fall}
+run.duration = 1.0
 """
 #: Remembers a heat of its own: the kernel's memory is longer, not its parameters alone.
 STATE = '''
@@ -79,15 +75,12 @@ ON = {"rig": {"spring_natural_length": 0.17}, "initial": {"vx": 0.15}}
 def kinds(folder):
     """Name -> parameters of the house's catalogue and of three others."""
     brush, grease = folder / "brush.py", folder / "grease.py"
+    half = {**ON, "brush": {"fall": 0.5}}
     return {
         "house": Parameters(**ON),
-        "brush": Parameters.with_effects(brush)(**ON, brush={"fall": 0.5}),
-        "both": Parameters.with_effects(brush, grease)(
-            **ON, brush={"fall": 0.5}, grease={"fall": 0.2}
-        ),
-        "memory": Parameters.with_effects(folder / "memory" / "brush.py")(
-            **ON, brush={"fall": 0.5}
-        ),
+        "brush": Parameters.with_effects(brush)(**half),
+        "both": Parameters.with_effects(brush, grease)(**half, grease={"fall": 0.2}),
+        "memory": Parameters.with_effects(folder / "memory" / "brush.py")(**half),
     }
 
 

@@ -10,18 +10,13 @@ import time
 import pytest
 from c_units import made
 
+from cosim import coupling
 from cosim.coupling import (
-    CoupledSystem,
     CouplingError,
     FmuError,
     FmuParticipant,
-    GaussSeidel,
     IsolatedError,
     IsolatedParticipant,
-    ParticipantError,
-    Waveform,
-    restores_exactly,
-    run,
 )
 
 SEGFAULT, HANG, ABORT, EXIT, RESTORES_WRONGLY, PRINTS, LOGS, LOGS_ERROR = range(1, 9)
@@ -75,7 +70,9 @@ def test_it_does_what_it_does_here(path, place):
                 assert unit.step(0.25 * n, 0.25) is None
             assert there.read() == here.read()
         for unit in (here, there):
-            unit.write_waveforms({"u": Waveform((1.0, 2.0), 0.5), "c": Waveform((1.0,), 0.5)})
+            unit.write_waveforms(
+                {"u": coupling.Waveform((1.0, 2.0), 0.5), "c": coupling.Waveform((1.0,), 0.5)}
+            )
             assert unit.read()["b"] == 1  # no step yet
             unit.step(1.0, 0.5)
         assert there.read() == here.read()
@@ -98,33 +95,30 @@ def test_states_stay_there(path, place):
         for call in (unit.set_state, unit.free_state):
             with pytest.raises(IsolatedError, match="a state that is not its own, or not any more"):
                 call(state)
-        assert restores_exactly(unit, 0.25, 0.25)
+        assert coupling.restores_exactly(unit, 0.25, 0.25)
     with started(isolated(path, RESTORES_WRONGLY)) as unit:
-        assert not restores_exactly(unit, 0.0, 0.25)
+        assert not coupling.restores_exactly(unit, 0.0, 0.25)
 
 
-@pytest.mark.parametrize(
-    "fault, message",
-    [
-        (SEGFAULT, r"its process was ended by SIGSEGV \(.*\) in the call of step"),
-        (ABORT, r"its process was ended by SIGABRT \(.*\) in the call of step"),
-        (EXIT, "its process ended with status 3 in the call of step"),
-        (CLOSES, "its process closed the line to this one in the call of step"),
-        (LOGS_ERROR, "too hot"),
-        (FATAL, "broken for good"),
-    ],
-)
+@pytest.mark.parametrize("fault, message", [
+    (SEGFAULT, r"its process was ended by SIGSEGV \(.*\) in the call of step"),
+    (ABORT, r"its process was ended by SIGABRT \(.*\) in the call of step"),
+    (EXIT, "its process ended with status 3 in the call of step"),
+    (CLOSES, "its process closed the line to this one in the call of step"),
+    (LOGS_ERROR, "too hot"),
+    (FATAL, "broken for good"),
+])  # fmt: skip
 def test_a_crash_is_a_failed_step(path, place, capfd, fault, message):
     unit = isolated(path, fault)
     pid = unit.pid
-    with CoupledSystem([unit], []) as system:
-        result = run(system, GaussSeidel(("unit",)), stop=1.0, macro_step=0.125)
+    with coupling.CoupledSystem([unit], []) as system:
+        result = coupling.run(system, coupling.GaussSeidel(("unit",)), stop=1.0, macro_step=0.125)
     assert result.status == "failed" and result.time.tolist() == [0.0, 0.125, 0.25]
     assert result["unit.x"].tolist() == [0.0, 0.125, 0.25]
     assert is_gone(pid) and unit.pid is None
     assert "\n" not in result.reason
     expected = f"^unit: failed in the step from t = 0.25 s: {message}"
-    with pytest.raises(ParticipantError, match=expected):
+    with pytest.raises(coupling.ParticipantError, match=expected):
         raise result.error
     assert capfd.readouterr() == ("", "")
 
@@ -189,10 +183,6 @@ serve(theirs.fileno(), os.getppid(), sys.argv[1])
 
 
 def test_what_it_writes_and_logs_is_kept(path, place, capfd):
-    with started(isolated(path, PRINTS, at=0.0)) as unit:
-        unit.step(0.0, 0.25)
-    said = {str(message) for message in unit.messages}
-    assert said == {"unit: t = 0 s: output: a line of the unit", "unit: t = 0 s: output: another"}
     with started(isolated(path, LOGS, at=0.0)) as unit:
         unit.step(0.0, 0.25)
         assert [str(m) for m in unit.messages] == ["unit: t = 0 s: warning [heat]: warm"]
@@ -260,12 +250,9 @@ def comes_true(condition, seconds=20.0):
 def test_it_does_not_outlive_us(path, tmp_path, fault, how):
     """Whether this process ends without closing it, or is killed, waiting or in a call."""
     parent = subprocess.Popen(
-        [sys.executable, "-c", LEFT, str(path), str(fault), how],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env={**os.environ, "TMPDIR": str(tmp_path)},
-    )
+        [sys.executable, "-c", LEFT, str(path), str(fault), how], stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE, text=True, env={**os.environ, "TMPDIR": str(tmp_path)},
+    )  # fmt: skip
     pid = int(parent.stdout.readline())
     if how == "killed":
         time.sleep(0.3)

@@ -19,34 +19,25 @@ from cosim.coupling.record.folder import load_checkpoint, save_checkpoint
 #: Coarse, so that a run takes seconds; friction feels the temperature, so both sides matter.
 SCENARIO = """
 name = "killed"
-[belt]
-cell_length = 5e-3
-elements = 3
-[ice]
-axial_elements = 4
-[temperature_dependence]
-sensitivity = 0.5
-[surface]
-speed = 0.15
-run_up_time = 1.0
+belt = {{ cell_length = 5e-3, elements = 3 }}
+ice.axial_elements = 4
+temperature_dependence.sensitivity = 0.5
+surface = {{ speed = 0.15, run_up_time = 1.0 }}
+coupling.macro_step = 2e-3
 [run]
 duration = {duration}
 output_interval = 0.01
 snapshot_interval = 0.25
 checkpoint_steps = {every}
 checkpoint_seconds = 0
-[coupling]
-macro_step = 2e-3
 """
 #: Differ from run to run in any case: times, and that of each participant.
 OF_THE_MAKING = {"created", "versions", "wall_time", "coupling"}
 #: The record's name of a row's value -> that of result.nc.
 COMPARED = {
-    "time": "time",
-    "mechanics.x": "x",
-    "mechanics.heat": "heat",
+    "time": "time", "mechanics.x": "x", "mechanics.heat": "heat",
     "thermal.interface_temperature": "interface_temperature",
-}
+}  # fmt: skip
 
 
 def begin(*arguments):

@@ -15,12 +15,8 @@ SHORT = SHORT_CASE.format(run_up=0.2, duration=1.0, snapshots=0.25)
 
 #: A film of ice that the first friction melts away.
 MELTS = """
-[ice]
-height = 1e-6
-latent_heat = 1.0
-heat_capacity = 1.0
-[ambient]
-temperature_degC = -1e-6
+ice = { height = 1e-6, latent_heat = 1.0, heat_capacity = 1.0 }
+ambient.temperature_degC = -1e-6
 """
 
 

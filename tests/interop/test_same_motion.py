@@ -43,12 +43,9 @@ def in_fmu(fmu, parameters, stop, macro_step, record_every=1):
     block = FmuParticipant(fmu, "block", parameters=parameters.flat(), inputs=inputs)
     with CoupledSystem([block], []) as system:
         result = run(
-            system,
-            GaussSeidel(("block",)),
-            stop=stop,
-            macro_step=macro_step,
+            system, GaussSeidel(("block",)), stop=stop, macro_step=macro_step,
             record_every=record_every,
-        )
+        )  # fmt: skip
     assert result.status == "complete", result.reason
     return result
 

@@ -29,13 +29,10 @@ def cluster():
     with ExitStack() as stack:
         scheduler = stack.enter_context(
             distributed.LocalCluster(
-                n_workers=0,
-                dashboard_address=None,
-                processes=False,
-                protocol="tcp",
+                n_workers=0, dashboard_address=None, processes=False, protocol="tcp",
                 host="127.0.0.1",
             )
-        )
+        )  # fmt: skip
         options = "--no-nanny --nthreads 1 --no-dashboard".split()
         command = [sys.executable, "-m", "distributed.cli.dask_worker", *options]
         command.append(scheduler.scheduler_address)
@@ -84,16 +81,10 @@ LAW = Path(__file__).resolve().parents[1] / "examples" / "effects" / "flash_heat
 SCENARIO = """
 name = "flash"
 effects = ["law.py"]
-[rig]
-degrees_of_freedom = ["x"]
-[surface]
-run_up_time = 0.5
-[flash_heating]
-fall = 0.5
-onset = 0.1
-[run]
-duration = 2.0
-output_interval = 0.02
+rig.degrees_of_freedom = ["x"]
+surface.run_up_time = 0.5
+flash_heating = { fall = 0.5, onset = 0.1 }
+run = { duration = 2.0, output_interval = 0.02 }
 """
 
 

@@ -44,39 +44,27 @@ MAY_IMPORT = {
     "cosim.coupling.methods": ("cosim.coupling", "cosim.scenario.method"),
     "cosim.scenario": ("stickslip", "thermal", *LEAVES),
     "cosim.fmu": ("stickslip", "cosim.report", *LEAVES),
-    "cosim.fmu.thermal": (
-        *("stickslip", "thermal", "cosim.fmu", "cosim.report", "cosim.scenario"),
-        *LEAVES,
-    ),
-    "cosim.coupling.case": (
-        *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.fmu"),
-        *("cosim.report", *LEAVES),
-    ),
-    "cosim.explore": (
-        *("stickslip", "thermal", "cosim.fmu", "cosim.scenario", "cosim.report"),
-        *LEAVES,
-    ),
+    "cosim.fmu.thermal": ("stickslip", "thermal", "cosim.fmu", "cosim.report", "cosim.scenario",
+        *LEAVES),
+    "cosim.coupling.case": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario",
+        "cosim.fmu", "cosim.report", *LEAVES),
+    "cosim.explore": ("stickslip", "thermal", "cosim.fmu", "cosim.scenario", "cosim.report",
+        *LEAVES),
     "cosim.simulated": ("stickslip", "cosim.scenario", "cosim.report"),
     "cosim.report": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario", *LEAVES),
     # two results may have one quantity in two units
     "cosim.report.compare": ("cosim.report", "cosim.coupling", "stickslip.units", *LEAVES),
     # a value may be given with its unit
-    "cosim.systems": (
-        *("stickslip.quantity", "stickslip.units", "cosim.coupling", "cosim.scenario"),
-        *LEAVES,
-    ),
+    "cosim.systems": ("stickslip.quantity", "stickslip.units", "cosim.coupling",
+        "cosim.scenario", *LEAVES),
     "cosim.systems.show": ("cosim.systems", "cosim.coupling", "cosim.report", *LEAVES),
-    "cosim.gap": (
-        *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.report"),
-        *("cosim.fmu", "cosim.studies.reproduction", *LEAVES),
-    ),
-    "cosim.studies": (
-        *("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.report"),
-        *("cosim.fmu", "cosim.gap", *LEAVES),
-    ),
+    "cosim.gap": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.report",
+        "cosim.fmu", "cosim.studies.reproduction", *LEAVES),
+    "cosim.studies": ("stickslip", "thermal", "cosim.coupling", "cosim.scenario", "cosim.report",
+        "cosim.fmu", "cosim.gap", *LEAVES),
     "cosim.cli": ("stickslip", "thermal", "cosim"),
     "cosim": ("cosim", "stickslip.lazy"),
-}
+}  # fmt: skip
 #: Part -> those who may import it; nobody else.
 KNOWN_BY = {
     "cosim.cli": ("cosim.cli", "cosim.__main__"),

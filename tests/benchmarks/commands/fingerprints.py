@@ -9,8 +9,6 @@ paths and times of computing are left out. Two machines may differ in the last b
 compare only what one machine made.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import json

@@ -20,8 +20,6 @@ cannot be taken back. Cost: steps made by the heat model, repeated ones included
 processor.
 """
 
-from __future__ import annotations
-
 import math
 import time
 from typing import NamedTuple
@@ -30,17 +28,8 @@ import numpy as np
 from baseline import Figure, arguments, write
 from heated_block import ON_A_LINE, ORDER, ROCK, coupled
 
-from cosim import read_scenario
-from cosim.coupling import (
-    AdaptiveStep,
-    Aitken,
-    Defect,
-    Doubling,
-    GaussSeidel,
-    Iterated,
-    Jacobi,
-    Tolerance,
-)
+from cosim import coupling, read_scenario
+from cosim.coupling import GaussSeidel, Iterated, Jacobi, Tolerance
 
 STOP, COMMON, FIRST = 1.92, 0.192, 0.576  # s
 #: s; the belt travels whole cells of 4 mm in each, in the reference one.
@@ -51,20 +40,20 @@ TOLERANCES = (1e-1, 1e-2, 1e-3)
 COMPARED = {"thermal.interface_temperature": "K", "mechanics.x": "m"}
 TIGHT = Tolerance(1e-7)
 FIXED = {
-    "Jacobi, held": Jacobi(ORDER),
-    "Jacobi, linear": Jacobi(ORDER, "linear"),
-    "Gauss-Seidel, held": GaussSeidel(ORDER),
-    "Gauss-Seidel, linear": GaussSeidel(ORDER, "linear"),
+    "Jacobi, held": Jacobi(ORDER), "Jacobi, linear": Jacobi(ORDER, "linear"),
+    "Gauss-Seidel, held": GaussSeidel(ORDER), "Gauss-Seidel, linear": GaussSeidel(ORDER, "linear"),
     "iterated, held, quasi-Newton": Iterated(ORDER, "held", tolerance=TIGHT),
     "iterated, linear, quasi-Newton": Iterated(ORDER, "linear", tolerance=TIGHT),
-    "iterated, linear, Aitken": Iterated(ORDER, "linear", acceleration=Aitken(), tolerance=TIGHT),
+    "iterated, linear, Aitken": Iterated(ORDER, "linear", acceleration=coupling.Aitken(),
+        tolerance=TIGHT),
     "iterated, quadratic, quasi-Newton": Iterated(ORDER, "quadratic", tolerance=TIGHT),
-}
+}  # fmt: skip
 ADAPTIVE = {
-    "Gauss-Seidel, linear, by defect": (GaussSeidel(ORDER, "linear"), Defect),
-    "Gauss-Seidel, linear, by doubling": (GaussSeidel(ORDER, "linear"), Doubling),
-    "iterated, linear, by doubling": (Iterated(ORDER, "linear", tolerance=TIGHT), Doubling),
-}
+    "Gauss-Seidel, linear, by defect": (GaussSeidel(ORDER, "linear"), coupling.Defect),
+    "Gauss-Seidel, linear, by doubling": (GaussSeidel(ORDER, "linear"), coupling.Doubling),
+    "iterated, linear, by doubling": (Iterated(ORDER, "linear", tolerance=TIGHT),
+        coupling.Doubling),
+}  # fmt: skip
 
 
 class Run(NamedTuple):
@@ -79,11 +68,9 @@ class Run(NamedTuple):
 def scenario():
     """Friction that feels the interface strongly, and a motion without events."""
     held = {
-        "surface.run_up_time": 0.0,
-        "structural_damping.coefficient": 200.0,
-        "initial.x": 0.52 * 40.0 * 9.81 / 6000.0,
-        "belt.length": 1.0,
-    }
+        "surface.run_up_time": 0.0, "structural_damping.coefficient": 200.0,
+        "initial.x": 0.52 * 40.0 * 9.81 / 6000.0, "belt.length": 1.0,
+    }  # fmt: skip
     return read_scenario("meltwater").changed(ROCK | ON_A_LINE | held)
 
 
@@ -131,7 +118,7 @@ def table_of(case, reference):
             table.setdefault(name, []).append((step, found, errors(found, reference)))
     for name, (scheme, estimate) in ADAPTIVE.items():
         for tolerance in TOLERANCES:
-            control = AdaptiveStep(estimate(Tolerance(tolerance)), 0.01, 1e-4, COMMON)
+            control = coupling.AdaptiveStep(estimate(Tolerance(tolerance)), 0.01, 1e-4, COMMON)
             found = made(case, scheme, control=control)
             assert not isinstance(found, str), found
             table.setdefault(name, []).append((tolerance, found, errors(found, reference)))

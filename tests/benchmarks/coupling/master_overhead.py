@@ -10,8 +10,6 @@ of several rounds in which all take turns. Beside it the largest error of x over
 CoFMPy; masters that are not there are left out.
 """
 
-from __future__ import annotations
-
 import json
 import statistics
 import subprocess
@@ -19,6 +17,7 @@ import sys
 import tempfile
 import time
 from ctypes import c_double, c_int, c_uint
+from functools import partial
 from pathlib import Path
 
 from baseline import Figure, arguments, write
@@ -34,11 +33,9 @@ from cosim.coupling import GaussSeidel, Iterated, Jacobi, Tolerance, run  # noqa
 STEP, ROUNDS = 1e-4, 3
 #: Name -> scheme; of the explicit ones it is measured what the master adds.
 OURS = {
-    "Gauss-Seidel, held": GaussSeidel(NAMES),
-    "Gauss-Seidel, linear": GaussSeidel(NAMES, "linear"),
-    "Jacobi, held": Jacobi(NAMES),
-    "iterated, linear": Iterated(NAMES, tolerance=Tolerance(1e-9)),
-}
+    "Gauss-Seidel, held": GaussSeidel(NAMES), "Gauss-Seidel, linear": GaussSeidel(NAMES, "linear"),
+    "Jacobi, held": Jacobi(NAMES), "iterated, linear": Iterated(NAMES, tolerance=Tolerance(1e-9)),
+}  # fmt: skip
 TOOLS = ("fmpy", "libcosimpy", "ecospy")
 COFMUPY = ("cofmupy", "cofmupy_jacobi", "cofmupy_iterated")
 
@@ -74,33 +71,18 @@ class ByHand:
         self.u, self.x, self.first = (c_uint * 1)(0), (c_uint * 1)(1), (c_int * 1)(1)
         self.value, self.slope = (c_double * 1)(), (c_double * 1)()
 
-    def held(self, steps):
-        """The calls of Gauss-Seidel: set, step, get of each."""
-        u, x, value = self.u, self.x, self.value
-        (a, b), (c, d) = self.fmus, (fmu.component for fmu in self.fmus)
-        b.fmi2GetReal(d, x, 1, value)
-        for n in range(steps):
-            a.fmi2SetReal(c, u, 1, value)
-            a.fmi2DoStep(c, n * STEP, STEP, 1)
-            a.fmi2GetReal(c, x, 1, value)
-            b.fmi2SetReal(d, u, 1, value)
-            b.fmi2DoStep(d, n * STEP, STEP, 1)
-            b.fmi2GetReal(d, x, 1, value)
-
-    def linear(self, steps):
-        """With the input's derivative."""
+    def in_turn(self, steps, slopes=False):
+        """The calls of Gauss-Seidel: set, step, get of each; with slopes of the inputs, or not."""
         u, x, value, first, slope = self.u, self.x, self.value, self.first, self.slope
         (a, b), (c, d) = self.fmus, (fmu.component for fmu in self.fmus)
         b.fmi2GetReal(d, x, 1, value)
         for n in range(steps):
-            a.fmi2SetReal(c, u, 1, value)
-            a.fmi2SetRealInputDerivatives(c, u, 1, first, slope)
-            a.fmi2DoStep(c, n * STEP, STEP, 1)
-            a.fmi2GetReal(c, x, 1, value)
-            b.fmi2SetReal(d, u, 1, value)
-            b.fmi2SetRealInputDerivatives(d, u, 1, first, slope)
-            b.fmi2DoStep(d, n * STEP, STEP, 1)
-            b.fmi2GetReal(d, x, 1, value)
+            for fmu, component in ((a, c), (b, d)):
+                fmu.fmi2SetReal(component, u, 1, value)
+                if slopes:
+                    fmu.fmi2SetRealInputDerivatives(component, u, 1, first, slope)
+                fmu.fmi2DoStep(component, n * STEP, STEP, 1)
+                fmu.fmi2GetReal(component, x, 1, value)
 
     def jacobi(self, steps):
         """Outputs are read again when the inputs of the step's end are known."""
@@ -120,8 +102,8 @@ class ByHand:
 
 
 BY_HAND = {
-    "Gauss-Seidel, held": ByHand.held,
-    "Gauss-Seidel, linear": ByHand.linear,
+    "Gauss-Seidel, held": ByHand.in_turn,
+    "Gauss-Seidel, linear": partial(ByHand.in_turn, slopes=True),
     "Jacobi, held": ByHand.jacobi,
 }
 
@@ -140,12 +122,9 @@ def other(tool, folder, steps, python=sys.executable):
     own = {} if python == sys.executable else {"PYTHONPATH": ""}
     with tempfile.TemporaryDirectory() as scratch:
         done = subprocess.run(
-            list(map(str, command)),
-            cwd=scratch,
-            capture_output=True,
-            text=True,
+            list(map(str, command)), cwd=scratch, capture_output=True, text=True,
             env=ecos_environment() | own,
-        )
+        )  # fmt: skip
     lines = [line for line in done.stdout.splitlines() if line.startswith("found ")]
     if not lines:
         print(f"{tool}: {(done.stderr.strip().splitlines() or ['no answer'])[-1]}")

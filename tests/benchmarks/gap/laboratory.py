@@ -10,8 +10,6 @@ campaigns.jsonl as it ends; --resume does what is missing. Then scores.md (table
 it; --first takes only so many of them.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import shutil

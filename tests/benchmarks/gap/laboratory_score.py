@@ -15,8 +15,6 @@ campaign is the mean over all runs that could be made. Rotation is compared by s
 convention.
 """
 
-from __future__ import annotations
-
 import json
 import math
 import re

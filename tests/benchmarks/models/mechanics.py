@@ -43,15 +43,12 @@ def main() -> None:
     print(f"ratio Python strips / ours  {python_strips / ours:9.0f}")
     print(f"ratio compiled scheme / ours{scheme_compiled / ours:9.2f}")
     write(
-        told.json,
-        "mechanics",
-        {
-            "compiled kernel": Figure(1e3 * ours, "ms"),
-            "interpreted kernel": Figure(1e3 * interpreted, "ms"),
-            "Python strips / ours": Figure(python_strips / ours, better="more"),
-            "compiled scheme / ours": Figure(scheme_compiled / ours, better="more"),
-        },
-    )
+        told.json, "mechanics",
+        {"compiled kernel": Figure(1e3 * ours, "ms"),
+         "interpreted kernel": Figure(1e3 * interpreted, "ms"),
+         "Python strips / ours": Figure(python_strips / ours, better="more"),
+         "compiled scheme / ours": Figure(scheme_compiled / ours, better="more")},
+    )  # fmt: skip
 
 
 if __name__ == "__main__":

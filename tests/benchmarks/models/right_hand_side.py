@@ -25,14 +25,11 @@ INVERSE_ROOT = {"velocity_weakening": {"inverse_root": 50.0}}
 STRIBECK = {"velocity_weakening": {"stribeck": 0.5, "stribeck_speed": 0.05}}
 # kind -> (blocks, turning of the block, rad/s)
 KINDS = {
-    "x only": ({"rig": {"degrees_of_freedom": ("x",)}}, 0.0),
-    "planar, no spin": (PLANE, 0.0),
-    "planar, spin outside": (PLANE, 2.0),
-    "planar, spin inside": (PLANE, 10.0),
+    "x only": ({"rig": {"degrees_of_freedom": ("x",)}}, 0.0), "planar, no spin": (PLANE, 0.0),
+    "planar, spin outside": (PLANE, 2.0), "planar, spin inside": (PLANE, 10.0),
     "spin, hyperbolic law": (PLANE | HYPERBOLIC, 2.0),
-    "spin, inverse root": (PLANE | INVERSE_ROOT, 2.0),
-    "spin, Stribeck": (PLANE | STRIBECK, 2.0),
-}
+    "spin, inverse root": (PLANE | INVERSE_ROOT, 2.0), "spin, Stribeck": (PLANE | STRIBECK, 2.0),
+}  # fmt: skip
 
 
 #: Sum of what depends on every call, so that none is left out; becomes C with the kernel.
@@ -59,13 +56,9 @@ def moving(blocks: dict, turning: float) -> SimpleNamespace:
     u[layout.U_SPEED], u[layout.U_TEMPERATURE] = parameters.surface.speed, -8.0
     across = 0.0 if parameters.rig.degrees_of_freedom == ("x",) else 0.01
     start = {
-        layout.X: 0.02,
-        layout.Y: across,
-        layout.PHI: across,
-        layout.VX: -0.1,
-        layout.VY: 5.0 * across,
-        layout.OMEGA: turning,
-    }
+        layout.X: 0.02, layout.Y: across, layout.PHI: across, layout.VX: -0.1,
+        layout.VY: 5.0 * across, layout.OMEGA: turning,
+    }  # fmt: skip
     for place, value in start.items():
         w[layout.W_STATE + place] = value
     return SimpleNamespace(p=np.array(parameters.pack()), u=u, w=w)

@@ -17,12 +17,10 @@ def motion(
 ):  # fmt: skip
     """The exact motion of a block that sticks and slips; creep: in stick, m/s; run_up: s."""
     parameters = Parameters(
-        rig={"mass": mass, "degrees_of_freedom": free, **RIG},
-        springs={"stiffness": stiffness},
+        rig={"mass": mass, "degrees_of_freedom": free, **RIG}, springs={"stiffness": stiffness},
         friction={"mu_s": mu_s, "mu_k": mu_k, "stick_creep": creep},
-        surface={"speed": speed, "run_up_time": run_up},
-        **blocks,
-    )
+        surface={"speed": speed, "run_up_time": run_up}, **blocks,
+    )  # fmt: skip
     return simulate(parameters, duration, interval)
 
 

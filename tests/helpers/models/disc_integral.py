@@ -3,8 +3,6 @@
 Unit radius, uniform pressure, per unit of normal force. Disc of sliding speed U and rim speed s.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
@@ -32,14 +30,9 @@ def _about_rotation(law, spinning, k, accuracy):
 
     def part(weight):
         value, _ = dblquad(
-            lambda q, t: law(spinning * q) * weight(q, t) * q,
-            0.0,
-            np.pi,
-            0.0,
-            reach,
-            epsabs=accuracy,
-            epsrel=accuracy,
-        )
+            lambda q, t: law(spinning * q) * weight(q, t) * q, 0.0, np.pi, 0.0, reach,
+            epsabs=accuracy, epsrel=accuracy,
+        )  # fmt: skip
         return 2.0 / np.pi * value  # both halves, over the area
 
     return part(lambda q, t: np.cos(t)), part(lambda q, t: q - k * np.cos(t))

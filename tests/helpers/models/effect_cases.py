@@ -4,8 +4,6 @@ The range of a parameter is the "typical" one that its field states, or the "tri
 that say where or how an effect acts and have no size of their own.
 """
 
-from __future__ import annotations
-
 import random
 
 import numpy as np
@@ -60,12 +58,10 @@ def falling(rig: Parameters, draw: random.Random) -> Parameters:
 def sheared(rig: Parameters, draw: random.Random) -> Parameters:
     """The same, its contact sheared by a distance before it slides."""
     return with_friction(
-        rig,
-        presliding_distance=draw.choice([1e-5, 5e-5, 2e-4]),
-        bristle_damping=draw.uniform(0.1, 1.0),
-        transition_speed=10.0 ** draw.uniform(-3.0, -2.0),
+        rig, presliding_distance=draw.choice([1e-5, 5e-5, 2e-4]),
+        bristle_damping=draw.uniform(0.1, 1.0), transition_speed=10.0 ** draw.uniform(-3.0, -2.0),
         transition_exponent=draw.choice([1.0, draw.uniform(0.7, 3.0)]),
-    )
+    )  # fmt: skip
 
 
 def any_rig(contact, draw: random.Random, most: int = 3) -> Parameters:
@@ -83,12 +79,9 @@ def draw_parameters(effects: tuple[str, ...], draw: random.Random, **changes) ->
         "friction": {"mu_s": mu_s, "mu_k": mu_s * draw.uniform(0.5, 0.95)},
         "lateral_friction": {"ratio": draw.choice([0.0, 1.0, draw.uniform(0.5, 1.0)])},
         "surface": {"speed": draw.uniform(0.05, 0.5), "run_up_time": draw.choice([0.0, 0.5])},
-        "initial": {
-            "x": draw.uniform(-0.01, 0.01),
-            "y": draw.uniform(-0.005, 0.005),
-            "phi": draw.uniform(-0.1, 0.1),
-        },
-    }
+        "initial": {"x": draw.uniform(-0.01, 0.01), "y": draw.uniform(-0.005, 0.005),
+                    "phi": draw.uniform(-0.1, 0.1)},
+    }  # fmt: skip
     tables |= {effect: draw_table(effect, draw) for effect in effects}
     return Parameters(**(tables | changes))
 

@@ -34,13 +34,11 @@ def drawn_rig(draw):
         law["power_speed"] = speed * draw.uniform(0.05, 1.0)
     return Parameters(
         rig=dict(mass=mass, spring_natural_length=0.2 - draw.uniform(0.0, 0.03)),
-        springs=dict(stiffness=stiffness),
-        friction=dict(**friction),
-        velocity_weakening=dict(**law),
-        lateral_friction=dict(ratio=1.0),
+        springs=dict(stiffness=stiffness), friction=dict(**friction),
+        velocity_weakening=dict(**law), lateral_friction=dict(ratio=1.0),
         structural_damping=dict(coefficient=2.0 * mass * rate * draw.uniform(0.0, 0.01)),
         surface=dict(speed=speed, run_up_time=5.0),
-    )
+    )  # fmt: skip
 
 
 def grows(parameters, turn, begin, period):

@@ -1,8 +1,7 @@
 """The block's unit and the heat model of a scenario, coupled by any scheme; friction of rock."""
 
 from cosim.coupling import CoupledSystem, FmuParticipant, run
-from cosim.coupling.case import CONNECTIONS, MECHANICS, RESIDUALS, THERMAL
-from cosim.coupling.case.thermal_participant import ThermalParticipant
+from cosim.coupling.case import CONNECTIONS, MECHANICS, RESIDUALS, THERMAL, ThermalParticipant
 from cosim.fmu.build import own_fmu
 from thermal import BeltIceModel
 
@@ -12,22 +11,14 @@ ORDER = (MECHANICS, THERMAL)
 LOSS = (1.0 - 0.02 / 0.52) / 20.0
 #: Changes of the case `meltwater`: that friction, on one line, on a coarse mesh of the ice.
 ROCK = {
-    "mixed_lubrication.share": 0.0,
-    "friction.mu_s": 0.52,
-    "friction.mu_k": 0.52,
-    "temperature_dependence.sensitivity": LOSS,
-    "temperature_dependence.static_sensitivity": LOSS,
-    "temperature_dependence.reference_degC": -20.0,
-    "ambient.temperature_degC": -20.0,
-}
+    "mixed_lubrication.share": 0.0, "friction.mu_s": 0.52, "friction.mu_k": 0.52,
+    "temperature_dependence.sensitivity": LOSS, "temperature_dependence.static_sensitivity": LOSS,
+    "temperature_dependence.reference_degC": -20.0, "ambient.temperature_degC": -20.0,
+}  # fmt: skip
 ON_A_LINE = {
-    "rig.degrees_of_freedom": ("x",),
-    "initial.y": 0.0,
-    "initial.phi": 0.0,
-    "belt.cell_length": 4e-3,
-    "ice.radial_elements": 3,
-    "ice.axial_elements": 6,
-}
+    "rig.degrees_of_freedom": ("x",), "initial.y": 0.0, "initial.phi": 0.0,
+    "belt.cell_length": 4e-3, "ice.radial_elements": 3, "ice.axial_elements": 6,
+}  # fmt: skip
 
 
 def coupled(case, scheme, *others, links=(), **how):

@@ -1,7 +1,5 @@
 """Two kernels from the same memory: how far apart are they after one internal step?"""
 
-from __future__ import annotations
-
 from types import SimpleNamespace
 
 import numpy as np

@@ -4,8 +4,6 @@ Forces are plain functions given by the test, the integrator is scipy's DOP853, 
 re-stick are scipy's events. It shares no code with the kernel and knows no parameter names.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -13,6 +11,9 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 GRAVITY = 9.81
+#: The source study's first case, which is what is not given.
+MASS, STIFFNESS, MU_S, MU_K, SPEED = 0.67, 80.68, 0.2815, 0.2086, 0.15
+NORMAL = MASS * GRAVITY
 X, V, HEAT, RECENT_HEAT, DISTANCE, TRAVEL = range(6)
 # an order below what the comparisons ask for; 3e-14 is the least that scipy takes
 ACCURACY = {"method": "DOP853", "rtol": 1e-13, "atol": 1e-14}
@@ -34,11 +35,11 @@ class OneMass:
     lag : m/s, by which a stick creeps behind the belt, of the state
     """
 
-    mass: float
-    pull: Callable[[float], float]
-    kinetic: Callable[[float, np.ndarray], float]
-    static: Callable[[float, np.ndarray], float]
-    speed: Callable[[float], float]
+    mass: float = MASS
+    pull: Callable[[float], float] = lambda x: -STIFFNESS * x
+    kinetic: Callable[[float, np.ndarray], float] = lambda sliding, state: MU_K * NORMAL
+    static: Callable[[float, np.ndarray], float] = lambda held, state: MU_S * NORMAL
+    speed: Callable[[float], float] = lambda t: SPEED
     acceleration: Callable[[float], float] = lambda t: 0.0
     damping: Callable[[float], float] = lambda velocity: 0.0
     relaxation: float = np.inf
@@ -52,11 +53,8 @@ class OneMass:
         t, since, side = times[0], times[0], 0.0
         samples, events = np.empty((6, len(times))), []
         while t < times[-1]:
-            phase = (
-                self._stick(t, since, state, times)
-                if side == 0.0
-                else self._slip(t, side, state, times)
-            )
+            how, more = (self._slip, side) if side else (self._stick, since)
+            phase = how(t, more, state, times)
             inside = (times >= t) & (times <= phase.t[-1])
             samples[:, inside] = phase.sol(times[inside])
             t, state = phase.t[-1], phase.y[:, -1].copy()
@@ -93,14 +91,9 @@ class OneMass:
     def _solve(self, slopes, event, direction, t, state, times):
         event.terminal, event.direction = True, direction
         return solve_ivp(
-            slopes,
-            (t, times[-1]),
-            state,
-            events=event,
-            dense_output=True,
-            max_step=self.max_step,
+            slopes, (t, times[-1]), state, events=event, dense_output=True, max_step=self.max_step,
             **ACCURACY,
-        )
+        )  # fmt: skip
 
     def _holding(self, t, s):
         """Friction that would keep the block on the belt, N."""

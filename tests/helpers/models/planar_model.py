@@ -5,8 +5,6 @@ of the contact, the integrator is scipy's DOP853. It shares no code with the ker
 parameter names. It only slides: sticking is not its business.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -32,11 +30,8 @@ def contact_points(radius: float, radial: int = 40, angular: int = 80) -> tuple[
     r = radius * np.sqrt(0.5 * (nodes + 1.0))
     theta = 2.0 * np.pi * np.arange(angular) / angular
     r, theta = np.meshgrid(r, theta, indexing="ij")
-    return (
-        (r * np.cos(theta)).ravel(),
-        (r * np.sin(theta)).ravel(),
-        np.repeat(0.5 * weights / angular, angular),
-    )
+    x, y = (r * np.cos(theta)).ravel(), (r * np.sin(theta)).ravel()
+    return x, y, np.repeat(0.5 * weights / angular, angular)
 
 
 @dataclass
@@ -99,12 +94,8 @@ class Slider:
 
     def _elastic(self, q: np.ndarray) -> complex:
         x, y, phi = q
-        arms = np.array(
-            [
-                np.cos(phi) * CORNERS[0] - np.sin(phi) * CORNERS[1],
-                np.sin(phi) * CORNERS[0] + np.cos(phi) * CORNERS[1],
-            ]
-        )
+        turn = [[np.cos(phi), -np.sin(phi)], [np.sin(phi), np.cos(phi)]]
+        arms = np.array(turn) @ CORNERS
         gap = self.anchors - arms - np.array([[x], [y]])
         return np.sum(self.spring_energy(np.sqrt(gap[0] ** 2 + gap[1] ** 2) - self.natural))
 

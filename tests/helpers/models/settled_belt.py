@@ -40,12 +40,9 @@ def settle(model: BeltIceModel, duration: float, heat: float, displacement: floa
     model.belt.response = of_a_step
     ice_end = model.ice.face_response(FOREVER)[1] * area
     fluxes = exchange(
-        found.contact.face,
-        IceFace(0.0, 0.0, ice_end, ice_end, parameters.melting_rise),
-        parameters.contact,
-        parameters.belt.film,
-        heat / (duration * area),
-    )
+        found.contact.face, IceFace(0.0, 0.0, ice_end, ice_end, parameters.melting_rise),
+        parameters.contact, parameters.belt.film, heat / (duration * area),
+    )  # fmt: skip
     if fluxes.melting > 0.0:
         raise NoSteadyState(
             f"heat = {heat:g} J in {duration:g} s: the ice face reaches the melting point and melts"
@@ -71,8 +68,6 @@ def _periodic_response(belt: BeltField, duration: float, shift: int) -> Response
     kept = once.forced / (np.expm1(turn) - np.expm1(-belt.rates * duration))
     pairs = np.einsum("amk,bmk->abk", once.free_mean, kept)
     return once._replace(
-        decay=np.zeros_like(once.decay),
-        free_mean=np.zeros_like(once.free_mean),
-        forced=kept,
+        decay=np.zeros_like(once.decay), free_mean=np.zeros_like(once.free_mean), forced=kept,
         kernels=once.kernels + irfft(pairs, belt.cells, axis=-1),
-    )
+    )  # fmt: skip

@@ -5,8 +5,6 @@ of slip is one matrix exponential of the motion under a load that is held, and f
 over a hundred strips. What the print leaves open is an argument.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Which C compiler there is; the text of a kernel as a library, and a host of units, by it."""
 
-from __future__ import annotations
-
 import ctypes
 import importlib.util
 import os
@@ -67,12 +65,9 @@ class Host:
         numbers = [steps, size, self.places[output], instances, threads]
         numbers += [f"{self.places[name]}={value!r}" for name, value in values.items()]
         done = subprocess.run(
-            list(map(str, [*self.command, self.library, self.guid, *numbers])),
-            capture_output=True,
-            text=True,
-            timeout=120,
-            env=self.environment,
-        )
+            list(map(str, [*self.command, self.library, self.guid, *numbers])), capture_output=True,
+            text=True, timeout=120, env=self.environment,
+        )  # fmt: skip
         assert done.returncode == 0, done.stderr
         return [float.fromhex(line) for line in done.stdout.split()]
 

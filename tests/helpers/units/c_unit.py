@@ -13,6 +13,8 @@ from collections.abc import Iterable, Sequence
 from ctypes import byref, c_bool, c_char_p, c_double, c_int, c_int32, c_size_t, c_uint, c_void_p
 from pathlib import Path
 
+from fmpy.fmi2 import fmi2CallbackFunctions, fmi2CallbackLoggerTYPE
+from fmpy.fmi3 import fmi3LogMessageCallback
 from plain_start import PLAIN
 from stickslip.generation.platforms import this_platform
 
@@ -22,8 +24,6 @@ from cosim.fmu.variables import Variable, by_array, variables
 
 OK, WARNING, DISCARD, ERROR = range(4)
 MODEL_EXCHANGE, CO_SIMULATION = 0, 1
-_LOGGER2 = ctypes.CFUNCTYPE(None, c_void_p, c_char_p, c_int, c_char_p, c_char_p)
-_LOGGER3 = ctypes.CFUNCTYPE(None, c_void_p, c_int, c_char_p, c_char_p)
 _KINDS = {
     **{"fmi3Float64": c_double, "fmi3Boolean": c_bool, "fmi3Int32": c_int32, "size_t": c_size_t},
     **{"fmi3ValueReference": c_uint, "fmi3String": c_char_p, "fmi2Real": c_double},
@@ -52,23 +52,6 @@ def declare(library: ctypes.CDLL, version: int) -> None:
         function = getattr(library, f"fmi{version}{name}", None)
         if function is not None:
             function.argtypes, function.restype = (c_void_p, *arguments), c_int
-
-
-class EventInfo(ctypes.Structure):
-    """fmi2EventInfo"""
-
-    _fields_ = [
-        *((name, c_int) for name in ("new_discrete_states_needed", "terminate")),
-        *((name, c_int) for name in ("nominals_changed", "states_changed", "has_next")),
-        ("next", c_double),
-    ]
-
-
-class _Callbacks(ctypes.Structure):
-    _fields_ = [
-        ("logger", _LOGGER2),
-        *((name, c_void_p) for name in ("allocate", "free", "step_finished", "environment")),
-    ]
 
 
 def library_of(fmu: Path, folder: Path, name: str = NAME, version: int = 2) -> Path:
@@ -227,7 +210,7 @@ class Instance2(CInstance):
         kind: int | None = None,
     ) -> None:
         super().__init__(unit)
-        self._callbacks = _Callbacks(logger=_LOGGER2(self._log))
+        self._callbacks = fmi2CallbackFunctions(logger=fmi2CallbackLoggerTYPE(self._log))
         guid = unit.guid if guid == b"" else guid
         kind = kind if kind is not None else MODEL_EXCHANGE if exchanges else CO_SIMULATION
         given = (name, kind, guid, resources, byref(self._callbacks), 0, int(logging))
@@ -266,7 +249,7 @@ class Instance3(CInstance):
     ) -> None:
         super().__init__(unit)
         self.time = 0.0
-        self._logger = _LOGGER3(self._log)
+        self._logger = fmi3LogMessageCallback(self._log)
         token = unit.guid if token == b"" else token
         first = (name, token, None, c_bool(False), c_bool(False))
         if exchanges:

@@ -44,11 +44,8 @@ def fmpy_slave(fmu, directory, logging=True, kind=Slave):
     description = fmpy.read_model_description(fmu)
     folder = fmpy.extract(fmu, unzipdir=directory)
     log = FmuLog()
-    slave = FMU2Slave(
-        guid=description.guid,
-        unzipDirectory=str(folder),
-        modelIdentifier=description.coSimulation.modelIdentifier,
-    )
+    name = description.coSimulation.modelIdentifier
+    slave = FMU2Slave(guid=description.guid, unzipDirectory=str(folder), modelIdentifier=name)
     slave.instantiate(callbacks=log.callbacks, loggingOn=logging)
     try:
         yield kind(description, slave, log)

@@ -10,34 +10,21 @@ from types import MappingProxyType
 from c_units import made
 
 UNITS = {
-    "degC": 'K="1" offset="273.15"',
-    "K": 'K="1"',
-    "m": 'm="1"',
-    "mm": 'm="1" factor="0.001"',
-    "J": 'kg="1" m="2" s="-2"',
-    "kJ": 'kg="1" m="2" s="-2" factor="1000"',
-    "W": 'kg="1" m="2" s="-3"',
-    "N": 'kg="1" m="1" s="-2"',
-}
+    "degC": 'K="1" offset="273.15"', "K": 'K="1"', "m": 'm="1"', "mm": 'm="1" factor="0.001"',
+    "J": 'kg="1" m="2" s="-2"', "kJ": 'kg="1" m="2" s="-2" factor="1000"',
+    "W": 'kg="1" m="2" s="-3"', "N": 'kg="1" m="1" s="-2"',
+}  # fmt: skip
 
 #: y1 = 6 t exactly, which a linear waveform is; y2' = y1 - 2 y2. More lines for the second unit.
 RAMP = """
-[units.ramp]
-file = "lag.fmu"
-parameters = {{ "part.gain" = 6.0 }}
-inputs = {{ u = 1.0 }}
+units.ramp = {{ file = "lag.fmu", parameters = {{ "part.gain" = 6.0 }}, inputs = {{ u = 1.0 }} }}
+connections = [{{ from = "ramp.y", to = "lag.u" }}]
+coupling = {{ scheme = "iterated", macro_step = 0.1 }}
+run.stop = 1.0
 [units.lag]
 file = "lag.fmu"
 parameters = {{ "part.rate" = 2.0 }}
 {more}
-[[connections]]
-from = "ramp.y"
-to = "lag.u"
-[coupling]
-scheme = "iterated"
-macro_step = 0.1
-[run]
-stop = 1.0
 """
 
 

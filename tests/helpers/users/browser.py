@@ -31,12 +31,9 @@ class Browser:
     def resize(self, width: int):
         self.width = width
         self.command(
-            "Emulation.setDeviceMetricsOverride",
-            width=width,
-            height=900,
-            deviceScaleFactor=1,
+            "Emulation.setDeviceMetricsOverride", width=width, height=900, deviceScaleFactor=1,
             mobile=width == PHONE,
-        )
+        )  # fmt: skip
 
     def open(self, path: Path, width: int = WIDE):
         self.resize(width)

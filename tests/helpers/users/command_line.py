@@ -15,14 +15,9 @@ from cosim.cli.arguments import add_arguments
 #: A coupled case that takes next to no time.
 SHORT_CASE = """
 defaults = "plain"
-[surface]
-run_up_time = {run_up}
-[run]
-duration = {duration}
-snapshot_interval = {snapshots}
-[belt]
-cell_length = 5e-3
-elements = 3
+surface.run_up_time = {run_up}
+run = {{ duration = {duration}, snapshot_interval = {snapshots} }}
+belt = {{ cell_length = 5e-3, elements = 3 }}
 """
 
 
@@ -36,12 +31,9 @@ def written(folder, text, name="case.toml"):
 def stickslip(folder, *arguments):
     """Of a process of its own, in a folder: exit status, what it printed."""
     return subprocess.run(
-        [sys.executable, "-m", "cosim", *map(str, arguments)],
-        cwd=folder,
-        capture_output=True,
-        text=True,
-        timeout=900,
-    )
+        [sys.executable, "-m", "cosim", *map(str, arguments)], cwd=folder, capture_output=True,
+        text=True, timeout=900,
+    )  # fmt: skip
 
 
 def python(program, *arguments, **more):

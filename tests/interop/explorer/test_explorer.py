@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 from browser import PHONE, Browser
 from explorer_page import address_of
-from stickslip import EFFECTS, Parameters, simulate
-from stickslip.friction.law import friction_coefficient
+from stickslip import EFFECTS, Parameters, friction_coefficient, simulate
 from stickslip.packing import in_order
 from stickslip.steady_motion import Interface
 from stickslip.steady_motion.regimes import (
@@ -65,11 +64,9 @@ def test_a_packaged_scenario(page, preset):
 
 def simulated(scenario, duration):
     return simulate(
-        scenario.mechanics,
-        duration,
-        scenario.run.output_interval,
+        scenario.mechanics, duration, scenario.run.output_interval,
         interface_temperature=scenario.ambient.temperature_degC,
-    )
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("effect", EFFECTS, ids=lambda effect: effect.id)
@@ -99,19 +96,11 @@ SAID_OTHERWISE = [
     {},
     {"rig.inertia": "ring", "rig.attachment_radius": 0.03},
     {"rig.inertia": 4e-4, "rig.degrees_of_freedom": ["x", "phi"]},
-    {
-        "rig.surface": "slab",
-        "rig.slab_radius": -0.7,
-        "rig.attachment_angles_deg": [150, 30, 190, 350],
-    },
-    {
-        "springs.force_curve_extension": [-0.1, 0.0, 0.1],
-        "springs.force_curve_force": [-2, 0, 2.5],
-        "friction.table_speed": [0, 0.1],
-        "friction.table_mu": [0.2, 0.15],
-        "initial.vx": -0.0125,
-    },
-]
+    {"rig.surface": "slab", "rig.slab_radius": -0.7,
+     "rig.attachment_angles_deg": [150, 30, 190, 350]},
+    {"springs.force_curve_extension": [-0.1, 0.0, 0.1], "springs.force_curve_force": [-2, 0, 2.5],
+     "friction.table_speed": [0, 0.1], "friction.table_mu": [0.2, 0.15], "initial.vx": -0.0125},
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("changes", SAID_OTHERWISE)
@@ -199,19 +188,15 @@ def test_what_is_copied_as_python_is_the_scenario_that_is_seen(page):
 # --- in use: keys, words for what is refused, folds, sizes, and who cannot see it ---
 
 REFUSED = [
-    {"rig.mass": -1},
-    {"imperfections.seed": -1},
-    {"rig.inertia": 0},
-    {"rig.attachment_angles_deg": [1, 2, 3]},
-    {"rig.mass": 1e120},
+    {"rig.mass": -1}, {"imperfections.seed": -1}, {"rig.inertia": 0},
+    {"rig.attachment_angles_deg": [1, 2, 3]}, {"rig.mass": 1e120},
     {"rig.surface": "slab", "rig.slab_radius": 0.02},
     {"springs.force_curve_extension": [0, 0.1], "springs.force_curve_force": [0]},
-    {"friction.stick_creep": 0.2},
-    {"friction.stick_creep": 0.01, "rate_and_state.evolution": 0.02},
+    {"friction.stick_creep": 0.2}, {"friction.stick_creep": 0.01, "rate_and_state.evolution": 0.02},
     {"rig.spring_natural_length": 0.5},
     {"speed_ripple.amplitude": 1, "speed_ripple.frequency": 150},
     {"run.duration": 300, "run.output_interval": 1e-5},
-]
+]  # fmt: skip
 
 
 @pytest.mark.usefixtures("reference")

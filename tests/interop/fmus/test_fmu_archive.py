@@ -69,14 +69,11 @@ def test_a_size_that_is_a_lie_does_not_fill_the_disk(unit, tmp_path):
     refused(unit, r"damaged \(.*resources/zeros")
 
 
-@pytest.mark.parametrize(
-    "entities",
-    [
-        '<!DOCTYPE d [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>',
-        '<!DOCTYPE d [<!ENTITY x SYSTEM "file:///etc/passwd">]>',
-        '<!DOCTYPE fmiModelDescription SYSTEM "http://localhost:1/fmi.dtd">',
-    ],
-)
+@pytest.mark.parametrize("entities", [
+    '<!DOCTYPE d [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;&a;&a;&a;&a;&a;&a;">]>',
+    '<!DOCTYPE d [<!ENTITY x SYSTEM "file:///etc/passwd">]>',
+    '<!DOCTYPE fmiModelDescription SYSTEM "http://localhost:1/fmi.dtd">',
+])  # fmt: skip
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-16"])
 def test_entities_are_refused_before_they_are_read(tmp_path, entities, encoding):
     path = tmp_path / "unit.fmu"
@@ -86,24 +83,15 @@ def test_entities_are_refused_before_they_are_read(tmp_path, entities, encoding)
     refused(path, "its modelDescription.xml has a document type")
 
 
-@pytest.mark.parametrize(
-    "changes, message",
-    [
-        ({'fmiVersion="2.0"': 'fmiVersion="1.7"'}, "does not make sense: Unsupported FMI version"),
-        ({'fmiVersion="2.0"': ""}, "does not make sense"),
-        ({'declaredType="Heat"': 'declaredType="Cold"'}, "does not make sense"),
-        ({'<Unknown index="4"/>': '<Unknown index="400"/>'}, "does not make sense"),
-        (
-            {
-                "CoSimulation": "ModelExchange",
-                'canHandleVariableCommunicationStepSize="true"': "",
-                'canInterpolateInputs="true"': "",
-            },
-            "is for model exchange only",
-        ),
-        ({'Identifier="faulty"': 'Identifier="../../faulty"'}, "is no name of a library"),
-    ],
-)
+@pytest.mark.parametrize("changes, message", [
+    ({'fmiVersion="2.0"': 'fmiVersion="1.7"'}, "does not make sense: Unsupported FMI version"),
+    ({'fmiVersion="2.0"': ""}, "does not make sense"),
+    ({'declaredType="Heat"': 'declaredType="Cold"'}, "does not make sense"),
+    ({'<Unknown index="4"/>': '<Unknown index="400"/>'}, "does not make sense"),
+    ({"CoSimulation": "ModelExchange", 'canHandleVariableCommunicationStepSize="true"': "",
+         'canInterpolateInputs="true"': ""}, "is for model exchange only"),
+    ({'Identifier="faulty"': 'Identifier="../../faulty"'}, "is no name of a library"),
+])  # fmt: skip
 def test_a_description_without_sense_is_refused(tmp_path, changes, message):
     refused(made("faulty", tmp_path, **changes), message)
 

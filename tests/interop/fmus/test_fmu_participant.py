@@ -4,43 +4,32 @@ import zipfile
 
 import pytest
 
-from cosim.coupling import (
-    CoupledSystem,
-    FmuError,
-    FmuParticipant,
-    GaussSeidel,
-    ParticipantError,
-    run,
-)
+from cosim import coupling
+from cosim.coupling import FmuError, FmuParticipant
 from cosim.coupling.fmu.errors import FmuCallError
 
 HELD = {"surface_speed": 0.15}
 
 
 def alone(participant, **arguments):
-    with CoupledSystem([participant], []) as system:
-        return run(
+    with coupling.CoupledSystem([participant], []) as system:
+        return coupling.run(
             system,
-            GaussSeidel((participant.name,)),
+            coupling.GaussSeidel((participant.name,)),
             **{"stop": 1.0, "macro_step": 0.01} | arguments,
         )
 
 
-@pytest.mark.parametrize(
-    "settings, message",
-    [
-        (
-            {"parameters": {"rig.mas": 1.0}},
-            r"no parameter of block is named 'rig.mas'; nearest: 'rig.mass'",
-        ),
-        ({"parameters": {"x": 1.0}}, "block.x is a output, not a parameter"),
-        ({"parameters": {"rig.mass": float("nan")}}, "block.rig.mass = nan: must be a finite"),
-        ({"parameters": {"rig.mass": True}}, "must be a finite number"),
-        ({"parameters": {"rig.mass": -1.0}}, r"block.rig.mass = -1: must lie in \[0, inf\]"),
-        ({"inputs": {"surface_sped": 1.0}}, "nearest: 'surface_speed'"),
-        ({"inputs": {"interface_temperature": -300.0}}, r"must lie in \[-273.15, inf\]"),
-    ],
-)
+@pytest.mark.parametrize("settings, message", [
+    ({"parameters": {"rig.mas": 1.0}},
+     r"no parameter of block is named 'rig.mas'; nearest: 'rig.mass'"),
+    ({"parameters": {"x": 1.0}}, "block.x is a output, not a parameter"),
+    ({"parameters": {"rig.mass": float("nan")}}, "block.rig.mass = nan: must be a finite"),
+    ({"parameters": {"rig.mass": True}}, "must be a finite number"),
+    ({"parameters": {"rig.mass": -1.0}}, r"block.rig.mass = -1: must lie in \[0, inf\]"),
+    ({"inputs": {"surface_sped": 1.0}}, "nearest: 'surface_speed'"),
+    ({"inputs": {"interface_temperature": -300.0}}, r"must lie in \[-273.15, inf\]"),
+])  # fmt: skip
 def test_a_setting_that_does_not_fit_is_refused(fmu, settings, message):
     with pytest.raises(FmuError, match=message):
         FmuParticipant(fmu, "block", **settings)
@@ -68,7 +57,7 @@ def test_what_the_fmu_logs_reaches_the_exception(unit):
     """mass = 0 lies on the declared limit; the FMU itself knows that it is excluded."""
     block = FmuParticipant(unit, "block", inputs=HELD, parameters={"rig.mass": 0.0})
     says = r"^block: failed during .*rig.mass = 0: must lie in \(0, inf\]"
-    with pytest.raises(ParticipantError, match=says) as caught:
+    with pytest.raises(coupling.ParticipantError, match=says) as caught:
         alone(block)
     assert "\n" not in str(caught.value) and str(caught.value).count("rig.mass") == 1
 

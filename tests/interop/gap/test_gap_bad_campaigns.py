@@ -49,12 +49,10 @@ def with_holes():
 LITTLE = {
     "a single run": (lambda: [run_of()], "no run is held out"),
     "no slip": (lambda: [run_of(1, 0.001), run_of(2, 0.0015)], "no slip is seen"),
-    "no stick": (
-        lambda: [run_of(seed, 0.3 + 0.1 * seed, initial={"x": 0.03}) for seed in (1, 2)],
-        "no stick is seen",
-    ),
+    "no stick": (lambda: [run_of(seed, 0.3 + 0.1 * seed, initial={"x": 0.03}) for seed in (1, 2)],
+        "no stick is seen"),
     "holes": (with_holes, ""),
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("case", LITTLE)

@@ -40,13 +40,10 @@ def test_a_host_that_sets_nothing_has_one_motion_however_it_runs_the_unit(fmu, f
     np.testing.assert_allclose(x, first["x"], rtol=0, atol=1e-6)
 
 
-@pytest.mark.parametrize(
-    ("values", "name"),
-    [
-        (PUSHED, "off_belt"),
-        ({"springs.longest": 1.2, **PUSHED, "belt.width": 0.0}, "spring_overstretched"),
-    ],
-)
+@pytest.mark.parametrize(("values", "name"), [
+    (PUSHED, "off_belt"),
+    ({"springs.longest": 1.2, **PUSHED, "belt.width": 0.0}, "spring_overstretched"),
+])  # fmt: skip
 def test_what_no_rig_bears_is_shown_and_logged_once(unit, values, name, tmp_path):
     with fmpy_slave(unit, tmp_path) as block:
         block.begin(**values)

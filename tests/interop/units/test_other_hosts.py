@@ -43,13 +43,9 @@ def output(command, **more):
     """What a command says; it works in a folder of its own, as tools leave logs where they are."""
     with tempfile.TemporaryDirectory() as scratch:
         done = subprocess.run(
-            list(map(str, command)),
-            **{"cwd": scratch} | more,
-            capture_output=True,
-            text=True,
-            check=False,
-            timeout=120,
-        )
+            list(map(str, command)), **{"cwd": scratch} | more, capture_output=True, text=True,
+            check=False, timeout=120,
+        )  # fmt: skip
     assert done.returncode == 0, done.stdout + done.stderr
     return done.stdout + done.stderr
 
@@ -61,12 +57,9 @@ def x_by(script, fmu, **more):
 
 def x_in_fmpy(fmu):
     result = fmpy.simulate_fmu(
-        str(fmu),
-        stop_time=COUNT * STEP,
-        output_interval=STEP,
-        start_values={"surface_speed": SPEED},
-        output=["x"],
-    )
+        str(fmu), stop_time=COUNT * STEP, output_interval=STEP,
+        start_values={"surface_speed": SPEED}, output=["x"],
+    )  # fmt: skip
     return result["x"][1:]
 
 
@@ -112,12 +105,9 @@ def test_a_container_of_fmutool_runs_it(fmu, expected, tmp_path):
     program = tool("fmu-manipulation-toolbox", "fmucontainer")
     shutil.copy(fmu, tmp_path)
     described = {
-        "name": "container.fmu",
-        "fmu": [fmu.name],
-        "step_size": STEP,
-        "input": [["surface_speed", fmu.name, "surface_speed"]],
-        "output": [[fmu.name, "x", "x"]],
-    }
+        "name": "container.fmu", "fmu": [fmu.name], "step_size": STEP,
+        "input": [["surface_speed", fmu.name, "surface_speed"]], "output": [[fmu.name, "x", "x"]],
+    }  # fmt: skip
     (tmp_path / "container.json").write_text(json.dumps(described))
     output([program, "-fmu-directory", tmp_path, "-container", "container.json"], cwd=tmp_path)
     same(x_in_fmpy(tmp_path / "container.fmu"), expected)

@@ -31,14 +31,10 @@ def motion(speed):
 
 
 def test_it_is_named_and_the_model_that_has_it_is_a_scenario(tmp_path):
-    runs = [
-        {
-            "surface_speed": speed,
-            "hold_out": number == 2,
-            "columns": {"t": TIMES, "x": noisy(motion(speed), number)},
-        }
-        for number, speed in enumerate((0.03, 0.06, 0.1, 0.2))
-    ]
+    runs = []
+    for number, speed in enumerate((0.03, 0.06, 0.1, 0.2)):
+        columns = {"t": TIMES, "x": noisy(motion(speed), number)}
+        runs.append({"surface_speed": speed, "hold_out": number == 2, "columns": columns})
     (tmp_path / EFFECT.name).write_text(EFFECT.read_text(encoding="utf-8"), encoding="utf-8")
     model = {"effects": [EFFECT.name]}
     write_campaign(tmp_path, runs, rig=RIG, noise={"x": NOISE}, model=model)

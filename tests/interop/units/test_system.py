@@ -22,14 +22,13 @@ from libcosimpy.CosimObserver import CosimObserver
 from stickslip.generation.platforms import this_platform
 from test_other_hosts import needs_ecospy, output
 
-from cosim import read_scenario, run_scenario
+from cosim import read_scenario, read_system, run_scenario, run_system
 from cosim.cli import main
 from cosim.coupling.record import RunFolder
 from cosim.coupling.record.folder import CheckpointError
 from cosim.fmu.build import SYSTEM
 from cosim.fmu.libraries import platforms_of
 from cosim.fmu.thermal import structure
-from cosim.systems import read_system, run_system
 
 STEP, COUNT = 0.01, 600
 TEMPERATURE = "thermal.interface_temperature"
@@ -87,21 +86,11 @@ def test_in_turn_it_is_the_coupled_case(in_turn, expected):
 def written(system, path, end=str, **of_units):
     """A TOML file of the same units, values and connections; end: of a connection's, what else."""
     with read_system(system) as read:
-        lines = [
-            line
-            for unit in read.units
-            for line in (
-                f'units.{unit.name}.file = "{unit.file}"',
-                *(
-                    f"units.{unit.name}.{key} = {n}"
-                    for key, n in of_units.get(unit.name, {}).items()
-                ),
-                *(
-                    f'units.{unit.name}.parameters."{key}" = {start.value!r}'
-                    for key, start in unit.given.items()
-                ),
-            )
-        ]
+        lines = []
+        for unit in read.units:
+            given = {f'parameters."{key}"': start.value for key, start in unit.given.items()}
+            told = {"file": str(unit.file)} | of_units.get(unit.name, {}) | given
+            lines += [f"units.{unit.name}.{key} = {value!r}" for key, value in told.items()]
         for link in read.links:
             lines += ["[[connections]]", f'from = "{end(link.source)}"', f'to = "{end(link.sink)}"']
         path.write_text("\n".join(lines), encoding="utf-8")
@@ -168,13 +157,10 @@ def in_libcosim(system, tmp_path, step, count, *wanted):
     """Values of some variables, each (unit, name), after each step."""
     with zipfile.ZipFile(system) as archive:
         archive.extractall(tmp_path)
-    places = {
-        name: {
-            each.name: each.valueReference
-            for each in fmpy.read_model_description(tmp_path / "resources" / fmu).modelVariables
-        }
-        for name, fmu in (("mechanics", "StickSlip3DOF.fmu"), ("thermal", "BeltIceThermal.fmu"))
-    }
+    places = {}
+    for name, fmu in (("mechanics", "StickSlip3DOF.fmu"), ("thermal", "BeltIceThermal.fmu")):
+        variables = fmpy.read_model_description(tmp_path / "resources" / fmu).modelVariables
+        places[name] = {each.name: each.valueReference for each in variables}
     execution = CosimExecution.from_ssp_file(ssp_path=str(system), step_size=round(step * 1e9))
     observer = CosimObserver.create_last_value()
     execution.add_observer(observer=observer)

@@ -123,22 +123,12 @@ def test_packaged_scenarios_are_as_the_schema_has_it(schemas, name):
 
 
 BAD = [
-    "mass = 1",
-    "[rig]\nmas = 1",
-    "[rig]\nmass = 0",
-    "[rig]\nmass = '1'",
-    "[rig]\nmass = true",
-    "rig = 3",
-    "[rig]\ninertia = 'disk'",
-    "[rig]\nattachment_angles_deg = [1, 2, 3]",
-    "[rig]\ndegrees_of_freedom = ['z']",
-    "[belt]\nelements = 6.5",
-    "[[belt.layers]]\nthickness = 1e-3",
-    "[imperfections]\nmass = 0.2",
-    "[coupling]\nabsolute_tolerances = {'a.b' = 'x'}",
-    "name = '../up'",
-    "defaults = 'none'",
-]
+    "mass = 1", "[rig]\nmas = 1", "[rig]\nmass = 0", "[rig]\nmass = '1'", "[rig]\nmass = true",
+    "rig = 3", "[rig]\ninertia = 'disk'", "[rig]\nattachment_angles_deg = [1, 2, 3]",
+    "[rig]\ndegrees_of_freedom = ['z']", "[belt]\nelements = 6.5",
+    "[[belt.layers]]\nthickness = 1e-3", "[imperfections]\nmass = 0.2",
+    "[coupling]\nabsolute_tolerances = {'a.b' = 'x'}", "name = '../up'", "defaults = 'none'",
+]  # fmt: skip
 
 
 @pytest.mark.parametrize("text", BAD)
@@ -185,18 +175,15 @@ def test_campaigns_and_systems_have_schemas(schemas):
 
 
 WORDS = {
-    ("stickslip", "si"): {"simulate"},
-    ("stickslip", "simulate", "re"): {"reference"},
-    ("stickslip", "run", "mi"): {"mine.toml"},
-    ("stickslip", "couple", "tw"): {"two.ssp"},
+    ("stickslip", "si"): {"simulate"}, ("stickslip", "simulate", "re"): {"reference"},
+    ("stickslip", "run", "mi"): {"mine.toml"}, ("stickslip", "couple", "tw"): {"two.ssp"},
     ("stickslip", "simulate", "--js"): {"--json"},
     ("stickslip", "new", "x", "--from", "sl"): {"slab"},
     ("stickslip", "schema", "s"): {"scenario", "system"},
     ("stickslip", "run", "--set", "rig.ma"): {"rig.mass="},
     ("stickslip", "sweep", "slab", "--vary", "surface.sp"): {"surface.speed="},
-    ("stickslip", "compare", "slab", "mi"): {"mine.toml"},
-    ("stickslip", ""): set(COMMANDS),
-}
+    ("stickslip", "compare", "slab", "mi"): {"mine.toml"}, ("stickslip", ""): set(COMMANDS),
+}  # fmt: skip
 
 
 def test_bash_completes_commands_options_and_scenarios(capsys, tmp_path):

@@ -38,18 +38,15 @@ def test_version(capsys):
     assert capsys.readouterr().out == f"stickslip {version('stickslip')}\n"
 
 
-@pytest.mark.parametrize(
-    "argv, line",
-    [
-        ([], "the following arguments are required: COMMAND"),
-        (["rnu"], "invalid choice: 'rnu'"),
-        (["run", "--out", "x"], "unrecognized arguments: --out"),
-        (["build", "--native"], "unrecognized arguments: --native"),
-        (["build", "StickSlip.fmu"], "argument UNIT: no unit is named 'StickSlip.fmu'; nearest: "),
-        (["build", "--platforms", "x86"], "argument --platforms: no platform is named 'x86'"),
-        (["run", "a.toml", "b.toml"], "unrecognized arguments: b.toml"),
-    ],
-)
+@pytest.mark.parametrize("argv, line", [
+    ([], "the following arguments are required: COMMAND"),
+    (["rnu"], "invalid choice: 'rnu'"),
+    (["run", "--out", "x"], "unrecognized arguments: --out"),
+    (["build", "--native"], "unrecognized arguments: --native"),
+    (["build", "StickSlip.fmu"], "argument UNIT: no unit is named 'StickSlip.fmu'; nearest: "),
+    (["build", "--platforms", "x86"], "argument --platforms: no platform is named 'x86'"),
+    (["run", "a.toml", "b.toml"], "unrecognized arguments: b.toml"),
+])  # fmt: skip
 def test_arguments_that_do_not_exist_are_refused(capsys, argv, line):
     assert line in refusal(capsys, *argv)
 

@@ -8,12 +8,10 @@ from cosim.cli import main
 from cosim.report.run_text import closing_lines
 
 MECHANICS = {
-    "name": "case",
-    "time_reached": 30.0,
-    "wall_time": 2.34,
+    "name": "case", "time_reached": 30.0, "wall_time": 2.34,
     "after_run_up": {"frequency": 2.3, "slip_share": 0.9, "duration": 20.0},
     "ledger": {"mechanics": {"relative_residual": 1e-13}},
-}
+}  # fmt: skip
 HEAT = {
     "temperatures": {"interface": {"end_degC": -7.9432, "end_rise": 0.0568}},
     "heat_shares": {"belt": 0.31, "ice": 0.48, "air": 0.21},
@@ -44,31 +42,22 @@ def test_a_coupled_run_ends_in_six_lines(tmp_path):
         assert any(said in line for line in lines), said
 
 
-@pytest.mark.parametrize(
-    ("ends", "said"),
-    [
-        (
-            {"interface_degC": -5.6789, "interface_rise": 2.3211, "reached": 5432.1}
-            | {"within": 0.05},
-            "-5.7 degC if this went on for ever, +2.3 K over the air; within 5400 s of",
-        ),
-        ({"reason": "none: the face of the block comes to melt"}, "none: the face of the block"),
-    ],
-)
+@pytest.mark.parametrize(("ends", "said"), [
+    ({"interface_degC": -5.6789, "interface_rise": 2.3211, "reached": 5432.1} | {"within": 0.05},
+     "-5.7 degC if this went on for ever, +2.3 K over the air; within 5400 s of"),
+    ({"reason": "none: the face of the block comes to melt"}, "none: the face of the block"),
+])  # fmt: skip
 def test_it_is_told_how_warm_the_contact_gets_in_the_end(ends, said):
     lines = lines_of(COUPLED | {"in_the_end": ends})
     (line,) = [line for line in lines if line.startswith("  in the end")]
     assert said in line
 
 
-@pytest.mark.parametrize(
-    ("rate", "share", "said"),
-    [
-        (None, None, "not known"),
-        (0.0, 1.0, "no break-away at constant speed"),
-        (None, 0.3, "one break-away at constant"),
-    ],
-)
+@pytest.mark.parametrize(("rate", "share", "said"), [
+    (None, None, "not known"),
+    (0.0, 1.0, "no break-away at constant speed"),
+    (None, 0.3, "one break-away at constant"),
+])  # fmt: skip
 def test_without_a_period_there_is_no_frequency(rate, share, said):
     """Of mechanics alone, which says nothing of heat."""
     late = {"frequency": rate, "slip_share": share, "duration": 20.0 if share else 0.0}
@@ -84,22 +73,8 @@ def test_rounding_is_not_told_of_as_heat_and_nought_has_no_sign():
     assert "heat         0 J" in said and ", 0 K over the air" in said and "e-21" not in said
 
 
-SWERVES = """
-defaults = "plain"
-[rig]
-spring_natural_length = 0.20
-[lateral_friction]
-ratio = 1.0
-[initial]
-y = 0.03
-[run]
-duration = 1.0
-"""
-
-
-def test_a_block_beyond_its_belt_is_said_in_one_line(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    Path("case.toml").write_text(SWERVES)
-    assert main(["simulate", "case.toml", "-o", "out"]) == 0
+def test_a_block_beyond_its_belt_is_said_in_one_line(tmp_path, capsys):
+    changes = ("--set", "initial.y=0.03", "--set", "run.duration=1")
+    assert main(["simulate", "study", *changes, "-o", str(tmp_path / "out")]) == 0
     said = [line for line in capsys.readouterr().err.splitlines() if "edge" in line]
     assert len(said) == 1 and said[0].startswith("warning: ") and "t = 0 s, y = 30 mm" in said[0]

@@ -50,16 +50,11 @@ def test_a_named_pipe_that_nobody_writes_to(command, refused):
 
 
 @pytest.mark.skipif(not os.path.exists("/dev/zero"), reason="no devices")
-@pytest.mark.parametrize(
-    "text",
-    [
-        'effects = ["{0}"]',
-        '[friction]\ntable = "{0}"',
-        '[ice]\nmesh = "{0}"',
-        '[units.a]\nfile = "{0}"\n[run]\nstop = 1.0\n',
-        '[[run]]\nfile = "{0}"\nmass = 0.67\nstiffness = 20.17\nsurface_speed = 0.15\n',
-    ],
-)
+@pytest.mark.parametrize("text", [
+    'effects = ["{0}"]', '[friction]\ntable = "{0}"', '[ice]\nmesh = "{0}"',
+    '[units.a]\nfile = "{0}"\n[run]\nstop = 1.0\n',
+    '[[run]]\nfile = "{0}"\nmass = 0.67\nstiffness = 20.17\nsurface_speed = 0.15\n',
+])  # fmt: skip
 @pytest.mark.parametrize("named", ["/dev/zero", "pipe", "large"])
 def test_a_file_that_a_file_names(text, named, refused):
     os.mkfifo("pipe")
@@ -78,17 +73,13 @@ def test_a_shell_s_pipe_is_read(tmp_path, capsys):
     assert "rig.mas" in refusal(capsys, "simulate", f"/dev/fd/{reads}")
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "name = " + 50_000 * "[" + 50_000 * "]",
-        "name = " + 100 * "[" + 100 * "]",
-        "a" + 50_000 * ".a" + " = 1",
-        "[" + 50_000 * '"a" . ' + "a]",
-        "a = " + 300 * "{a = " + "1" + 300 * "}",
-    ],
-    ids=["lists", "a few lists", "a key", "a table", "tables"],
-)
+@pytest.mark.parametrize("text", [
+    "name = " + 50_000 * "[" + 50_000 * "]",
+    "name = " + 100 * "[" + 100 * "]",
+    "a" + 50_000 * ".a" + " = 1",
+    "[" + 50_000 * '"a" . ' + "a]",
+    "a = " + 300 * "{a = " + "1" + 300 * "}",
+], ids=["lists", "a few lists", "a key", "a table", "tables"])  # fmt: skip
 @pytest.mark.parametrize("command", ["simulate", "couple"])
 def test_a_toml_file_that_is_nested_deeply(text, command, refused):
     open("case.toml", "w").write(text)

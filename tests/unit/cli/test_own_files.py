@@ -11,16 +11,10 @@ import pytest
 from command_line import SHORT_CASE, refusal
 
 import cosim.files
+from cosim import manifest
 from cosim.cli import main
 from cosim.files import OutputRefused, writable, write_text
-from cosim.manifest import (
-    MANIFEST,
-    files_of_earlier,
-    made_by,
-    require_json,
-    require_own,
-    results_in,
-)
+from cosim.manifest import MANIFEST, made_by, results_in
 
 SHORT = SHORT_CASE.format(run_up=0.2, duration=0.5, snapshots=0.1)
 
@@ -73,20 +67,16 @@ def test_the_figures_of_run_do_not_stay_where_simulate_writes(tmp_path):
     assert not (out / "fields").exists()
 
 
-@pytest.mark.parametrize(
-    "argv, name",
-    [
-        (("simulate", "short.toml"), "result.csv"),
-        (("run", "short.toml", "--fields"), "fields/temperature.pvd"),
-        (("effects", "film_drag"), "film_drag.png"),
-        (("friction-map",), "friction_map.csv"),
-        (("stability",), "report.html"),
-        (("belt-length",), "doubt.csv"),
-        (("sweep", "reference", "--vary", "rig.mass=1"), "sweep.nc"),
-        (("reproduce", "C6"), "reproduction.json"),
-    ],
-    ids=lambda given: given[0] if isinstance(given, tuple) else "",
-)
+@pytest.mark.parametrize("argv, name", [
+    (("simulate", "short.toml"), "result.csv"),
+    (("run", "short.toml", "--fields"), "fields/temperature.pvd"),
+    (("effects", "film_drag"), "film_drag.png"),
+    (("friction-map",), "friction_map.csv"),
+    (("stability",), "report.html"),
+    (("belt-length",), "doubt.csv"),
+    (("sweep", "reference", "--vary", "rig.mass=1"), "sweep.nc"),
+    (("reproduce", "C6"), "reproduction.json"),
+], ids=lambda given: given[0] if isinstance(given, tuple) else "")  # fmt: skip
 def test_a_file_of_somebody_else_is_not_overwritten(capsys, tmp_path, argv, name):
     (tmp_path / "short.toml").write_text(SHORT)
     theirs = tmp_path / "out" / name
@@ -132,8 +122,7 @@ def test_nothing_written_changes_nothing(tmp_path):
 
 
 @pytest.mark.parametrize(
-    "text",
-    ["", "[]", '{"files": 3}', '{"files": ["../mine.txt", "/etc/passwd", "", 3]}'],
+    "text", ["", "[]", '{"files": 3}', '{"files": ["../mine.txt", "/etc/passwd", "", 3]}']
 )
 def test_a_list_that_is_damaged_or_leaves_the_folder_owns_nothing(tmp_path, text):
     (tmp_path / "mine.txt").write_text("my own")
@@ -141,9 +130,9 @@ def test_a_list_that_is_damaged_or_leaves_the_folder_owns_nothing(tmp_path, text
     folder.mkdir()
     (folder / MANIFEST).write_text(text)
     (folder / "report.html").write_text("my own")
-    assert files_of_earlier(folder) == set()
+    assert manifest.files_of_earlier(folder) == set()
     with pytest.raises(OutputRefused, match="is no result of an earlier run"):
-        require_own(folder, ["report.html"])
+        manifest.require_own(folder, ["report.html"])
     with results_in(folder, made_by()):
         write_text("rows", folder / "result.csv")
     assert (tmp_path / "mine.txt").read_text() == "my own"
@@ -152,7 +141,7 @@ def test_a_list_that_is_damaged_or_leaves_the_folder_owns_nothing(tmp_path, text
 @pytest.mark.skipif(not Path("/dev/zero").exists(), reason="no such device here")
 def test_a_device_is_not_read_to_its_end():
     with pytest.raises(OutputRefused, match="no result of this command"):
-        require_json(Path("/dev/zero"), ("status",))
+        manifest.require_json(Path("/dev/zero"), ("status",))
 
 
 @pytest.mark.skipif(os.name == "nt", reason="whether a process lives is not asked there")
@@ -170,29 +159,21 @@ def test_what_a_killed_process_was_writing_goes_with_the_next_run(tmp_path):
 
 def test_results_of_another_command_are_not_replaced_without_a_word(tmp_path, capsys, monkeypatch):
     (tmp_path / "short.toml").write_text(SHORT)
-    replaced = (
-        "note: out: what this writes replaces the results of `stickslip run short.toml -o out`"
-    )
-    for argv, said in (
-        (["run", "short.toml", "-o", "out"], False),
-        (["run", "short.toml", "-o", "out"], False),
-        (["simulate", "short.toml", "-o", "out"], True),
-        (["simulate", "short.toml", "-o", "out"], False),
-    ):
+    said = "note: out: what this writes replaces the results of `stickslip run short.toml -o out`"
+    commands = "run", "run", "simulate", "simulate"
+    for command, replaces in zip(commands, (False, False, True, False), strict=True):
+        argv = [command, "short.toml", "-o", "out"]
         monkeypatch.setattr("sys.argv", ["stickslip", *argv])
         assert main(argv) == 0
-        assert (replaced in capsys.readouterr().err.splitlines()) == said
+        assert (said in capsys.readouterr().err.splitlines()) == replaces
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no named pipes")
-@pytest.mark.parametrize(
-    "name, argv",
-    [
-        ("page.html", ["explore", "-o", "page.html", "--no-open"]),
-        ("brush.py", ["effect", "new", "brush.py"]),
-        ("mine.toml", ["new", "mine"]),
-    ],
-)
+@pytest.mark.parametrize("name, argv", [
+    ("page.html", ["explore", "-o", "page.html", "--no-open"]),
+    ("brush.py", ["effect", "new", "brush.py"]),
+    ("mine.toml", ["new", "mine"]),
+])  # fmt: skip
 def test_a_pipe_that_has_a_files_name_is_refused_and_not_read(
     capsys, tmp_path, monkeypatch, name, argv
 ):

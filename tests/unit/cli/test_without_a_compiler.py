@@ -27,16 +27,13 @@ def without(tmp_path, monkeypatch):
     return here
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        ("run", *BRIEF),
-        ("build", "-o", "out"),
-        ("build", "StickSlip3DOF-fmi3.fmu", "-o", "out"),
-        ("sweep", "reference", "--vary", "springs.stiffness=20,21", "--coupled", *BRIEF),
-        ("friction-map", "-o", "out"),
-    ],
-)
+@pytest.mark.parametrize("command", [
+    ("run", *BRIEF),
+    ("build", "-o", "out"),
+    ("build", "StickSlip3DOF-fmi3.fmu", "-o", "out"),
+    ("sweep", "reference", "--vary", "springs.stiffness=20,21", "--coupled", *BRIEF),
+    ("friction-map", "-o", "out"),
+])  # fmt: skip
 def test_it_says_in_a_line_what_is_lacking_and_leaves_nothing(without, command, capsys):
     name = command[1] if command[1].endswith(".fmu") else "StickSlip3DOF.fmu"
     assert refusal(capsys, *command) == f"{name} was not built: {REMEDY}{INSTEAD}"

@@ -75,11 +75,9 @@ def test_fields_that_cannot_be_written_fail_the_run_and_keep_the_rest(
 
 #: Ice so near to melting that the first friction melts it.
 WARM = {
-    "ambient.temperature_degC": -1e-6,
-    "surface.run_up_time": 0.5,
-    "run.duration": 0.8,
+    "ambient.temperature_degC": -1e-6, "surface.run_up_time": 0.5, "run.duration": 0.8,
     "run.snapshot_interval": 0.5,
-}
+}  # fmt: skip
 FEELING = {
     "temperature_dependence.sensitivity": 0.02,
     "asperity_melting.length": 1e-3,
@@ -200,18 +198,14 @@ def warm_rise(fmu):
     return last(run_scenario(WARM_FRICTION, fmu=fmu), "thermal.interface_temperature") + 8.0
 
 
-@pytest.mark.parametrize(
-    "method",
-    [
-        {"scheme": "jacobi", "extrapolation": "linear"},
-        {"scheme": "gauss_seidel", "extrapolation": "quadratic"},
-        {"scheme": "iterated", "sweep": "jacobi"},
-        {"scheme": "iterated", "acceleration": "aitken"},
-        {"step_control": "defect", "extrapolation": "linear"},
-        {"step_control": "doubling"},
-    ],
-    ids=lambda method: " ".join(method.values()),
-)
+@pytest.mark.parametrize("method", [
+    {"scheme": "jacobi", "extrapolation": "linear"},
+    {"scheme": "gauss_seidel", "extrapolation": "quadratic"},
+    {"scheme": "iterated", "sweep": "jacobi"},
+    {"scheme": "iterated", "acceleration": "aitken"},
+    {"step_control": "defect", "extrapolation": "linear"},
+    {"step_control": "doubling"},
+], ids=lambda method: " ".join(method.values()))  # fmt: skip
 def test_every_method_couples_the_case(method, warm_rise, fmu):
     """Joules are handed over when they are there: none is made or lost whatever the method."""
     changes = {f"coupling.{key}": value for key, value in method.items()}

@@ -2,21 +2,14 @@
 
 import pytest
 
-from cosim.coupling import (
-    Connection,
-    CoupledSystem,
-    CouplingError,
-    GaussSeidel,
-    inputs,
-    outputs,
-    port_table,
-)
+from cosim import coupling
+from cosim.coupling import Connection, CoupledSystem, CouplingError, inputs, outputs
 
 
 class Stub:
     def __init__(self, name, *ports):
         self.name = name
-        self.ports = port_table(ports)
+        self.ports = coupling.port_table(ports)
 
 
 def stubs():
@@ -30,25 +23,20 @@ def stubs():
 HEAT = Connection("mechanics.heat", "thermal.heat", taken="heat_received")
 
 
-@pytest.mark.parametrize(
-    "connection, message",
-    [
-        (("mechanics.z", "thermal.x"), r"no port of mechanics is named 'z'"),
-        (("mechanics.heatt", "thermal.x"), r"nearest: 'heat'"),
-        (("mechanic.heat", "thermal.x"), r"no participant is named 'mechanic'; nearest: 'mech"),
-        (
-            ("thermal.temperature", "mechanics.temperature"),
-            r"thermal.temperature -> mechanics.temperature: K does not fit degC: the units must",
-        ),
-        (("thermal.x", "thermal.x"), r"thermal.x is an input; a connection starts at an output"),
-        (("mechanics.x", "thermal.y"), r"thermal.y is an output; a connection ends at an input"),
-        (("mechanics.heat", "thermal.heat"), r"carries energy; name in taken="),
-        (("mechanics.heat", "thermal.heat", "y"), r"thermal.y is an output in m; what the sink"),
-        (("mechanics.heat", "thermal.heat", "received"), r"nearest: 'heat_received'"),
-        (("mechanics.x", "thermal.x", "heat_received"), r"belongs to a connection in J"),
-        (("thermal.y", "thermal.x"), r"not connected to itself"),
-    ],
-)
+@pytest.mark.parametrize("connection, message", [
+    (("mechanics.z", "thermal.x"), r"no port of mechanics is named 'z'"),
+    (("mechanics.heatt", "thermal.x"), r"nearest: 'heat'"),
+    (("mechanic.heat", "thermal.x"), r"no participant is named 'mechanic'; nearest: 'mech"),
+    (("thermal.temperature", "mechanics.temperature"),
+     r"thermal.temperature -> mechanics.temperature: K does not fit degC: the units must"),
+    (("thermal.x", "thermal.x"), r"thermal.x is an input; a connection starts at an output"),
+    (("mechanics.x", "thermal.y"), r"thermal.y is an output; a connection ends at an input"),
+    (("mechanics.heat", "thermal.heat"), r"carries energy; name in taken="),
+    (("mechanics.heat", "thermal.heat", "y"), r"thermal.y is an output in m; what the sink"),
+    (("mechanics.heat", "thermal.heat", "received"), r"nearest: 'heat_received'"),
+    (("mechanics.x", "thermal.x", "heat_received"), r"belongs to a connection in J"),
+    (("thermal.y", "thermal.x"), r"not connected to itself"),
+])  # fmt: skip
 def test_a_connection_that_does_not_fit_is_refused(connection, message):
     with pytest.raises(CouplingError, match=message):
         CoupledSystem(stubs(), [Connection(*connection)])
@@ -62,18 +50,15 @@ def test_an_input_is_fed_once():
         CoupledSystem([mechanics, thermal, other], twice)
 
 
-@pytest.mark.parametrize(
-    "order, message",
-    [
-        (("mechanics",), "leaves out thermal"),
-        (("mechanics", "thermal", "mechanics"), "names mechanics more than once"),
-        (("mechanics", "termal"), "nearest: 'thermal'"),
-    ],
-)
+@pytest.mark.parametrize("order, message", [
+    (("mechanics",), "leaves out thermal"),
+    (("mechanics", "thermal", "mechanics"), "names mechanics more than once"),
+    (("mechanics", "termal"), "nearest: 'thermal'"),
+])  # fmt: skip
 def test_the_order_names_every_participant_once(order, message):
     system = CoupledSystem(stubs(), [HEAT])
     with pytest.raises(CouplingError, match=message):
-        GaussSeidel(order).check(system)
+        coupling.GaussSeidel(order).check(system)
 
 
 def test_names_are_unique_and_without_dots():

@@ -2,17 +2,10 @@
 
 import pytest
 
-from cosim.coupling import (
-    Connection,
-    CoupledSystem,
-    CouplingError,
-    Port,
-    UnitDefinition,
-    port_table,
-)
+from cosim import coupling
+from cosim.coupling import Causality, Connection, CoupledSystem, CouplingError, UnitDefinition
 from cosim.coupling.conversion import Affine, conversion, converted
 from cosim.coupling.exchange import Exchange
-from cosim.coupling.participant import Causality
 from cosim.coupling.waveform import Waveform
 
 TEMPERATURE = (0, 0, 0, 0, 1, 0, 0, 0)
@@ -21,57 +14,46 @@ TURNING = (0, 0, -1, 0, 0, 0, 0, 1)
 FREQUENCY = (0, 0, -1, 0, 0, 0, 0, 0)
 NUMBER = (0,) * 8
 UNITS = {
-    "K": UnitDefinition(TEMPERATURE),
-    "degC": UnitDefinition(TEMPERATURE, 1.0, 273.15),
+    "K": UnitDefinition(TEMPERATURE), "degC": UnitDefinition(TEMPERATURE, 1.0, 273.15),
     "degF": UnitDefinition(TEMPERATURE, 5.0 / 9.0, 273.15 - 160.0 / 9.0),
-    "J": UnitDefinition(ENERGY),
-    "kW.h": UnitDefinition(ENERGY, 3.6e6),
-    "N.m": UnitDefinition(ENERGY),
-    "rad/s": UnitDefinition(TURNING),
-    "Hz": UnitDefinition(FREQUENCY),
-    "%": UnitDefinition(NUMBER, 0.01),
-    "1": UnitDefinition(NUMBER),
-}
+    "J": UnitDefinition(ENERGY), "kW.h": UnitDefinition(ENERGY, 3.6e6),
+    "N.m": UnitDefinition(ENERGY), "rad/s": UnitDefinition(TURNING),
+    "Hz": UnitDefinition(FREQUENCY), "%": UnitDefinition(NUMBER, 0.01), "1": UnitDefinition(NUMBER),
+}  # fmt: skip
 
 
 def port(unit, defined=True, causality=Causality.OUTPUT, name="p"):
-    return Port(name, unit, causality, definition=UNITS.get(unit) if defined else None)
+    return coupling.Port(name, unit, causality, definition=UNITS.get(unit) if defined else None)
 
 
-@pytest.mark.parametrize(
-    "source, sink, value, expected",
-    [
-        ("degC", "K", -8.0, 265.15),
-        ("K", "degC", 265.15, -8.0),
-        ("degF", "degC", 212.0, 100.0),
-        ("degC", "degF", -40.0, -40.0),
-        ("kW.h", "J", 2.0, 7.2e6),
-        ("N.m", "J", 3.0, 3.0),
-        ("%", "1", 95.0, 0.95),
-        ("K", "K", 300.0, 300.0),
-    ],
-)
+@pytest.mark.parametrize("source, sink, value, expected", [
+    ("degC", "K", -8.0, 265.15),
+    ("K", "degC", 265.15, -8.0),
+    ("degF", "degC", 212.0, 100.0),
+    ("degC", "degF", -40.0, -40.0),
+    ("kW.h", "J", 2.0, 7.2e6),
+    ("N.m", "J", 3.0, 3.0),
+    ("%", "1", 95.0, 0.95),
+    ("K", "K", 300.0, 300.0),
+])  # fmt: skip
 def test_units_of_one_dimension_are_converted(source, sink, value, expected):
     affine, remark = conversion(port(source), port(sink))
     assert not remark
     assert affine(value) == pytest.approx(expected, rel=1e-12, abs=1e-10)
 
 
-@pytest.mark.parametrize(
-    "source, sink, message",
-    [
-        ("K", "J", r"K \(K\) does not fit J \(kg m\^2 s\^-2\)"),
-        ("rad/s", "Hz", r"rad/s \(s\^-1 rad\) does not fit Hz \(s\^-1\)"),
-        ("1", "K", r"no unit \(a plain number\) does not fit K"),
-    ],
-)
+@pytest.mark.parametrize("source, sink, message", [
+    ("K", "J", r"K \(K\) does not fit J \(kg m\^2 s\^-2\)"),
+    ("rad/s", "Hz", r"rad/s \(s\^-1 rad\) does not fit Hz \(s\^-1\)"),
+    ("1", "K", r"no unit \(a plain number\) does not fit K"),
+])  # fmt: skip
 def test_units_of_two_dimensions_are_refused(source, sink, message):
     with pytest.raises(CouplingError, match=message):
         conversion(port(source), port(sink))
 
 
 def test_one_spelling_for_two_units_is_refused():
-    other = Port("p", "kW.h", Causality.INPUT, definition=UnitDefinition(ENERGY, 3600.0))
+    other = coupling.Port("p", "kW.h", Causality.INPUT, definition=UnitDefinition(ENERGY, 3600.0))
     with pytest.raises(CouplingError, match="both are in kW.h, which they define differently"):
         conversion(port("kW.h"), other)
 
@@ -88,14 +70,16 @@ def test_a_side_without_a_unit_is_said():
 
 
 def test_rounding_of_the_definitions_is_no_conversion():
-    nearly = Port("p", "rad/s2", Causality.INPUT, definition=UnitDefinition(TURNING, 1.0 + 1e-15))
+    nearly = coupling.Port(
+        "p", "rad/s2", Causality.INPUT, definition=UnitDefinition(TURNING, 1.0 + 1e-15)
+    )
     assert conversion(port("rad/s"), nearly)[0].is_identity
 
 
 class Part:
     def __init__(self, name, *ports):
         self.name = name
-        self.ports = port_table(ports)
+        self.ports = coupling.port_table(ports)
         self.got = {}
 
     def read(self):
@@ -108,18 +92,12 @@ class Part:
 SCALED = Affine(2.0, 1.0)
 
 
-@pytest.mark.parametrize(
-    "options, expected, remarks",
-    [
-        ({}, 265.15, ()),
-        ({"transformation": SCALED}, 2.0 * 265.15 + 1.0, ()),
-        (
-            {"transformation": SCALED, "converts": False},
-            -15.0,
-            ("a.t -> b.u: units are not compared, as the system says",),
-        ),
-    ],
-)
+@pytest.mark.parametrize("options, expected, remarks", [
+    ({}, 265.15, ()),
+    ({"transformation": SCALED}, 2.0 * 265.15 + 1.0, ()),
+    ({"transformation": SCALED, "converts": False}, -15.0,
+     ("a.t -> b.u: units are not compared, as the system says",)),
+])  # fmt: skip
 def test_the_exchange_converts_then_transforms(options, expected, remarks):
     """In this order by the SSP standard, common content, LinearTransformation."""
     source = Part("a", port("degC", name="t"))

@@ -44,16 +44,13 @@ def test_arrays_and_numbers_of_numpy_are_taken(tmp_path):
 
 
 def test_any_damage_is_seen(saved):
-    whole = saved.read_bytes()
-    random = np.random.default_rng(3)
+    whole, random = saved.read_bytes(), np.random.default_rng(3)
+    damaged = [whole[:size] for size in (0, 1, 63, 64, 65, len(whole) // 2, len(whole) - 1)]
     for _ in range(300):
-        damaged = bytearray(whole)
-        damaged[random.integers(len(whole))] ^= 1 << int(random.integers(8))
-        saved.write_bytes(damaged)
-        with pytest.raises(CheckpointError, match=r"checkpoint\.zip: is damaged"):
-            load_checkpoint(saved)
-    for size in (0, 1, 63, 64, 65, len(whole) // 2, len(whole) - 1):
-        saved.write_bytes(whole[:size])
+        damaged.append(bytearray(whole))
+        damaged[-1][random.integers(len(whole))] ^= 1 << int(random.integers(8))
+    for content in damaged:
+        saved.write_bytes(content)
         with pytest.raises(CheckpointError, match=r"checkpoint\.zip: is damaged"):
             load_checkpoint(saved)
     saved.write_bytes(whole)

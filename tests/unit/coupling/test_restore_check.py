@@ -6,22 +6,14 @@ import pickle
 import pytest
 from part import Part
 
-from cosim.coupling import (
-    CoupledSystem,
-    FixedStep,
-    Iterated,
-    ParticipantError,
-    outputs,
-    port_table,
-    restores_exactly,
-    run,
-)
+from cosim import coupling
+from cosim.coupling import restores_exactly, run
 
 
 class Counter(Part):
     """Its output is the number of steps, plus what it has kept for itself."""
 
-    name, ports = "counter", port_table(outputs(x="1"))
+    name, ports = "counter", coupling.port_table(coupling.outputs(x="1"))
 
     def __init__(self, forgets=0, fails=None, off=0.0):
         self.kept = {"steps": 0.0}
@@ -65,13 +57,10 @@ def test_one_that_comes_back_is_left_where_it_was(off):
     assert counter.read() == pytest.approx({"x": off}, nan_ok=True) and counter.states == 0
 
 
-@pytest.mark.parametrize(
-    "counter",
-    [
-        *(Counter(forgets=1), Counter(fails="get_state"), Counter(fails="set_state")),
-        *(Counter(fails="free_state"), object()),
-    ],
-)
+@pytest.mark.parametrize("counter", [
+    *(Counter(forgets=1), Counter(fails="get_state"), Counter(fails="set_state")),
+    *(Counter(fails="free_state"), object()),
+])  # fmt: skip
 def test_one_that_does_not_is_found(counter):
     assert not restores_exactly(counter, 0.0, 0.1)
     assert getattr(counter, "states", 0) == 0
@@ -82,5 +71,8 @@ def test_a_step_that_fails_is_that_and_nothing_else():
     with pytest.raises(RuntimeError, match="^cannot step$"):
         restores_exactly(counter, 0.0, 0.1)
     assert counter.states == 0
-    with pytest.raises(ParticipantError, match="^counter: failed during .*: cannot step$"):
-        run(CoupledSystem([counter], []), Iterated(("counter",)), stop=1.0, control=FixedStep(0.1))
+    with pytest.raises(coupling.ParticipantError, match="^counter: failed during .*: cannot step$"):
+        run(
+            coupling.CoupledSystem([counter], []), coupling.Iterated(("counter",)), stop=1.0,
+            control=coupling.FixedStep(0.1),
+        )  # fmt: skip

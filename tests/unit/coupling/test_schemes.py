@@ -141,14 +141,11 @@ def test_what_is_extrapolated_is_over_the_step_that_was_made_and_held_behind_an_
     assert result["plain.x"][-1] == pytest.approx(x, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    "how",
-    [
-        {"scheme": Iterated(("plain",)), "macro_step": 0.1},
-        {"scheme": Jacobi(("plain",)), "control": AdaptiveStep(Defect(), 0.1, 0.01, 1.0)},
-        {"scheme": Jacobi(("plain",)), "macro_step": 0.1, "on_divergence": "halve"},
-    ],
-)
+@pytest.mark.parametrize("how", [
+    {"scheme": Iterated(("plain",)), "macro_step": 0.1},
+    {"scheme": Jacobi(("plain",)), "control": AdaptiveStep(Defect(), 0.1, 0.01, 1.0)},
+    {"scheme": Jacobi(("plain",)), "macro_step": 0.1, "on_divergence": "halve"},
+])  # fmt: skip
 def test_what_takes_steps_back_needs_participants_that_can(how):
     with pytest.raises(CouplingError, match="plain: cannot go back to an earlier state, and"):
         run(CoupledSystem([Plain()], []), stop=1.0, **how)
@@ -290,23 +287,18 @@ def test_an_acceleration_solves_what_plain_iteration_runs_away_from(acceleration
     assert x == pytest.approx(np.linalg.solve(np.eye(len(a)) - a, b), rel=1e-9)
 
 
-@pytest.mark.parametrize(
-    "make, says",
-    [
-        (lambda: Relaxation(0.0), "relaxation = 0: must be above 0"),
-        (lambda: Tolerance(0.0), "relative_tolerance = 0: must be"),
-        (lambda: Tolerance(1e-3, {"a.x": -1.0}), "absolute tolerance of a.x = -1"),
-        (lambda: AdaptiveStep(Defect(), 1.0, 2.0, 3.0), "macro_step = 1 s: must lie between"),
-        (lambda: AdaptiveStep(Defect(), 1.0, 0.1, 3.0, 1.0), "safety = 1: must lie"),
-        (lambda: Jacobi(("a", "b"), "cubic").check(loop(0.1)), "extrapolation = 'cubic'"),
-        (lambda: Iterated(("a", "b"), sweep="both").check(loop(0.1)), "sweep = 'both'"),
-        (lambda: run(loop(0.1), Jacobi(("a", "b")), stop=1.0), "either macro_step or control"),
-        (
-            lambda: run(loop(0.1), Jacobi("ab"), stop=1.0, macro_step=0.1, on_divergence="pray"),
-            "on_divergence = 'pray'",
-        ),
-    ],
-)
+@pytest.mark.parametrize("make, says", [
+    (lambda: Relaxation(0.0), "relaxation = 0: must be above 0"),
+    (lambda: Tolerance(0.0), "relative_tolerance = 0: must be"),
+    (lambda: Tolerance(1e-3, {"a.x": -1.0}), "absolute tolerance of a.x = -1"),
+    (lambda: AdaptiveStep(Defect(), 1.0, 2.0, 3.0), "macro_step = 1 s: must lie between"),
+    (lambda: AdaptiveStep(Defect(), 1.0, 0.1, 3.0, 1.0), "safety = 1: must lie"),
+    (lambda: Jacobi(("a", "b"), "cubic").check(loop(0.1)), "extrapolation = 'cubic'"),
+    (lambda: Iterated(("a", "b"), sweep="both").check(loop(0.1)), "sweep = 'both'"),
+    (lambda: run(loop(0.1), Jacobi(("a", "b")), stop=1.0), "either macro_step or control"),
+    (lambda: run(loop(0.1), Jacobi("ab"), stop=1.0, macro_step=0.1, on_divergence="pray"),
+     "on_divergence = 'pray'"),
+])  # fmt: skip
 def test_settings_that_cannot_be_are_refused(make, says):
     with pytest.raises(CouplingError, match=says):
         make()

@@ -87,14 +87,6 @@ def test_pictures_go_on_where_they_were_saved(tmp_path, monkeypatch, cut):
     assert found == expected
 
 
-def test_pictures_are_on_disk_as_they_are_taken(tmp_path, model):
-    snapshots = Snapshots(model, 0.1, store=tmp_path)
-    run(model, snapshots, range(5))
-    found = np.load(tmp_path / "pictures.npy", mmap_mode="r")
-    assert found.shape == (5, 2 + snapshots.position.size)
-    np.testing.assert_array_equal(found[:, 2:], snapshots.temperature)
-
-
 def frames(data):
     image = Image.open(io.BytesIO(data))
     assert image.format == "GIF"

@@ -4,18 +4,8 @@ import numpy as np
 import pytest
 from linear_participant import Linear
 
-from cosim.coupling import (
-    AdaptiveStep,
-    Connection,
-    CoupledSystem,
-    Defect,
-    Iterated,
-    Jacobi,
-    Relaxation,
-    Tolerance,
-    Waveform,
-    run,
-)
+from cosim import coupling
+from cosim.coupling import CoupledSystem, Tolerance, run
 
 
 def heater(unit):
@@ -33,15 +23,17 @@ def stove(unit):
 
 def heated(unit):
     source = heater(unit)
-    source.u = [Waveform((1.0,), 0.0)]
-    link = Connection("heater.heat", "stove.heat", taken="taken" if unit == "J" else None)
+    source.u = [coupling.Waveform((1.0,), 0.0)]
+    link = coupling.Connection("heater.heat", "stove.heat", taken="taken" if unit == "J" else None)
     return CoupledSystem([source, stove(unit)], [link])
 
 
 def steps_of(unit, allowed):
     """Sizes (s) of the steps that a control by the defect takes, of so much of it a step."""
-    control = AdaptiveStep(Defect(Tolerance(1e-12, {"heater.heat": allowed})), 1e-3, 1e-6, 10.0)
-    scheme = Jacobi(("heater", "stove"), "linear")
+    control = coupling.AdaptiveStep(
+        coupling.Defect(Tolerance(1e-12, {"heater.heat": allowed})), 1e-3, 1e-6, 10.0
+    )
+    scheme = coupling.Jacobi(("heater", "stove"), "linear")
     return np.diff(run(heated(unit), scheme, stop=2.0, control=control).time)
 
 
@@ -62,7 +54,7 @@ def test_joules_are_held_by_the_estimate_as_they_are_by_the_scheme():
 def test_an_iteration_sets_out_from_what_the_waveform_extrapolates(unit, waveform, more):
     """A length that grows evenly is guessed from the second step on; joules, and what is held, are
     guessed as they were, and each of ten steps is made once more."""
-    scheme = Iterated(("stove", "heater"), waveform, acceleration=Relaxation())
+    scheme = coupling.Iterated(("stove", "heater"), waveform, acceleration=coupling.Relaxation())
     result = run(heated(unit), scheme, stop=1.0, macro_step=0.1)
     assert result.status == "complete", result.reason
     assert result.statistics.iterations == result.steps + more == 10 + more

@@ -7,19 +7,8 @@ import numpy as np
 import pytest
 from linear_participant import Linear
 
-from cosim.coupling import (
-    AdaptiveStep,
-    Affine,
-    Connection,
-    CoupledSystem,
-    CouplingError,
-    EnergyResidual,
-    Jacobi,
-    PowerBond,
-    UnitDefinition,
-    port_table,
-    run,
-)
+from cosim import coupling
+from cosim.coupling import Connection, CoupledSystem, CouplingError, UnitDefinition, run
 
 #: Exponents of kg, m, s, A, K, mol, cd, rad; factor; offset.
 UNITS = {
@@ -41,7 +30,7 @@ def pair(effort, flow, factor=1.0):
 
     def defined(linear):
         ports = [replace(p, definition=UNITS.get(p.unit)) for p in linear.ports.values()]
-        linear.ports = port_table(ports)
+        linear.ports = coupling.port_table(ports)
         return linear
 
     return CoupledSystem(
@@ -59,7 +48,7 @@ def pair(effort, flow, factor=1.0):
     )  # fmt: skip
 
 
-BOND = PowerBond("spring.F", "mass.v")
+BOND = coupling.PowerBond("spring.F", "mass.v")
 
 
 @pytest.mark.parametrize(
@@ -72,18 +61,15 @@ def test_a_product_in_watts_is_a_bond_whatever_its_factors(effort, flow, watts):
     assert BOND.watts(system) == (pytest.approx(watts, rel=1e-15), "")
 
 
-@pytest.mark.parametrize(
-    "effort, flow, said",
-    [
-        ("N", "m", r"spring.F with mass.v: N times m \(kg m\^2 s\^-2\) is no power"),
-        ("m/s", "m/s", r"m/s times m/s \(m\^2 s\^-2\) is no power, allowed are two outputs"),
-        ("W/K", "degC", r"W/K times degC \(kg m\^2 s\^-3\) is no power"),
-    ],
-)
+@pytest.mark.parametrize("effort, flow, said", [
+    ("N", "m", r"spring.F with mass.v: N times m \(kg m\^2 s\^-2\) is no power"),
+    ("m/s", "m/s", r"m/s times m/s \(m\^2 s\^-2\) is no power, allowed are two outputs"),
+    ("W/K", "degC", r"W/K times degC \(kg m\^2 s\^-3\) is no power"),
+])  # fmt: skip
 def test_what_is_no_power_is_refused_by_name_before_the_first_step(effort, flow, said):
-    control = AdaptiveStep(EnergyResidual([BOND]), 0.01, 1e-4, 0.1)
+    control = coupling.AdaptiveStep(coupling.EnergyResidual([BOND]), 0.01, 1e-4, 0.1)
     with pytest.raises(CouplingError, match=said):
-        run(pair(effort, flow), Jacobi(("spring", "mass")), stop=1.0, control=control)
+        run(pair(effort, flow), coupling.Jacobi(("spring", "mass")), stop=1.0, control=control)
 
 
 def test_a_bond_is_between_two_that_feed_each_other():
@@ -91,7 +77,7 @@ def test_a_bond_is_between_two_that_feed_each_other():
     lonely = CoupledSystem(list(system.participants.values()), system.connections[:1])
     with pytest.raises(CouplingError, match="mass.v does not feed spring, allowed are outputs"):
         BOND.watts(lonely)
-    nothing = Connection("mass.v", "spring.v", transformation=Affine(0.0))
+    nothing = Connection("mass.v", "spring.v", transformation=coupling.Affine(0.0))
     cut = CoupledSystem(list(system.participants.values()), [system.connections[0], nothing])
     with pytest.raises(CouplingError, match=r"mass.v -> spring.v has the factor 0"):
         BOND.watts(cut)
@@ -100,8 +86,8 @@ def test_a_bond_is_between_two_that_feed_each_other():
 def test_both_ends_of_a_bond_are_as_the_source_counts():
     """A force that is turned round and halved on its way, a velocity that is given from another."""
     links = [
-        Connection("spring.F", "mass.F", transformation=Affine(-0.5)),
-        Connection("mass.v", "spring.v", transformation=Affine(2.0, 3.0)),
+        Connection("spring.F", "mass.F", transformation=coupling.Affine(-0.5)),
+        Connection("mass.v", "spring.v", transformation=coupling.Affine(2.0, 3.0)),
     ]
     system = CoupledSystem(list(pair("N", "m/s").participants.values()), links)
     outputs = {"spring": {"F": 4.0}, "mass": {"v": 5.0}}
@@ -111,8 +97,9 @@ def test_both_ends_of_a_bond_are_as_the_source_counts():
 
 
 def test_units_that_nobody_defines_are_told():
-    control = AdaptiveStep(EnergyResidual([BOND]), 0.01, 1e-4, 0.1)
-    result = run(pair("lbf", "ft/s"), Jacobi(("spring", "mass")), stop=0.1, control=control)
+    control = coupling.AdaptiveStep(coupling.EnergyResidual([BOND]), 0.01, 1e-4, 0.1)
+    order = coupling.Jacobi(("spring", "mass"))
+    result = run(pair("lbf", "ft/s"), order, stop=0.1, control=control)
     (remark,) = result.remarks
     assert "whether lbf times ft/s is a power is not checked: not defined" in remark
 
@@ -121,8 +108,9 @@ def test_what_is_allowed_is_in_joules_whatever_the_units():
     """A force in N, and the same in kN: the same rig, the same steps."""
     steps = []
     for effort, factor in (("N", 1.0), ("kN", 1000.0)):
-        estimate = EnergyResidual([BOND], relative=1e-12, absolute=1e-3)
-        control = AdaptiveStep(estimate, 0.01, 1e-6, 1.0)
+        estimate = coupling.EnergyResidual([BOND], relative=1e-12, absolute=1e-3)
+        control = coupling.AdaptiveStep(estimate, 0.01, 1e-6, 1.0)
         system = pair(effort, "m/s", factor)
-        steps.append(run(system, Jacobi(("spring", "mass")), stop=1.0, control=control).time)
+        order = coupling.Jacobi(("spring", "mass"))
+        steps.append(run(system, order, stop=1.0, control=control).time)
     np.testing.assert_allclose(steps[0], steps[1], rtol=1e-6)  # rounding of the factors

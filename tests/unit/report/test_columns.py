@@ -12,17 +12,13 @@ from cosim.report.columns import Column, Columns, write_columns, write_columns_a
 from cosim.report.files import write_netcdf, write_table
 
 COLUMNS = Columns(
-    {
-        "a.x": Column(("time",), np.array([1.0, np.nan, 1e-300]), {"units": "m", "si_factor": 1.5}),
-        "=a": Column(("time",), np.array([1, 2, 3]), {"units": "1"}),
-        "size": Column(("step_time",), np.array([0.1, 0.2]), {"units": "s"}),
-    },
-    {
-        "time": Column(("time",), np.array([0.0, 0.1, 1.0 / 3.0]), {"units": "s"}),
-        "step_time": Column(("step_time",), np.array([0.1, 0.3])),
-    },
+    {"a.x": Column(("time",), np.array([1.0, np.nan, 1e-300]), {"units": "m", "si_factor": 1.5}),
+     "=a": Column(("time",), np.array([1, 2, 3]), {"units": "1"}),
+     "size": Column(("step_time",), np.array([0.1, 0.2]), {"units": "s"})},
+    {"time": Column(("time",), np.array([0.0, 0.1, 1.0 / 3.0]), {"units": "s"}),
+     "step_time": Column(("step_time",), np.array([0.1, 0.3]))},
     {"title": "made", "reason": "", "unconverged_steps": 2, "wall_time": 0.25},
-)
+)  # fmt: skip
 
 
 def test_netcdf_is_what_xarray_reads_as_the_same(tmp_path):

@@ -12,13 +12,9 @@ from cosim.cli.arguments import COMMANDS
 
 SHORT = """
 name = "short"
-[surface]
-speed = 0.08
-run_up_time = 0.5
-[run]
-duration = 3.0
-[belt]
-cell_length = 5e-3
+surface = { speed = 0.08, run_up_time = 0.5 }
+run.duration = 3.0
+belt.cell_length = 5e-3
 """
 #: Command -> how it is asked for a page, what comes before, where the page is.
 PAGES = {
@@ -27,26 +23,18 @@ PAGES = {
     "run": (["run", "short.toml"], None, "report.html"),
     "stability": (["stability", "reference", "--grid", "3"], None, "report.html"),
     "reproduce": (["reproduce", "C3"], None, "report.html"),
-    "couple": (
-        ["couple", "units/StickSlipThermal.ssp", "--set", "run.stop=2"],
-        ["build", "StickSlipThermal.ssp", "--platforms", "x86_64-linux", "-o", "units"],
-        "report.html",
-    ),
-    "friction-map": (
-        ["friction-map", "--speed", "0.02", "0.05", "0.1", "0.2", "--duration", "0.1"],
-        None,
-        "report.html",
-    ),
-    "belt-length": (
-        ["belt-length", "short.toml", "--samples", "64", "--map", "4"],
-        None,
-        "report.html",
-    ),
+    "couple": (["couple", "units/StickSlipThermal.ssp", "--set", "run.stop=2"],
+               ["build", "StickSlipThermal.ssp", "--platforms", "x86_64-linux", "-o", "units"],
+               "report.html"),
+    "friction-map": (["friction-map", "--speed", "0.02", "0.05", "0.1", "0.2", "--duration", "0.1"],
+        None, "report.html"),
+    "belt-length": (["belt-length", "short.toml", "--samples", "64", "--map", "4"], None,
+        "report.html"),
     "sweep": (["sweep", "short.toml", "--vary", "rig.mass=0.6,0.7,0.8"], None, "report.html"),
     "compare": (["compare", "short.toml", "study"], None, "report.html"),
     "plan": (["plan", "planned"], ["plan", "--write-example", "planned"], "report.html"),
     "gap": (["gap", "measured"], ["gap", "--write-example", "measured"], "report.html"),
-}
+}  # fmt: skip
 QUICK = ("effects",)
 #: A sheet between its margins, CSS pixels: how wide, and how high a picture may be.
 SHEET, HIGHEST = 703, 760

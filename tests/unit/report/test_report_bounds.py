@@ -6,11 +6,7 @@ from stickslip import Parameters, Rig, Springs
 from test_report_dataset import coupled_dataset, mechanics_dataset
 
 from cosim.report import summary, write_results
-from cosim.report.bounds import (
-    allowed_aside,
-    contact_share,
-    spring_lengths,
-)
+from cosim.report.bounds import allowed_aside, contact_share, spring_lengths
 from cosim.report.run_text import bounds_sentences
 
 # of the scenario that the datasets are of

@@ -24,11 +24,8 @@ def series(time, **columns):
 def defined(base, factor, offset=0.0):
     """What a unit's FMU says its unit is made of."""
     return {
-        "causality": "output",
-        "base_units": base,
-        "si_factor": factor,
-        "si_offset": offset,
-    }
+        "causality": "output", "base_units": base, "si_factor": factor, "si_offset": offset,
+    }  # fmt: skip
 
 
 def result(label, dataset, case="system", scenario="", **numbers):
@@ -39,11 +36,8 @@ def result(label, dataset, case="system", scenario="", **numbers):
 TIME = np.linspace(0.0, 2.0, 201)
 PLACE = 0.01 * np.sin(3.0 * TIME)
 RUN = series(
-    TIME,
-    x=(PLACE, "m"),
-    interface_temperature=(-8.0 + 0.01 * TIME, "degC"),
-    heat=(TIME, "J"),
-)
+    TIME, x=(PLACE, "m"), interface_temperature=(-8.0 + 0.01 * TIME, "degC"), heat=(TIME, "J"),
+)  # fmt: skip
 SYSTEM = series(
     TIME[::2],
     block__x=(1e3 * PLACE[::2], "mm", defined(METRE, 1e-3)),

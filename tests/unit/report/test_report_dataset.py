@@ -26,16 +26,12 @@ from thermal import BeltIceModel
 @cache
 def scenario(surface: str = "belt") -> Scenario:
     """Five seconds with a short speed ramp: a dozen stick-slip cycles on a coarse belt."""
-    return Scenario.from_tables(
-        {
-            "name": "short",
-            "rig": {"surface": surface},
-            "lateral_friction": {"ratio": 1.0},
-            "surface": {"speed": 0.08, "run_up_time": 1.0},
-            "run": {"duration": 6.0},
-            "belt": {"cell_length": 5e-3},
-        }
-    )
+    tables = dict(
+        name="short", rig={"surface": surface}, lateral_friction={"ratio": 1.0},
+        surface={"speed": 0.08, "run_up_time": 1.0}, run={"duration": 6.0},
+        belt={"cell_length": 5e-3},
+    )  # fmt: skip
+    return Scenario.from_tables(tables)
 
 
 @cache
@@ -69,27 +65,14 @@ def coupled(surface: str = "belt") -> tuple[CoupledResult, SimpleNamespace]:
         (EnergyFlow(connection, run["heat"], thermal["heat_received"][1]),),
         {"thermal.heat_residual": thermal["heat_residual"][1]},
     )
-    result = CoupledResult(
-        run.time,
-        {n: v for n, (_, v) in ports.items()},
-        {n: u for n, (u, _) in ports.items()},
-        ledger,
-        "complete",
-        "",
-        None,
-        1.5,
-        2,
-        run.time.size - 1,
-        statistics(run.time.size - 1),
+    units, values = ({n: port[i] for n, port in ports.items()} for i in (0, 1))
+    steps = run.time.size - 1
+    ended = ("complete", "", None, 1.5, 2, steps, statistics(steps))
+    pictured = dict(
+        zip(("time", "temperature", "contact"), zip(*pictures, strict=True), strict=True)
     )
-    times, profiles, contacts = zip(*pictures, strict=True)
-    return result, SimpleNamespace(
-        time=times,
-        position=model.belt_profile()[0],
-        temperature=profiles,
-        contact=contacts,
-        contact_length=model.footprint.length,
-    )
+    pictured |= {"position": model.belt_profile()[0], "contact_length": model.footprint.length}
+    return CoupledResult(run.time, values, units, ledger, *ended), SimpleNamespace(**pictured)
 
 
 def statistics(steps: int) -> Statistics:
@@ -164,14 +147,11 @@ def test_netcdf_round_trip_is_exact(make, tmp_path):
         xr.testing.assert_identical(back.load(), dataset)
 
 
-@pytest.mark.parametrize(
-    ("reason", "status"),
-    [
-        ("", "complete"),
-        ("stopped: KeyboardInterrupt", "interrupted"),
-        ("the integrator gave up at t = 1 s", "failed"),
-    ],
-)
+@pytest.mark.parametrize(("reason", "status"), [
+    ("", "complete"),
+    ("stopped: KeyboardInterrupt", "interrupted"),
+    ("the integrator gave up at t = 1 s", "failed"),
+])  # fmt: skip
 def test_status_of_a_trajectory(reason, status):
     dataset = trajectory_columns(replace(trajectory(), reason=reason), scenario(), "").to_xarray()
     assert dataset.attrs["status"] == status

@@ -19,11 +19,9 @@ THERMAL = {"temperatures", "melting", "belt_temperature"}
 
 
 def cut_short(make):
-    dataset = make()
-    chosen = {"time": slice(0, 1)}
-    if "snapshot_time" in dataset.dims:
-        chosen["snapshot_time"] = slice(0, 1)
-    dataset = dataset.isel(chosen)
+    dataset = make().isel(
+        {"time": slice(0, 1), "snapshot_time": slice(0, 1)}, missing_dims="ignore"
+    )
     dataset.attrs.update(status="failed", reason="the integrator gave up")
     return dataset
 
@@ -95,12 +93,9 @@ def test_axes_are_labelled_with_units_and_drawn_in_full(make, plate):
 def row_label(figure, axes) -> str:
     """The label of the panel at the left of the same row, where panels have their own scales."""
     spec = axes.get_subplotspec()
-    same_row = [
-        other
-        for other in figure.axes
-        if other.get_subplotspec() and other.get_subplotspec().rowspan == spec.rowspan
-    ]
-    return same_row[0].get_ylabel()
+    places = ((other, other.get_subplotspec()) for other in figure.axes)
+    same_row = (other for other, its in places if its and its.rowspan == spec.rowspan)
+    return next(same_row).get_ylabel()
 
 
 def test_thermal_figures_only_where_there_is_heat_to_show():
@@ -131,11 +126,8 @@ def test_zoom_finds_cycles_that_ended_long_ago_and_vibrations_without_any():
     dataset = mechanics_dataset()
     rest = dataset.isel(time=[-1] * 1000).assign_coords(time=6.0 + 0.1 * np.arange(1, 1001))
     rest["time"].attrs = dataset["time"].attrs
-    longer = xr.concat(
-        [dataset.drop_dims("event_time"), rest.drop_dims("event_time")],
-        "time",
-        combine_attrs="override",
-    )
+    parts = [each.drop_dims("event_time") for each in (dataset, rest)]
+    longer = xr.concat(parts, "time", combine_attrs="override")
     zoom = zoom_of(longer)
     assert zoom.end < 10.0 and "stick-slip" in zoom.title
     still = longer.assign(slip_count=0 * longer["slip_count"])
@@ -143,18 +135,15 @@ def test_zoom_finds_cycles_that_ended_long_ago_and_vibrations_without_any():
     assert zoom_of(still.isel(time=slice(0, 1))) is None
 
 
-@pytest.mark.parametrize(
-    ("largest", "unit", "expected"),
-    [
-        (0.034, "m", (1e3, "mm")),
-        (3.75, "m", (1.0, "m")),
-        (0.055, "K", (1e3, "mK")),
-        (4e-5, "K", (1e6, "µK")),
-        (1500.0, "W", (1e-3, "kW")),
-        (0.0, "J", (1.0, "J")),
-        (0.2, "1", (1.0, "1")),
-    ],
-)
+@pytest.mark.parametrize(("largest", "unit", "expected"), [
+    (0.034, "m", (1e3, "mm")),
+    (3.75, "m", (1.0, "m")),
+    (0.055, "K", (1e3, "mK")),
+    (4e-5, "K", (1e6, "µK")),
+    (1500.0, "W", (1e-3, "kW")),
+    (0.0, "J", (1.0, "J")),
+    (0.2, "1", (1.0, "1")),
+])  # fmt: skip
 def test_prefix_makes_one_to_a_thousand(largest, unit, expected):
     scaled = readable(np.array([0.0, -largest, np.nan]), unit)
     assert (pytest.approx(scaled.factor), scaled.unit) == expected

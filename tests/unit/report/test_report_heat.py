@@ -31,14 +31,11 @@ def test_without_railing_and_rollers_the_shares_are_those_of_the_contacts_heat()
     )
 
 
-@pytest.mark.parametrize(
-    "others",
-    [
-        {"railing_heat": 1.0, "belt_heat": 2.0},
-        {"support_heat": -1.0, "belt_heat": 2.0},
-        {"railing_heat": 1.0, "support_heat": 0.5, "belt_heat": 1.5},
-    ],
-)
+@pytest.mark.parametrize("others", [
+    {"railing_heat": 1.0, "belt_heat": 2.0},
+    {"support_heat": -1.0, "belt_heat": 2.0},
+    {"railing_heat": 1.0, "support_heat": 0.5, "belt_heat": 1.5},
+])  # fmt: skip
 def test_shares_are_of_all_heat_and_add_up(others):
     found = dataset(**others)
     assert sum(heat_shares(found).values()) == pytest.approx(1.0)

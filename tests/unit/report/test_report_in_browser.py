@@ -31,22 +31,15 @@ def opened(browser, page):
 
 def bounds(browser):
     """From and to of every plot over time, s."""
-    return np.array(
-        browser.js(
-            "return [...document.querySelectorAll('figure .plot[data-from]')].map("
-            "(each) => [Number(each.dataset.from), Number(each.dataset.to)])"
-        )
-    )
+    plots = "[...document.querySelectorAll('figure .plot[data-from]')]"
+    ends = "(each) => [Number(each.dataset.from), Number(each.dataset.to)]"
+    return np.array(browser.js(f"return {plots}.map({ends})"))
 
 
 def press(browser, element, key):
     """A key, as a browser tells its page of it."""
-    browser.js(
-        "arguments[0].focus(); arguments[0].dispatchEvent(new KeyboardEvent('keydown', "
-        "{key: arguments[1], bubbles: true, cancelable: true}))",
-        element,
-        key,
-    )
+    event = "new KeyboardEvent('keydown', {key: arguments[1], bubbles: true, cancelable: true})"
+    browser.js(f"arguments[0].focus(); arguments[0].dispatchEvent({event})", element, key)
 
 
 def figure(name):

@@ -21,34 +21,20 @@ THICKNESS, RATE = 1.5e-6, 4e-4
 
 def melted(thickness=THICKNESS, **changes) -> xr.Dataset:
     """Sliding at one speed; after the onset half the friction, a film, a constant melt rate."""
-    case = Scenario().changed(
-        {
-            "rig.mass": MASS,
-            "mixed_lubrication.share": SHARE,
-            "mixed_lubrication.roughness": ROUGHNESS,
-        }
-        | changes
-    )
+    water = {"mixed_lubrication.share": SHARE, "mixed_lubrication.roughness": ROUGHNESS}
+    case = Scenario().changed({"rig.mass": MASS} | water | changes)
     time = np.linspace(0.0, END, 601)
     wet, grown = time > ONSET, np.maximum(0.0, time - ONSET)
     columns = {
-        "mode": np.ones(time.size),
-        "sliding_speed": np.full(time.size, SPEED),
-        "friction_force_x": np.zeros(time.size),
-        "heat": 100.0 * time,
-        "friction_force_y": -LOAD * np.where(wet, WET, DRY),
-        "melted_mass": RATE * grown,
-        "refrozen_mass": 0.25 * RATE * grown,
-        "melt_rate": RATE * wet,
-        "wiped_ice_mass": 0.1 * RATE * grown,
-        "film_thickness": thickness * wet,
+        "mode": np.ones(time.size), "sliding_speed": np.full(time.size, SPEED),
+        "friction_force_x": np.zeros(time.size), "heat": 100.0 * time,
+        "friction_force_y": -LOAD * np.where(wet, WET, DRY), "melted_mass": RATE * grown,
+        "refrozen_mass": 0.25 * RATE * grown, "melt_rate": RATE * wet,
+        "wiped_ice_mass": 0.1 * RATE * grown, "film_thickness": thickness * wet,
         "meltwater_heat": 60.0 * grown,
-    }
-    return xr.Dataset(
-        {name: ("time", values) for name, values in columns.items()},
-        {"time": time},
-        {"parameters": json.dumps(tables_of(case))},
-    )
+    }  # fmt: skip
+    series = {name: ("time", values) for name, values in columns.items()}
+    return xr.Dataset(series, {"time": time}, {"parameters": json.dumps(tables_of(case))})
 
 
 def test_what_melted_and_when():
@@ -122,9 +108,7 @@ def test_the_breadth_of_a_mesh_is_not_known():
 def test_numbers_and_figure_only_where_something_melted():
     dry = coupled_dataset()
     assert not melts(dry) and "melting" not in summary(dry)
-    assert {plate.name for plate in PLATES} - {plate.name for plate in plates_of(dry)} == {
-        "melting"
-    }
+    assert {each.name for each in set(PLATES) - set(plates_of(dry))} == {"melting"}
     wet = dry.assign(melted_mass=1e-3 * dry["time"], film_thickness=1e-7 * dry["time"])
     assert summary(wet)["units"]["melting.film_thickness"] == "m"
     assert plates_of(wet) == list(PLATES)

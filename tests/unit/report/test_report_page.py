@@ -10,12 +10,11 @@ from test_report_dataset import coupled_dataset, mechanics_dataset
 from test_report_figures import cut_short, with_gaps
 
 from cosim.report import page as page_module
-from cosim.report import write_results
+from cosim.report import summary, write_results
 from cosim.report.figures import plates_of
 from cosim.report.page import number
 from cosim.report.quantities import told
 from cosim.report.results import run_page
-from cosim.report.run_summary import summary
 from cosim.report.run_text import headline, tiles
 
 
@@ -54,12 +53,9 @@ def written(tmp_path_factory):
     folder = tmp_path_factory.mktemp("run")
     seen = []
     paths = write_results(
-        coupled_dataset(),
-        folder,
-        command="stickslip run <case>.toml",
-        files={"fields/temperature.pvd": "temperature fields"},
-        progress=seen.append,
-    )
+        coupled_dataset(), folder, command="stickslip run <case>.toml",
+        files={"fields/temperature.pvd": "temperature fields"}, progress=seen.append,
+    )  # fmt: skip
     return folder, paths, seen
 
 
@@ -129,29 +125,26 @@ def test_a_run_without_a_row_still_has_its_page(tmp_path):
     assert "the integrator gave up" in page
 
 
-@pytest.mark.parametrize(
-    ("value", "unit", "text"),
-    [
-        (None, "m", "–"),
-        (0.034, "m", "34 mm"),
-        (3.75, "m", "3.75 m"),
-        (0.0494134, "K", "49 mK"),
-        (1.2345, "K", "1.2 K"),
-        (62.3471, "J", "62.3 J"),
-        (62347.1, "J", "62300 J"),
-        (-4.57e-12, "J", "−4.57 · 10⁻¹² J"),
-        (14, "1", "14"),
-        (-40.384, "deg", "−40.38°"),
-        (-8.0, "degC", "−8 °C"),
-        (1e-9, "deg", "0.00°"),
-        (-1.95e-21, "m", "0 m"),
-        (5.74e-11, "m", "0 m"),
-        (5e-10, "m", "5.00 · 10⁻¹⁰ m"),
-        (-3e-17, "N", "0 N"),
-        (-0.0, "m", "0 m"),
-        (2e-20, "1", "2.00 · 10⁻²⁰"),
-    ],
-)
+@pytest.mark.parametrize(("value", "unit", "text"), [
+    (None, "m", "–"),
+    (0.034, "m", "34 mm"),
+    (3.75, "m", "3.75 m"),
+    (0.0494134, "K", "49 mK"),
+    (1.2345, "K", "1.2 K"),
+    (62.3471, "J", "62.3 J"),
+    (62347.1, "J", "62300 J"),
+    (-4.57e-12, "J", "−4.57 · 10⁻¹² J"),
+    (14, "1", "14"),
+    (-40.384, "deg", "−40.38°"),
+    (-8.0, "degC", "−8 °C"),
+    (1e-9, "deg", "0.00°"),
+    (-1.95e-21, "m", "0 m"),
+    (5.74e-11, "m", "0 m"),
+    (5e-10, "m", "5.00 · 10⁻¹⁰ m"),
+    (-3e-17, "N", "0 N"),
+    (-0.0, "m", "0 m"),
+    (2e-20, "1", "2.00 · 10⁻²⁰"),
+])  # fmt: skip
 def test_numbers_as_they_are_read(value, unit, text):
     assert told(value, unit) == text
 

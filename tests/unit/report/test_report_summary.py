@@ -66,9 +66,8 @@ def test_without_events_the_modes_tell_to_one_interval():
     exact, seen = slip_intervals(dataset), slip_intervals(sampled)
     interval = END / 600
     np.testing.assert_allclose(seen, exact, atol=0.5 * interval + 1e-12)
-    np.testing.assert_allclose(
-        break_aways(sampled), break_aways(dataset), atol=0.5 * interval + 1e-12
-    )
+    apart = np.subtract(break_aways(sampled), break_aways(dataset))
+    assert np.abs(apart).max() < 0.5 * interval + 1e-12
 
 
 def test_a_run_that_ends_in_the_ramp_has_no_stick_slip_numbers():
@@ -88,27 +87,16 @@ def test_real_run_agrees_with_the_trajectory():
 def test_how_it_was_coupled_is_told_with_units():
     dataset = coupled_dataset()
     found, steps = summary(dataset), dataset.sizes["time"] - 1
-    assert found["coupling"] == {
-        "scheme": "gauss_seidel",
-        "step_control": "fixed",
-        "macro_step": 0.01,
-        "steps": steps,
-        "rejected": 1,
-        "iterations": 2 * steps + 3,
-        "most_iterations": 3,
-        "events": 0,
-        "unconverged": 1,
-        "first_unconverged": 0.5,
-        "converged": False,
-        "above_tolerance": 0,
-        "first_above_tolerance": None,
-        "initial_sweeps": 2,
-        "participants": {
-            "mechanics": {"steps": steps, "seconds": 0.25 * steps},
-            "thermal": {"steps": steps, "seconds": 0.5 * steps},
-        },
+    expected = {
+        "scheme": "gauss_seidel", "step_control": "fixed", "macro_step": 0.01, "steps": steps,
+        "rejected": 1, "iterations": 2 * steps + 3, "most_iterations": 3, "events": 0,
+        "unconverged": 1, "first_unconverged": 0.5, "converged": False, "above_tolerance": 0,
+        "first_above_tolerance": None, "initial_sweeps": 2,
+        "participants": {"mechanics": {"steps": steps, "seconds": 0.25 * steps},
+            "thermal": {"steps": steps, "seconds": 0.5 * steps}},
         "remarks": [],
-    }
+    }  # fmt: skip
+    assert found["coupling"] == expected
     assert found["units"]["coupling.macro_step"] == "s"
     assert found["units"]["coupling.participants.thermal.seconds"] == "s"
     assert "coupling" not in summary(mechanics_dataset())
@@ -118,12 +106,11 @@ def test_heat_and_coupling_ledgers_close():
     found = summary(coupled_dataset())
     heat, coupling = found["ledger"]["heat"], found["ledger"]["coupling"]
     assert heat["relative_residual"] < 1e-10
-    assert heat["received"] == pytest.approx(
-        heat["belt"] + heat["ice"] + heat["air"] + heat["melting"], rel=1e-10
-    )
+    parts = ("belt", "ice", "air", "melting")
+    assert heat["received"] == pytest.approx(sum(heat[name] for name in parts), rel=1e-10)
     assert coupling["handed_over"] == pytest.approx(coupling["taken_up"], rel=1e-12)
     shares = found["heat_shares"]
-    assert sum(shares[name] for name in ("belt", "ice", "air", "melting")) == pytest.approx(1.0)
+    assert sum(shares[name] for name in parts) == pytest.approx(1.0)
     rise = found["temperatures"]["interface"]
     assert 0.0 < rise["end_rise"] <= rise["max_rise"] < 1.0
     assert rise["end_degC"] == pytest.approx(-8.0 + rise["end_rise"])

@@ -5,21 +5,11 @@ import json
 import pytest
 import xarray as xr
 
-from cosim import (
-    compare,
-    friction_map,
-    how_long,
-    read_result,
-    read_scenario,
-    reproduce,
-    run_scenario,
-    simulate_scenario,
-    stability,
-    sweep,
-)
+import cosim
+from cosim import read_scenario, simulate_scenario, stability, sweep
 
 
-@pytest.fixture(scope="module", params=[run_scenario, simulate_scenario])
+@pytest.fixture(scope="module", params=[cosim.run_scenario, simulate_scenario])
 def run(request):
     return request.param(read_scenario("reference").changed(run_duration=1.0))
 
@@ -81,11 +71,11 @@ def test_a_scenario_is_looked_at_in_twenty_lines():
 def test_every_study_takes_a_scenario_by_its_name(scenario):
     assert simulate_scenario(scenario).scenario.name == "study"
     assert stability(scenario).case.name == "study"
-    assert how_long(scenario, samples=0).scenario.startswith('name = "study"')
+    assert cosim.how_long(scenario, samples=0).scenario.startswith('name = "study"')
     swept = sweep(scenario, {"surface.speed": [0.1]}, duration=1.0, jobs=1)
     assert swept.attrs["scenario"].startswith('name = "study"')
     assert len(repr(swept).splitlines()) <= 20
-    (point,) = friction_map(scenario, [0.1], [-8.0], duration=0.5).points
+    (point,) = cosim.friction_map(scenario, [0.1], [-8.0], duration=0.5).points
     assert point.speed == pytest.approx(0.1)
 
 
@@ -107,7 +97,9 @@ def swept(folder):
 def compared(folder):
     short = read_scenario("study").changed(run_duration=1.0)
     runs = [simulate_scenario(short.changed(rig_mass=mass)) for mass in (0.6, 0.7)]
-    return compare(*(read_result(run.save(folder / f"{i}")) for i, run in enumerate(runs)))
+    return cosim.compare(
+        *(cosim.read_result(run.save(folder / f"{i}")) for i, run in enumerate(runs))
+    )
 
 
 def assessed(folder):
@@ -115,18 +107,15 @@ def assessed(folder):
 
 
 def reproduced(folder):
-    return reproduce(["C1"])
+    return cosim.reproduce(["C1"])
 
 
-@pytest.mark.parametrize(
-    "made, numbers",
-    [
-        (swept, "sweep.nc"),
-        (compared, "compare.json"),
-        (assessed, "stability.json"),
-        (reproduced, "reproduction.json"),
-    ],
-)
+@pytest.mark.parametrize("made, numbers", [
+    (swept, "sweep.nc"),
+    (compared, "compare.json"),
+    (assessed, "stability.json"),
+    (reproduced, "reproduction.json"),
+])  # fmt: skip
 def test_a_study_has_the_files_and_the_page_of_its_command(made, numbers, tmp_path):
     found = made(tmp_path)
     folder = found.save(tmp_path / "saved")

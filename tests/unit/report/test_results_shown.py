@@ -8,9 +8,8 @@ import xarray as xr
 from lag_unit import RAMP, lag_unit
 from stickslip import Parameters
 
-from cosim import read_scenario, run_scenario, simulate_scenario
+from cosim import read_scenario, read_system, run_scenario, run_system, simulate_scenario
 from cosim.report.dataset import MECHANICAL
-from cosim.systems import read_system, run_system
 
 SHORT = {"run.duration": 1.0, "belt.length": 0.5}
 
@@ -43,13 +42,6 @@ def test_a_trajectory_as_a_dataset_has_all_of_it(simulated):
     np.testing.assert_array_equal(data["event_mode"], run.events[:, 1])
     assert data.sizes["time"] == run.time.size
     assert Parameters.model_validate_json(data.attrs["parameters"]) == run.parameters
-
-
-def test_a_figure_that_there_is_not_is_refused_with_those_that_there_are(simulated):
-    with pytest.raises(ValueError, match="nearest: 'motion'"):
-        simulated.plot("motions")
-    with pytest.raises(ValueError, match="no figure of this run is named 'belt_temperature'"):
-        simulated.plot("belt_temperature")
 
 
 def test_an_answer_as_a_dataset_has_runs_models_and_numbers(gap, tmp_path):

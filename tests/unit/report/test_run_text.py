@@ -5,35 +5,24 @@ import pytest
 from cosim.report.run_text import border_sentence, macros, stability_sentence
 
 FOUND = {
-    "verdict": "unstable",
-    "motion": "along the line",
-    "growth": 1.5,
-    "other_growths": [1.5],
-    "cycle": 0.6,
-    "time_to_grow": 3.4,
-    "watched": 20.0,
-    "amplification": 1.0,
-    "pretension": 0.006,
-    "unstable_pretensions": [(0.005, 0.009)],
-    "pretension_resolution": 1e-5,
-}
+    "verdict": "unstable", "motion": "along the line", "growth": 1.5, "other_growths": [1.5],
+    "cycle": 0.6, "time_to_grow": 3.4, "watched": 20.0, "amplification": 1.0, "pretension": 0.006,
+    "unstable_pretensions": [(0.005, 0.009)], "pretension_resolution": 1e-5,
+}  # fmt: skip
 
 
 def numbers(**changed):
     return {"stability": FOUND | changed, "same_regime": {}, "nearest_borders": []}
 
 
-@pytest.mark.parametrize(
-    ("windows", "told"),
-    [
-        # stable at no pretension at all, and not at 6 mm: what is asked for lies above
-        ([(0.005, 0.009)], "; stable from 9 mm of pretension (now 6)"),
-        ([(0.0, 0.00832)], "; stable from 8.32 mm of pretension (now 6)"),
-        ([(0.0, 0.001), (0.005, None)], "; stable below 5 mm of pretension (now 6)"),
-        ([(0.0, None)], ""),
-        (None, ""),
-    ],
-)
+@pytest.mark.parametrize(("windows", "told"), [
+    # stable at no pretension at all, and not at 6 mm: what is asked for lies above
+    ([(0.005, 0.009)], "; stable from 9 mm of pretension (now 6)"),
+    ([(0.0, 0.00832)], "; stable from 8.32 mm of pretension (now 6)"),
+    ([(0.0, 0.001), (0.005, None)], "; stable below 5 mm of pretension (now 6)"),
+    ([(0.0, None)], ""),
+    (None, ""),
+])  # fmt: skip
 def test_the_pretension_that_helps_is_the_nearest(windows, told):
     line = macros().unstable(numbers(unstable_pretensions=windows))
     assert (

@@ -11,8 +11,7 @@ from refusals import one_line
 from stickslip import Parameters
 from stickslip.contradictions import COMPUTABLE
 
-from cosim.scenario import Scenario, packaged_scenarios, read_scenario
-from cosim.scenario.validation import ScenarioError
+from cosim.scenario import Scenario, ScenarioError, packaged_scenarios, read_scenario
 from thermal import ThermalParameters
 
 
@@ -63,14 +62,8 @@ def test_a_packaged_scenario_goes_to_toml_and_back(name, tmp_path):
     angles=st.tuples(*[st.floats(-360, 360)] * 4),
 )
 def test_any_scenario_comes_back_bit_for_bit(tmp_path_factory, mass, speed, inertia, angles):
-    case = Scenario().changed(
-        {
-            "rig.mass": mass,
-            "rig.inertia": inertia,
-            "rig.attachment_angles_deg": angles,
-            "surface.speed": speed,
-        }
-    )
+    rig = {"rig.mass": mass, "rig.inertia": inertia, "rig.attachment_angles_deg": angles}
+    case = Scenario().changed(rig | {"surface.speed": speed})
     path = tmp_path_factory.mktemp("case") / "case.toml"
     path.write_text(case.to_toml(), encoding="utf-8")
     assert read_scenario(path) == case
@@ -121,66 +114,50 @@ def test_layers_reach_the_thermal_model_and_come_back(tmp_path, rig):
 NUMBER = "allowed is a number greater than 0 kg"
 
 
-@pytest.mark.parametrize(
-    "text, line",
-    [
-        ("[rig]\nmass = 0", f"rig.mass: out of range (0), {NUMBER}"),
-        ("[rig]\nmass = nan", f"rig.mass: not a finite number (nan), {NUMBER}"),
-        ("[rig]\nmass = '1'", f'rig.mass: not a number ("1"), {NUMBER}'),
-        ("[rig]\nmass = '870 N'", f'kg, such as g or mg ("870 N"), {NUMBER}'),
-        ("[rig]\nmass = true", f"rig.mass: not a number (true), {NUMBER}"),
-        ("[belt]\nelements = 6.0", "belt.elements: not a whole number (6.0), allowed is a whole"),
-        ("[rig]\nmass = 1e308", f"rig.mass: 1e+308: {COMPUTABLE}"),
-        ("[rig]\nmass = 5e-324", f"rig.mass: 4.94066e-324: {COMPUTABLE}"),
-        (
-            "[friction]\ntable_temperature_degC = [-1e308, 0]",
-            "friction.table_temperature_degC: out of range (-1e+308), allowed is a list of a number"
-            " at least -273.15 and at most 1000 degC",
-        ),
-        ("[rig]\nmas = 1", "rig.mas: no such key, nearest known: rig.mass"),
-        ("mass = 1", "mass: no such key, nearest known: rig.mass"),
-        ("[friction]\nmass = 1", "friction.mass: no such key, nearest known: rig.mass"),
-        ("[rgi]\nmass = 1", "rgi: no such key, nearest known: rig"),
-        ("rig = 3", "rig: not a table (3), allowed is a table [rig] with mass, inertia"),
-        ("[[rig]]\nmass = 1", "rig: not a table ([a table with mass]), allowed is a table [rig]"),
-        ("[rig]\ninertia = 'disk'", 'rig.inertia: not possible ("disk"), allowed is "disc" or'),
-        ("[rig]\nattachment_angles_deg = [1, 2, 3]", "too few entries ([1, 2, 3]), allowed is"),
-        ("[rig]\ndegrees_of_freedom = ['z']", 'not known ("z"), allowed is a list of "x" or'),
-        ("[rig]\ndegrees_of_freedom = []", 'rig.degrees_of_freedom: must contain "x"'),
-        ("[rig]\nspring_natural_length = 0.5", "rig.spring_natural_length: 0.5 m is more than"),
-        (
-            "[rig]\nsurface = 'slab'\n[turning_surface]\ncurvature = 1.0",
-            'rig.surface: "slab" already sets turning_surface.curvature',
-        ),
-        ("[rig]\ncontact_radius = 0.6", "must exceed 2 rig.contact_radius = 1.2 m"),
-        ("[friction]\nmu_s = -1\nmu_k = -1\n[x]", "(-1), allowed is a number at least 0 (and 2 mo"),
-        (
-            LAYER + LAYER.replace("conductivity", "conductivty"),
-            "belt.layers[2].conductivity: missing, needed is a number greater than 0",
-        ),
-        (
-            LAYER.replace("3e-4", "0.0"),
-            "belt.layers[1].thickness: out of range (0.0), allowed is a number greater than 0",
-        ),
-        (
-            "[belt]\nthickness = 2e-3\n" + LAYER,
-            "belt.thickness: 0.002 and belt.layers are both given",
-        ),
-        ("[ice]\nmesh = 3", "ice.mesh: not a text (3), allowed is a text"),
-        (
-            '[ice]\nmesh = "a.msh"\n[contact]\nlength = 0.05',
-            "contact.length: 0.05 m and ice.mesh are both given",
-        ),
-        ("[run]\nduration = 1e300", "run.output_interval: 0.01 s cuts run.duration = 1e+300 s"),
-        ("[coupling]\nmacro_step = 0", "coupling.macro_step: out of range (0), allowed is a num"),
-        ("name = '../up'", 'name: not fit for the name of a folder ("../up"), allowed is'),
-        ("[rig\nmass = 1", "not TOML: expected ']' at the end of a table declaration (at line 1,"),
-        ("a = " + "[" * 5000, "not TOML"),
-        ("a = " + "1" * 5000, "not TOML"),
-        ("[rig]\nmass = 1" + "0" * 400, "not a number (an integer of over 300 digits)"),
-        (b"\xff\xfe", "byte 1 is not UTF-8, allowed is a TOML file in UTF-8"),
-    ],
-)
+@pytest.mark.parametrize("text, line", [
+    ("[rig]\nmass = 0", f"rig.mass: out of range (0), {NUMBER}"),
+    ("[rig]\nmass = nan", f"rig.mass: not a finite number (nan), {NUMBER}"),
+    ("[rig]\nmass = '1'", f'rig.mass: not a number ("1"), {NUMBER}'),
+    ("[rig]\nmass = '870 N'", f'kg, such as g or mg ("870 N"), {NUMBER}'),
+    ("[rig]\nmass = true", f"rig.mass: not a number (true), {NUMBER}"),
+    ("[belt]\nelements = 6.0", "belt.elements: not a whole number (6.0), allowed is a whole"),
+    ("[rig]\nmass = 1e308", f"rig.mass: 1e+308: {COMPUTABLE}"),
+    ("[rig]\nmass = 5e-324", f"rig.mass: 4.94066e-324: {COMPUTABLE}"),
+    ("[friction]\ntable_temperature_degC = [-1e308, 0]",
+     "friction.table_temperature_degC: out of range (-1e+308), allowed is a list of a number"
+     " at least -273.15 and at most 1000 degC"),
+    ("[rig]\nmas = 1", "rig.mas: no such key, nearest known: rig.mass"),
+    ("mass = 1", "mass: no such key, nearest known: rig.mass"),
+    ("[friction]\nmass = 1", "friction.mass: no such key, nearest known: rig.mass"),
+    ("[rgi]\nmass = 1", "rgi: no such key, nearest known: rig"),
+    ("rig = 3", "rig: not a table (3), allowed is a table [rig] with mass, inertia"),
+    ("[[rig]]\nmass = 1", "rig: not a table ([a table with mass]), allowed is a table [rig]"),
+    ("[rig]\ninertia = 'disk'", 'rig.inertia: not possible ("disk"), allowed is "disc" or'),
+    ("[rig]\nattachment_angles_deg = [1, 2, 3]", "too few entries ([1, 2, 3]), allowed is"),
+    ("[rig]\ndegrees_of_freedom = ['z']", 'not known ("z"), allowed is a list of "x" or'),
+    ("[rig]\ndegrees_of_freedom = []", 'rig.degrees_of_freedom: must contain "x"'),
+    ("[rig]\nspring_natural_length = 0.5", "rig.spring_natural_length: 0.5 m is more than"),
+    ("[rig]\nsurface = 'slab'\n[turning_surface]\ncurvature = 1.0",
+     'rig.surface: "slab" already sets turning_surface.curvature'),
+    ("[rig]\ncontact_radius = 0.6", "must exceed 2 rig.contact_radius = 1.2 m"),
+    ("[friction]\nmu_s = -1\nmu_k = -1\n[x]", "(-1), allowed is a number at least 0 (and 2 mo"),
+    (LAYER + LAYER.replace("conductivity", "conductivty"),
+     "belt.layers[2].conductivity: missing, needed is a number greater than 0"),
+    (LAYER.replace("3e-4", "0.0"),
+     "belt.layers[1].thickness: out of range (0.0), allowed is a number greater than 0"),
+    ("[belt]\nthickness = 2e-3\n" + LAYER, "belt.thickness: 0.002 and belt.layers are both given"),
+    ("[ice]\nmesh = 3", "ice.mesh: not a text (3), allowed is a text"),
+    ('[ice]\nmesh = "a.msh"\n[contact]\nlength = 0.05',
+     "contact.length: 0.05 m and ice.mesh are both given"),
+    ("[run]\nduration = 1e300", "run.output_interval: 0.01 s cuts run.duration = 1e+300 s"),
+    ("[coupling]\nmacro_step = 0", "coupling.macro_step: out of range (0), allowed is a num"),
+    ("name = '../up'", 'name: not fit for the name of a folder ("../up"), allowed is'),
+    ("[rig\nmass = 1", "not TOML: expected ']' at the end of a table declaration (at line 1,"),
+    ("a = " + "[" * 5000, "not TOML"),
+    ("a = " + "1" * 5000, "not TOML"),
+    ("[rig]\nmass = 1" + "0" * 400, "not a number (an integer of over 300 digits)"),
+    (b"\xff\xfe", "byte 1 is not UTF-8, allowed is a TOML file in UTF-8"),
+])  # fmt: skip
 def test_every_fault_is_one_line_with_key_value_and_what_is_allowed(tmp_path, text, line):
     assert line in fault(tmp_path, text)
 

@@ -8,9 +8,7 @@ from refusals import one_line
 
 from cosim.report.contents import tables_of
 from cosim.report.material import live_of_material, of_material, page_of_material
-from cosim.scenario import read_scenario
-from cosim.scenario.scenario import Scenario
-from cosim.scenario.validation import ScenarioError
+from cosim.scenario import Scenario, ScenarioError, read_scenario
 from cosim.studies.belt_length import how_long, scenario_case
 from thermal.materials import MATERIALS
 from thermal.model import BeltIceModel
@@ -18,11 +16,9 @@ from thermal.work import seconds_to_run
 
 WARM = {"ambient.temperature_degC": 20.0, "block.material": "steel"}
 PEEK = {
-    "block.material": "PEEK",
-    "block.density": 1300.0,
-    "block.heat_capacity": 1340.0,
+    "block.material": "PEEK", "block.density": 1300.0, "block.heat_capacity": 1340.0,
     "block.conductivity": 0.25,
-}
+}  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -59,22 +55,13 @@ def test_only_ice_melts(steel):
     assert math.isfinite(seconds_to_run(steel.thermal, 30.0, 0.01, 0.15, 0.2))
 
 
-@pytest.mark.parametrize(
-    ("changes", "says"),
-    [
-        (
-            {"ambient.temperature_degC": 20.0},
-            "ambient.temperature_degC: 20.0: ice melts in air of 0",
-        ),
-        ({"block.height": 0.1}, "ice.height: and the table [block] are both given"),
-        ({"block.conductivity": 0.2}, "block.material: is missing, needed is ice, steel"),
-        ({"block.material": "PEEK"}, "so density is to be given"),
-        (
-            WARM | {"ice.conductivity": 2.0},
-            "ice.conductivity: and the table [block] are both given",
-        ),
-    ],
-)
+@pytest.mark.parametrize(("changes", "says"), [
+    ({"ambient.temperature_degC": 20.0}, "ambient.temperature_degC: 20.0: ice melts in air of 0"),
+    ({"block.height": 0.1}, "ice.height: and the table [block] are both given"),
+    ({"block.conductivity": 0.2}, "block.material: is missing, needed is ice, steel"),
+    ({"block.material": "PEEK"}, "so density is to be given"),
+    (WARM | {"ice.conductivity": 2.0}, "ice.conductivity: and the table [block] are both given"),
+])  # fmt: skip
 def test_what_cannot_be_is_refused_in_one_line(changes, says):
     assert says in one_line(ScenarioError, read_scenario, "reference", changes)
 
@@ -87,15 +74,13 @@ def test_belt_length_answers_for_a_block_of_steel(steel):
 
 
 def test_the_words_follow_the_material():
-    assert (
-        of_material("An ice block: face of the ice", "steel") == "A steel block: face of the steel"
-    )
+    said = "A {0} block: face of the {0}"
+    assert of_material("An ice block: face of the ice", "steel") == said.format("steel")
     assert of_material("an ice block", "oak") == "an oak block"
     assert of_material("ice.height, ice_face", "steel") == "ice.height, ice_face"
     page = '<p>in the ice</p><code>[ice]</code><img src="data:ab/ice/cd"><script>ice</script>'
     assert page_of_material(page, "steel") == page.replace("the ice", "the steel")
     assert page_of_material(page, "ice") == page
     live = {"title": "ice and belt", "data": "A/ice/" * 100, "at": [1.0]}
-    assert json.dumps(live_of_material(live, "steel")) == json.dumps(
-        live | {"title": "steel and belt"}
-    )
+    told = live | {"title": "steel and belt"}
+    assert json.dumps(live_of_material(live, "steel")) == json.dumps(told)

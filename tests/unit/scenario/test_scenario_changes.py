@@ -12,36 +12,29 @@ from cosim.scenario.toml_file import changed_tables, changes_named, changes_of
 
 #: Every command that takes a scenario, with what else it needs.
 COMMANDS = {
-    "run": (),
-    "simulate": (),
-    "stability": ("--grid", "0"),
-    "friction-map": (),
-    "belt-length": (),
+    "run": (), "simulate": (), "stability": ("--grid", "0"), "friction-map": (), "belt-length": (),
     "sweep": ("--vary", "rig.mass=1,2"),
-}
+}  # fmt: skip
 
 
 pytestmark = pytest.mark.usefixtures("elsewhere")
 
 
-@pytest.mark.parametrize(
-    ("text", "value"),
-    [
-        ("1.5", 1.5),
-        (" 2 ", 2),
-        ("true", True),
-        ("slab", "slab"),
-        ("'slab'", "slab"),
-        ("[160, 20]", [160, 20]),
-        ("[{thickness = 1e-3}]", [{"thickness": 1e-3}]),
-        ("[x, phi]", ["x", "phi"]),
-        (".5", 0.5),
-        ("a=b", "a=b"),
-        ("1\nother = 2", "1\nother = 2"),
-        ("[" * 5000, "[" * 5000),
-        ("[" * 5000 + "x" + "]" * 5000, "[" * 5000 + "x" + "]" * 5000),
-    ],
-)
+@pytest.mark.parametrize(("text", "value"), [
+    ("1.5", 1.5),
+    (" 2 ", 2),
+    ("true", True),
+    ("slab", "slab"),
+    ("'slab'", "slab"),
+    ("[160, 20]", [160, 20]),
+    ("[{thickness = 1e-3}]", [{"thickness": 1e-3}]),
+    ("[x, phi]", ["x", "phi"]),
+    (".5", 0.5),
+    ("a=b", "a=b"),
+    ("1\nother = 2", "1\nother = 2"),
+    ("[" * 5000, "[" * 5000),
+    ("[" * 5000 + "x" + "]" * 5000, "[" * 5000 + "x" + "]" * 5000),
+])  # fmt: skip
 def test_a_value_is_as_toml_has_it_or_a_text(text, value):
     assert changes_of([f"rig.key={text}"]) == {"rig.key": value}
 
@@ -59,14 +52,9 @@ def test_tables_are_changed_and_not_those_that_were_given():
     given = copy.deepcopy(tables)
     changed = changed_tables(
         tables,
-        {
-            "name": "b",
-            "rig.mass": 2.0,
-            "run.duration": 5.0,
-            "coupling.of.a.port": 1e-9,
-            "of.belt.length": 2.0,
-        },
-    )
+        {"name": "b", "rig.mass": 2.0, "run.duration": 5.0, "coupling.of.a.port": 1e-9,
+         "of.belt.length": 2.0},
+    )  # fmt: skip
     assert changed == {
         "name": "b",
         "rig": {"mass": 2.0},

@@ -56,14 +56,11 @@ def test_what_is_given_is_not_taken(tmp_path):
     assert set(less.taken) == set(case.taken) - {"rig.spring_natural_length"}
 
 
-@pytest.mark.parametrize(
-    ("given", "key", "value"),
-    [
-        ("[rig]\nspring_length = 0.10", "rig.spring_natural_length", 0.085),
-        ("[rig]\nspring_length = 3", "rig.spring_natural_length", 2.55),
-        ("[run]\nduration = 6", "surface.run_up_time", 10.0),
-    ],
-)
+@pytest.mark.parametrize(("given", "key", "value"), [
+    ("[rig]\nspring_length = 0.10", "rig.spring_natural_length", 0.085),
+    ("[rig]\nspring_length = 3", "rig.spring_natural_length", 2.55),
+    ("[run]\nduration = 6", "surface.run_up_time", 10.0),
+])  # fmt: skip
 def test_a_default_that_goes_with_a_size_goes_with_the_given_one(tmp_path, given, key, value):
     case = read_scenario(written(tmp_path, given))
     assert case.taken[key] == flat(case)[key] == value

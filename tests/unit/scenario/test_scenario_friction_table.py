@@ -4,8 +4,7 @@ import pytest
 from command_line import written
 from refusals import one_line
 
-from cosim.scenario import Scenario, read_scenario
-from cosim.scenario.validation import ScenarioError
+from cosim.scenario import Scenario, ScenarioError, read_scenario
 
 CSV = "v, mu\n0, 0.25\n0.1, 0.2\n0.3, 0.22\n"
 
@@ -45,22 +44,16 @@ FILE = '[friction]\ntable = "mu_v.csv"\n'
 NUMBERS = "[friction]\ntable_speed = [0.0, 0.1]\ntable_mu = [0.2, 0.1]\n"
 
 
-@pytest.mark.parametrize(
-    ("text", "csv", "says"),
-    [
-        ('[friction]\ntable = "mu.csv"\n', CSV, ["friction.table: ", "No such file"]),
-        (FILE, "v,mu\n0,0.2\n0.1,x\n", ["friction.table: ", 'line 3, mu = "x"', "finite number"]),
-        (FILE, "v,mu\n0,0.2\n", ["friction.table: ", "1 points", "2 to 16"]),
-        (FILE + "table_speed = [0.0, 1.0]\n", CSV, ["friction.table: ", "give one of them"]),
-        ("[friction]\ntabel_mu = [1.0]\n", CSV, ["no such key, nearest known: friction.table_mu"]),
-        ("[friction]\ntable_mu = [0.2, 0.1]\n", CSV, ["friction.table_speed: has 0", "has 2"]),
-        (
-            NUMBERS + "[velocity_weakening]\npower = 0.1\n",
-            CSV,
-            ["friction.table_speed: beside velocity_weakening.power = 0.1", "give one of the two"],
-        ),
-    ],
-)
+@pytest.mark.parametrize(("text", "csv", "says"), [
+    ('[friction]\ntable = "mu.csv"\n', CSV, ["friction.table: ", "No such file"]),
+    (FILE, "v,mu\n0,0.2\n0.1,x\n", ["friction.table: ", 'line 3, mu = "x"', "finite number"]),
+    (FILE, "v,mu\n0,0.2\n", ["friction.table: ", "1 points", "2 to 16"]),
+    (FILE + "table_speed = [0.0, 1.0]\n", CSV, ["friction.table: ", "give one of them"]),
+    ("[friction]\ntabel_mu = [1.0]\n", CSV, ["no such key, nearest known: friction.table_mu"]),
+    ("[friction]\ntable_mu = [0.2, 0.1]\n", CSV, ["friction.table_speed: has 0", "has 2"]),
+    (NUMBERS + "[velocity_weakening]\npower = 0.1\n", CSV,
+     ["friction.table_speed: beside velocity_weakening.power = 0.1", "give one of the two"]),
+])  # fmt: skip
 def test_a_fault_is_one_line(tmp_path, text, csv, says):
     line = one_line(ScenarioError, read_scenario, scenario(tmp_path, text, csv))
     for words in says:

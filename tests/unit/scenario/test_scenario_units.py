@@ -53,17 +53,14 @@ def test_it_is_said_in_one_line(tmp_path, capsys):
     assert line == "warning: surface.speed = 150 (mm/s?): no rig has that in SI units"
 
 
-@pytest.mark.parametrize(
-    ("key", "text", "value"),
-    [
-        ("rig.mass", "870 g", 0.87),
-        ("surface.speed", "60 mm/s", 0.06),
-        ("springs.stiffness", "2 N/mm", 2000.0),
-        ("ambient.temperature_degC", "265.15 K", -8.0),
-        ("belt.air_heat_transfer", "15 W/(m^2 K)", 15.0),
-        ("run.duration", "2 min", 120.0),
-    ],
-)
+@pytest.mark.parametrize(("key", "text", "value"), [
+    ("rig.mass", "870 g", 0.87),
+    ("surface.speed", "60 mm/s", 0.06),
+    ("springs.stiffness", "2 N/mm", 2000.0),
+    ("ambient.temperature_degC", "265.15 K", -8.0),
+    ("belt.air_heat_transfer", "15 W/(m^2 K)", 15.0),
+    ("run.duration", "2 min", 120.0),
+])  # fmt: skip
 def test_a_number_may_have_its_unit(key, text, value):
     """As pint reads it; in a file, in Python, or behind --set."""
     table, _, name = key.partition(".")

@@ -6,14 +6,8 @@ import warnings
 
 import pytest
 from refusals import one_line
-from stickslip import Parameters, simulate
-from stickslip.status import (
-    MOST_STEPS_PER_SECOND,
-    SECONDS_PER_STEP,
-    likely_step,
-    longest_step,
-    time_to_slide,
-)
+from stickslip import Parameters, simulate, status
+from stickslip.status import MOST_STEPS_PER_SECOND, longest_step, time_to_slide
 
 from cosim.cli.runs.running import scenario_to_run
 from cosim.coupling.case import run_scenario
@@ -25,34 +19,21 @@ from thermal.work import ice_unknowns, internal_steps
 
 #: Changes of the reference case that cannot end, and words of the one line that says so.
 ENDLESS = {
-    "an age": (
-        {"run.duration": 1e12, "run.output_interval": 1e6, "coupling.macro_step": 1e6},
-        ("run.duration: 1e+12 s", "6.9 years", "run.patience = 3600 s"),
-    ),
-    "springs of a hammer": (
-        {"springs.stiffness": 1e12},
-        ("springs.stiffness = 1e+12 N/m", "2.57e-06 s", "allowed are steps from 5e-06 s"),
-    ),
-    "a speck": (
-        {"rig.mass": 1e-12},
-        ("rig.mass = 1e-12 kg", "allowed are steps from 5e-06 s"),
-    ),
-    "bristles of nothing": (
-        {"friction.presliding_distance": 1e-12, "friction.transition_speed": 1e-3},
-        ("friction.presliding_distance = 1e-12 m", "allowed are steps from 5e-06 s"),
-    ),
-    "a day on sandpaper": (
-        {
-            **{"surface_pattern.amplitude": 0.1, "surface_pattern.wavelength": 1e-5},
-            **{"run.duration": 86400.0, "run.output_interval": 1.0, "coupling.macro_step": 1.0},
-        },
-        ("run.duration: 86400 s", "surface_pattern.wavelength = 1e-05 m", "run.patience"),
-    ),
-    "an hour of stiff springs": (
-        {"springs.stiffness": 1e9, "run.duration": 3600.0},
-        ("run.duration: 3600 s", "springs.stiffness = 1e+09 N/m", "run.patience = 3600 s"),
-    ),
-}
+    "an age": ({"run.duration": 1e12, "run.output_interval": 1e6, "coupling.macro_step": 1e6},
+               ("run.duration: 1e+12 s", "6.9 years", "run.patience = 3600 s")),
+    "springs of a hammer": ({"springs.stiffness": 1e12},
+        ("springs.stiffness = 1e+12 N/m", "2.57e-06 s", "allowed are steps from 5e-06 s")),
+    "a speck": ({"rig.mass": 1e-12}, ("rig.mass = 1e-12 kg", "allowed are steps from 5e-06 s")),
+    "bristles of nothing": ({"friction.presliding_distance": 1e-12,
+            "friction.transition_speed": 1e-3},
+        ("friction.presliding_distance = 1e-12 m", "allowed are steps from 5e-06 s")),
+    "a day on sandpaper": ({**{"surface_pattern.amplitude": 0.1,
+                "surface_pattern.wavelength": 1e-5},
+            **{"run.duration": 86400.0, "run.output_interval": 1.0, "coupling.macro_step": 1.0}},
+        ("run.duration: 86400 s", "surface_pattern.wavelength = 1e-05 m", "run.patience")),
+    "an hour of stiff springs": ({"springs.stiffness": 1e9, "run.duration": 3600.0},
+        ("run.duration: 3600 s", "springs.stiffness = 1e+09 N/m", "run.patience = 3600 s")),
+}  # fmt: skip
 #: Changes of the reference case that are followed in steps of different kinds, by what.
 FOLLOWED = {
     "the rig alone": {"run.duration": 60.0},
@@ -62,25 +43,18 @@ FOLLOWED = {
     "bristles": {"friction.transition_speed": 2e-3, "friction.presliding_distance": 1e-6},
     "a fine pattern": {"surface_pattern.amplitude": 0.1, "surface_pattern.wavelength": 1e-3},
     "rate and state": {"rate_and_state.direct": 0.01, "rate_and_state.evolution": 0.02},
-    "rate and state, slow": {
-        **{"rate_and_state.direct": 0.01, "rate_and_state.evolution": 0.02},
-        **{"surface.speed": 1e-3, "surface.run_up_time": 1.0, "run.duration": 40.0},
-    },
-}
+    "rate and state, slow": {**{"rate_and_state.direct": 0.01, "rate_and_state.evolution": 0.02},
+        **{"surface.speed": 1e-3, "surface.run_up_time": 1.0, "run.duration": 40.0}},
+}  # fmt: skip
 ENDLESS_HEAT = {
-    "ice of nothing": (
-        {"ice.density": 1e-6},
-        ("run.duration: 30 s", "ice.density = 1e-06 kg/m3", "run.patience = 3600 s"),
-    ),
-    "a belt of a thousand loops": (
-        {"surface.speed": 1e3, "coupling.macro_step": 2.0, "run.output_interval": 2.0},
-        ("coupling.macro_step: 2 s", "2e+03 loops", "up to 1000"),
-    ),
-    "a mesh without patience": (
-        {"ice.radial_elements": 40, "ice.axial_elements": 40, "run.patience": 60.0},
-        ("ice.radial_elements: 40", "6561 unknowns", "35 min", "run.patience = 60 s"),
-    ),
-}
+    "ice of nothing": ({"ice.density": 1e-6},
+        ("run.duration: 30 s", "ice.density = 1e-06 kg/m3", "run.patience = 3600 s")),
+    "a belt of a thousand loops": ({"surface.speed": 1e3, "coupling.macro_step": 2.0,
+            "run.output_interval": 2.0}, ("coupling.macro_step: 2 s", "2e+03 loops", "up to 1000")),
+    "a mesh without patience": ({"ice.radial_elements": 40, "ice.axial_elements": 40,
+            "run.patience": 60.0},
+        ("ice.radial_elements: 40", "6561 unknowns", "35 min", "run.patience = 60 s")),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("case", ENDLESS | ENDLESS_HEAT)
@@ -198,7 +172,7 @@ def test_a_block_that_is_carried_takes_the_steps_of_one_that_does_not_slide():
     # one that breaks away is counted as before, from when it can
     later = time_to_slide(carried.mechanics)
     longer = carried.changed({"run.duration": 2.0 * later})
-    step = likely_step(carried.mechanics).per_second * SECONDS_PER_STEP
+    step = status.likely_step(carried.mechanics).per_second * status.SECONDS_PER_STEP
     assert check_work(longer, coupled=False) == pytest.approx(later * step, rel=0.01)
 
 
@@ -206,8 +180,7 @@ def test_a_block_that_is_carried_takes_the_steps_of_one_that_does_not_slide():
 def test_the_time_to_slide_is_before_the_first_break_away(ramp):
     """And not by more than the half of friction that it is for: of the plain model."""
     parameters = Parameters(
-        surface={"speed": 0.02, "run_up_time": ramp},
-        initial={"vx": 0.02 if ramp == 0.0 else 0.0},
+        surface={"speed": 0.02, "run_up_time": ramp}, initial={"vx": 0.02 if ramp == 0.0 else 0.0}
     )
     first = simulate(parameters, 60.0, 1.0).slip_starts[0]
     assert 0.3 * first < time_to_slide(parameters) < first

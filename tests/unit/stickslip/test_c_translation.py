@@ -4,13 +4,19 @@ import random
 import struct
 from itertools import product
 from math import inf, nan
+from pathlib import Path
 
 import numpy as np
 import pytest
 from c_library import compiler, library, warnings
-from c_snippets import CALLED, HEAD, SNIPPETS
 from stickslip.generation.c import c_header
 from stickslip.generation.source import kernel_source
+
+#: Each means of the kernel's text; of it what stands before all functions, and those that random
+#: expressions call.
+SNIPPETS = Path(__file__).with_name("c_snippets.txt").read_text(encoding="utf-8")
+HEAD = SNIPPETS[: SNIPPETS.index("def signs")]
+CALLED = SNIPPETS[SNIPPETS.index("def push") : SNIPPETS.index("def order")]
 
 needs_compiler = pytest.mark.skipif(not compiler(), reason="no C compiler")
 

@@ -35,12 +35,9 @@ posix = pytest.mark.skipif(not hasattr(os, "getuid"), reason="a folder has no ow
 def run(cache, scratch):
     """What PROGRAM prints in a process with these folders, which permissions bind, root's too."""
     bound = ["setpriv", "--bounding-set=-dac_override"] if os.getuid() == 0 else []
-    done = subprocess.run(
-        [*bound, sys.executable, "-c", PROGRAM],
-        env=os.environ | {"XDG_CACHE_HOME": str(cache), "TMPDIR": str(scratch)},
-        capture_output=True,
-        text=True,
-    )
+    env = os.environ | {"XDG_CACHE_HOME": str(cache), "TMPDIR": str(scratch)}
+    words = [*bound, sys.executable, "-c", PROGRAM]
+    done = subprocess.run(words, env=env, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     return done.stdout.split()
 

@@ -14,24 +14,16 @@ FORMULAS = {
     "run_in": ({"change": -0.5}, lambda s: MU_K * (1.0 - 0.5 * (1.0 - np.exp(-s)))),
     "spring_hardening": ({"cubic": 3e4}, lambda e: 20.17 * e + 3e4 * e**3),
     "structural_damping": ({"coefficient": 0.5}, lambda v: -0.5 * v),
-    "surface_pattern": (
-        {"amplitude": 0.15, "wavelength": 0.3},
-        lambda s: MU_K * (1.0 + 0.15 * np.cos(2.0 * np.pi * s / 0.3)),
-    ),
-    "load_dependence": (
-        {"exponent": 0.3, "reference_force": 8.0},
-        lambda n: MU_K * (n / 8.0) ** -0.3,
-    ),
-    "speed_ripple": (
-        {"amplitude": 0.3, "frequency": 0.7},
-        lambda t: 0.15 * (1.0 + 0.3 * np.sin(2.0 * np.pi * 0.7 * t)),
-    ),
+    "surface_pattern": ({"amplitude": 0.15, "wavelength": 0.3},
+        lambda s: MU_K * (1.0 + 0.15 * np.cos(2.0 * np.pi * s / 0.3))),
+    "load_dependence": ({"exponent": 0.3, "reference_force": 8.0},
+        lambda n: MU_K * (n / 8.0) ** -0.3),
+    "speed_ripple": ({"amplitude": 0.3, "frequency": 0.7},
+        lambda t: 0.15 * (1.0 + 0.3 * np.sin(2.0 * np.pi * 0.7 * t))),
     # in steady sliding theta = D / v; creep at 1e-6 m/s is nothing here
-    "rate_and_state": (
-        {"direct": 0.01, "evolution": 0.03},
-        lambda v: MU_K + (0.01 - 0.03) * np.log(v / 1e-4),
-    ),
-}
+    "rate_and_state": ({"direct": 0.01, "evolution": 0.03},
+        lambda v: MU_K + (0.01 - 0.03) * np.log(v / 1e-4)),
+}  # fmt: skip
 
 
 def entry(name):
@@ -52,6 +44,6 @@ def test_the_curve_is_the_formula(name):
 def test_what_is_no_curve_has_none():
     without = {effect.id for effect in EFFECTS if not axis_of(effect)}
     assert without == {
-        *("lateral_friction", "turning_surface", "spring_misalignment", "stick_stiffness"),
+        *("lateral_friction", "turning_surface", "spring_misalignment", "stick_stiffness")
     }
     assert all(law_curve(entry(name), Parameters()) is None for name in without)

@@ -23,13 +23,9 @@ from stickslip.packing import in_order, pack
 
 OFF = Parameters().flat()
 ALL = {
-    "seed": 5,
-    "mass": 0.01,
-    "spring_stiffness": 0.02,
-    "anchor_position": 1e-3,
-    "start_position": 1e-3,
-    "start_angle_deg": 1.0,
-}
+    "seed": 5, "mass": 0.01, "spring_stiffness": 0.02, "anchor_position": 1e-3,
+    "start_position": 1e-3, "start_angle_deg": 1.0,
+}  # fmt: skip
 
 
 def test_the_values_stand_in_the_order_of_the_fmu_s_parameters():
@@ -75,12 +71,10 @@ def test_off_a_rig_is_the_drawing_whatever_the_seed():
 
 
 SLOTS = {
-    "mass": layout.P_MASS,
-    "spring_stiffness": layout.P_RELATIVE_STIFFNESS,
-    "anchor_position": layout.P_ANCHOR,
-    "start_position": layout.P_INITIAL,
+    "mass": layout.P_MASS, "spring_stiffness": layout.P_RELATIVE_STIFFNESS,
+    "anchor_position": layout.P_ANCHOR, "start_position": layout.P_INITIAL,
     "start_angle_deg": layout.P_INITIAL + 2,
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("key", SLOTS)

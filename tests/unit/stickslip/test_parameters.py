@@ -10,30 +10,18 @@ from stickslip.kernel.layout import CURVE_LIMIT, P_PRESLIDING
 # block, its values, what the message says
 REFUSED = {
     "no inertia": ("rig", {"inertia": 0.0}, ["rig.inertia", "'disc' or 'ring'", "greater than 0"]),
-    "centre under the block": (
-        "rig",
-        {"surface": "slab", "slab_radius": -0.04},
-        ["slab_radius = -0.04", "above contact_radius = 0.04 m"],
-    ),
-    "curve without forces": (
-        "springs",
-        {"force_curve_extension": [0.0, 0.1]},
-        ["force_curve_extension has 2", "force_curve_force has 0", "same number"],
-    ),
-    "curve too long": (
-        "springs",
-        {
-            "force_curve_extension": [0.01 * i for i in range(CURVE_LIMIT + 1)],
-            "force_curve_force": [0.1 * i for i in range(CURVE_LIMIT + 1)],
-        },
-        ["springs.force_curve_extension", "at most 16"],
-    ),
-    "curve with a gap": (
-        "springs",
+    "centre under the block": ("rig", {"surface": "slab", "slab_radius": -0.04},
+        ["slab_radius = -0.04", "above contact_radius = 0.04 m"]),
+    "curve without forces": ("springs", {"force_curve_extension": [0.0, 0.1]},
+        ["force_curve_extension has 2", "force_curve_force has 0", "same number"]),
+    "curve too long": ("springs",
+        {"force_curve_extension": [0.01 * i for i in range(CURVE_LIMIT + 1)],
+         "force_curve_force": [0.1 * i for i in range(CURVE_LIMIT + 1)]},
+        ["springs.force_curve_extension", "at most 16"]),
+    "curve with a gap": ("springs",
         {"force_curve_extension": [0.0, math.nan], "force_curve_force": [0.0, 1.0]},
-        ["force_curve_extension.1", "finite number"],
-    ),
-}
+        ["force_curve_extension.1", "finite number"]),
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("case", REFUSED)

@@ -93,17 +93,14 @@ def test_the_template_is_an_effect_of_the_file_s_name(tmp_path):
     assert [path.name for path in tmp_path.iterdir()] == ["brush.py"]  # no __pycache__
 
 
-@pytest.mark.parametrize(
-    ("instead", "what"),
-    [
-        ("    return np.tanh(speed)\n", "`np`"),
-        ("    return 1.0 if speed else 'a'\n", "'a'"),
-        ("    return sum([speed, fall, onset])\n", "`sum`"),
-        ("    return max(x for x in (speed, fall))\n", "max"),
-        ("    parts = [speed]\n    return parts[0]\n", "[speed]"),
-        ("    with speed:\n        return fall\n", "with speed"),
-    ],
-)
+@pytest.mark.parametrize(("instead", "what"), [
+    ("    return np.tanh(speed)\n", "`np`"),
+    ("    return 1.0 if speed else 'a'\n", "'a'"),
+    ("    return sum([speed, fall, onset])\n", "`sum`"),
+    ("    return max(x for x in (speed, fall))\n", "max"),
+    ("    parts = [speed]\n    return parts[0]\n", "[speed]"),
+    ("    with speed:\n        return fall\n", "with speed"),
+])  # fmt: skip
 def test_a_term_keeps_to_what_becomes_c(said, instead, what):
     text = GOOD.replace(TERM, instead)
     line = line_of(text, instead)
@@ -112,15 +109,12 @@ def test_a_term_keeps_to_what_becomes_c(said, instead, what):
     assert what in message and "allowed in a term: numbers" in message and "exp" in message
 
 
-@pytest.mark.parametrize(
-    ("instead", "what"),
-    [
-        ("    return dry_factor(speed, fall, onset)\n", "maximum recursion depth"),
-        ("    return 1.0 - fall * onset / speed\n", "at speed = 0, fall = 0.3, onset = 0.05: "),
-        ("    return 1.0 + (1e308 * 10.0 - 1e308 * 10.0) * fall\n", "is nan at speed = 0"),
-        ("    return 1.0 - 20.0 * fall\n", "is -5 at speed = 0"),
-    ],
-)
+@pytest.mark.parametrize(("instead", "what"), [
+    ("    return dry_factor(speed, fall, onset)\n", "maximum recursion depth"),
+    ("    return 1.0 - fall * onset / speed\n", "at speed = 0, fall = 0.3, onset = 0.05: "),
+    ("    return 1.0 + (1e308 * 10.0 - 1e308 * 10.0) * fall\n", "is nan at speed = 0"),
+    ("    return 1.0 - 20.0 * fall\n", "is -5 at speed = 0"),
+])  # fmt: skip
 def test_a_term_is_a_number_that_does_not_drive_the_block(said, instead, what):
     """Else the kernel's comparisons are all false, and a block sticks for ever in silence."""
     message = said(GOOD.replace(TERM, instead))
@@ -141,31 +135,24 @@ def test_a_term_s_numbers_are_declared(said):
     assert "what dry_factor returns is not declared as float" in message
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "what"),
-    [
-        ("EFFECT = Effect(", "EFFECTS = Effect(", "has no EFFECT"),
-        ("EFFECT = Effect(", "EFFECT = dict(", "dict"),
-        ("class Brush(Table):", "class Brush(Table:", "line "),
-        ('switch=("fall",)', 'switch=("onset",)', "onset is not off at 0"),
-        ('enters="friction"', 'enters="magic"', "enters 'magic', which is no part of the model"),
-        ('0.05, "m/s"', '-0.05, "m/s"', "default of onset: Input should be greater than 0"),
-        ("speed: float, fall", "speed: float, mood: float, fall", "'mood'"),
-        ('{"fall": 0.3, "onset": 0.05}', '{"fall": 3.0}', "case: fall"),
-        ('id="brush"', 'id="rig"', "'rig' cannot be the name of a table"),
-        ('id="brush"', 'id="class"', "'class' cannot be the name of a table"),
-        ('id="brush"', 'id="Brush"', "'Brush' cannot be the name of a table"),
-        ('"brush.onset", s.speed', '"brush.start", s.speed', "brush.start is no parameter"),
-        ("s.speed, 0.3", "s.mood, 0.3", "AttributeError"),
-        ("import Candidate, Case", "import Candidates, Case", "Candidates"),
-        (
-            "    fall: float = quantity(\n        0.0,",
-            "    fall: float = quantity(\n        ...,",
-            "o",
-        ),
-        ('"""Kinetic', '1 / 0\n"""Kinetic', "line 1: ZeroDivisionError"),
-    ],
-)
+@pytest.mark.parametrize(("old", "new", "what"), [
+    ("EFFECT = Effect(", "EFFECTS = Effect(", "has no EFFECT"),
+    ("EFFECT = Effect(", "EFFECT = dict(", "dict"),
+    ("class Brush(Table):", "class Brush(Table:", "line "),
+    ('switch=("fall",)', 'switch=("onset",)', "onset is not off at 0"),
+    ('enters="friction"', 'enters="magic"', "enters 'magic', which is no part of the model"),
+    ('0.05, "m/s"', '-0.05, "m/s"', "default of onset: Input should be greater than 0"),
+    ("speed: float, fall", "speed: float, mood: float, fall", "'mood'"),
+    ('{"fall": 0.3, "onset": 0.05}', '{"fall": 3.0}', "case: fall"),
+    ('id="brush"', 'id="rig"', "'rig' cannot be the name of a table"),
+    ('id="brush"', 'id="class"', "'class' cannot be the name of a table"),
+    ('id="brush"', 'id="Brush"', "'Brush' cannot be the name of a table"),
+    ('"brush.onset", s.speed', '"brush.start", s.speed', "brush.start is no parameter"),
+    ("s.speed, 0.3", "s.mood, 0.3", "AttributeError"),
+    ("import Candidate, Case", "import Candidates, Case", "Candidates"),
+    ("    fall: float = quantity(\n        0.0,", "    fall: float = quantity(\n        ...,", "o"),
+    ('"""Kinetic', '1 / 0\n"""Kinetic', "line 1: ZeroDivisionError"),
+])  # fmt: skip
 def test_what_is_wrong_with_a_file_is_said(said, old, new, what):
     assert old in GOOD
     text = GOOD.replace(old, new, 1)

@@ -11,26 +11,10 @@ from refusals import one_line
 
 from cosim.cli.arguments import COMMANDS
 from cosim.cli.studies import belt_length as belt_length_command
-from cosim.studies.belt_length import (
-    CAMERA,
-    Case,
-    Options,
-    Protocol,
-    Study,
-    cases,
-    empty_map,
-    fill_map,
-    shortest_belt,
-    verdict,
-    work_off,
-)
-from cosim.studies.belt_length.drift import (
-    drift,
-    friction_effect,
-    linear_sensitivity,
-    run_drift,
-    steady_drift,
-)
+from cosim.studies import belt_length
+from cosim.studies.belt_length import CAMERA, Case, Options, Study, verdict, work_off
+from cosim.studies.belt_length import drift as drifts
+from cosim.studies.belt_length.drift import drift, run_drift
 from cosim.studies.belt_length.lengths import LENGTHS, SPEEDS
 from cosim.studies.belt_length.study import BOUNDS
 from thermal.belt.air import moving_belt
@@ -60,39 +44,37 @@ def test_the_studys_own_number_is_its_formula():
 def test_mended_single_pass_is_force_over_capacity_less_newton_cooling():
     case = Case(2.0, 0.5, h=10.0)
     length = case.single_pass().contact_length
-    expected = (
-        case.force
-        / (840.0 * 0.0525)
-        * np.exp(-2.0 * 10.0 * 0.075 / (0.0525 * 840.0) * (2.0 - length) / 0.5)
-    )
+    capacity = 840.0 * 0.0525
+    cooled = np.exp(-2.0 * 10.0 * 0.075 / capacity * (2.0 - length) / 0.5)
+    expected = case.force / capacity * cooled
     assert drift(case).single_pass == pytest.approx(expected, rel=1e-9)
 
 
 def test_shortest_belt_meets_the_limit():
     case, limit = Case(1.0, 0.5), 0.2
-    length = shortest_belt(case, limit, run_drift)
+    length = belt_length.shortest_belt(case, limit, run_drift)
     assert run_drift(case.with_length(length)) == pytest.approx(limit, rel=0.02)
-    assert shortest_belt(case, 0.05, steady_drift) > length
-    assert shortest_belt(case, 1e3, run_drift) == case.shortest == 1.05 * 0.08
-    assert shortest_belt(case, 1e-7, steady_drift) is None
+    assert belt_length.shortest_belt(case, 0.05, drifts.steady_drift) > length
+    assert belt_length.shortest_belt(case, 1e3, run_drift) == case.shortest == 1.05 * 0.08
+    assert belt_length.shortest_belt(case, 1e-7, drifts.steady_drift) is None
 
 
 def test_friction_falls_linearly_to_the_melting_point():
     case = Case(1.0, 0.82)
     found = drift(case)
-    effect = friction_effect(case)
+    effect = drifts.friction_effect(case)
     assert effect.mu_change == pytest.approx(-effect.interface / 8.0)
     assert 0.85 * found.run < effect.drift < found.run, "less friction, less heat"
-    assert linear_sensitivity(-16.0) == pytest.approx(1.0 / 16.0)
+    assert drifts.linear_sensitivity(-16.0) == pytest.approx(1.0 / 16.0)
     assert effect.frequency > 0.5 and effect.frequency_change < 0.0
-    unfeeling = friction_effect(case, 0.0)
+    unfeeling = drifts.friction_effect(case, 0.0)
     assert unfeeling.mu_change == 0.0 and unfeeling.frequency_change == 0.0
     assert unfeeling.drift == found.run
 
 
 def test_drift_map_rises_with_speed_and_falls_with_length():
-    found = empty_map(4)
-    fill_map(found, Case(1.0, 0.82), 1)
+    found = belt_length.empty_map(4)
+    belt_length.fill_map(found, Case(1.0, 0.82), 1)
     assert found.lengths[[0, -1]] == pytest.approx(LENGTHS)
     assert found.speeds[[0, -1]] == pytest.approx(SPEEDS)
     assert np.all(np.diff(found.drift, axis=0) <= 1e-6)
@@ -103,7 +85,9 @@ def test_drift_map_rises_with_speed_and_falls_with_length():
 
 
 def test_still_air_takes_its_number_from_speed_and_length():
-    slow, fast = cases(Case(1.0, 0.5, h=3.0), length=(1.0,), speed=(0.15, 0.82), h=(None,))
+    slow, fast = belt_length.cases(
+        Case(1.0, 0.5, h=3.0), length=(1.0,), speed=(0.15, 0.82), h=(None,)
+    )
     assert 5.0 < slow.film < fast.film < 12.0
     assert fast.pause_film < moving_belt(0.0, 0.5, -8.0) < fast.film < moving_belt(0.82, 0.5, -8.0)
     assert fast.lasting.film > fast.film, "warmer for ever"
@@ -152,43 +136,36 @@ def test_files_and_words(coarse, tmp_path, capsys):
     assert drawn == {"drift_over_length.png", "interface_over_length.png"}
 
 
-@pytest.mark.parametrize(
-    ("table", "options", "says"),
-    [
-        (None, ("--length", 0.05), "--length = 0.05 m is shorter than the contact"),
-        (None, ("--h", "air", "--length", 0.05), "--length = 0.05 m is shorter than the contact"),
-        (None, ("--thickness", 0.0), "--thickness = 0 m: must be a number above 0 and at most 0.1"),
-        (None, ("--ambient", 1.0), "--ambient = 1.0: ice melts in air of 0 degC and more"),
-        (None, ("--h", 0.0), "--h = 0: a belt that gives no heat to the air warms for ever"),
-        (None, ("--h", float("nan")), "--h = nan W/m2K: must be a number at least 0"),
-        (None, ("--run", 0.0), "--run = 0 s: must be above 0"),
-        (None, ("--ramp", -1.0), "--ramp = -1 s: must be at least 0"),
-        (None, ("slab",), 'slab: rig.surface = "slab": has no belt; allowed is "belt"'),
-        (None, ("--pause", float("inf")), "--pause = inf s: must be at least 0"),
-        (None, ("--runs", 0), "--runs = 0: must be 1 to 100"),
-        (None, ("no_such_case",), "no_such_case: no such file"),
-        (None, ("--limit", 0.0), "--limit = 0 K: must be above 0"),
-        (None, ("--samples", 48), "--samples = 48: must be a power of two from 32, or 0"),
-        (None, ("--samples", 16), "--samples = 16: must be a power of two from 32, or 0"),
-        (None, ("--map", 1), "--map = 1: must be at least 2"),
-        (None, ("--run", 1e12), "--run = 1e+12 s, --runs = 1 at --speed = 0.15 m/s"),
-        (None, ("--sensitivity", -0.1), "--sensitivity = -0.1 1/K: must be a number at least 0"),
-        (None, ("--jobs", 0), "--jobs = 0: must be at least 1"),
-        ("[friction]\nmu_k = 0.0", (), "case.toml: friction.mu_k = 0: must be above 0"),
-        ("[surface]\nspeed = 0.0", (), "case.toml: surface.speed = 0 m/s: must not be 0"),
-        (
-            "[belt]\nair_heat_transfer = 0.0",
-            (),
-            "case.toml: belt.air_heat_transfer = 0: a belt that",
-        ),
-        ("[run]\nduration = 1000.0", (), "case.toml: --ramp = "),
-        ("[springs]\nstiffness = 0.0", (), "case.toml: springs.stiffness = 0 N/m: over the"),
-        (HELD, (), "the block is carried along and makes no heat; allowed"),
-        ("[belt]\nthickness = 1e-9", (), "case.toml: belt.thickness = 1e-09 m: must be at least"),
-        ("", ("--thickness", 1e-9), "--thickness = 1e-09 m: must be at least 1e-06 m"),
-        ("", ("--conductivity", 1e-30), "--conductivity = 1e-30 W/mK: must be at least 0.002"),
-    ],
-)
+@pytest.mark.parametrize(("table", "options", "says"), [
+    (None, ("--length", 0.05), "--length = 0.05 m is shorter than the contact"),
+    (None, ("--h", "air", "--length", 0.05), "--length = 0.05 m is shorter than the contact"),
+    (None, ("--thickness", 0.0), "--thickness = 0 m: must be a number above 0 and at most 0.1"),
+    (None, ("--ambient", 1.0), "--ambient = 1.0: ice melts in air of 0 degC and more"),
+    (None, ("--h", 0.0), "--h = 0: a belt that gives no heat to the air warms for ever"),
+    (None, ("--h", float("nan")), "--h = nan W/m2K: must be a number at least 0"),
+    (None, ("--run", 0.0), "--run = 0 s: must be above 0"),
+    (None, ("--ramp", -1.0), "--ramp = -1 s: must be at least 0"),
+    (None, ("slab",), 'slab: rig.surface = "slab": has no belt; allowed is "belt"'),
+    (None, ("--pause", float("inf")), "--pause = inf s: must be at least 0"),
+    (None, ("--runs", 0), "--runs = 0: must be 1 to 100"),
+    (None, ("no_such_case",), "no_such_case: no such file"),
+    (None, ("--limit", 0.0), "--limit = 0 K: must be above 0"),
+    (None, ("--samples", 48), "--samples = 48: must be a power of two from 32, or 0"),
+    (None, ("--samples", 16), "--samples = 16: must be a power of two from 32, or 0"),
+    (None, ("--map", 1), "--map = 1: must be at least 2"),
+    (None, ("--run", 1e12), "--run = 1e+12 s, --runs = 1 at --speed = 0.15 m/s"),
+    (None, ("--sensitivity", -0.1), "--sensitivity = -0.1 1/K: must be a number at least 0"),
+    (None, ("--jobs", 0), "--jobs = 0: must be at least 1"),
+    ("[friction]\nmu_k = 0.0", (), "case.toml: friction.mu_k = 0: must be above 0"),
+    ("[surface]\nspeed = 0.0", (), "case.toml: surface.speed = 0 m/s: must not be 0"),
+    ("[belt]\nair_heat_transfer = 0.0", (), "case.toml: belt.air_heat_transfer = 0: a belt that"),
+    ("[run]\nduration = 1000.0", (), "case.toml: --ramp = "),
+    ("[springs]\nstiffness = 0.0", (), "case.toml: springs.stiffness = 0 N/m: over the"),
+    (HELD, (), "the block is carried along and makes no heat; allowed"),
+    ("[belt]\nthickness = 1e-9", (), "case.toml: belt.thickness = 1e-09 m: must be at least"),
+    ("", ("--thickness", 1e-9), "--thickness = 1e-09 m: must be at least 1e-06 m"),
+    ("", ("--conductivity", 1e-30), "--conductivity = 1e-30 W/mK: must be at least 0.002"),
+])  # fmt: skip
 def test_bad_input_is_refused_in_one_line(tmp_path, table, options, says):
     """Of a scenario with its file and key; nothing is written."""
     case = () if table is None else (written(tmp_path, f'defaults = "plain"\n{table}'),)
@@ -239,7 +216,7 @@ def test_the_studys_resolution_is_good_to_half_a_percent(monkeypatch):
 def test_the_help_has_the_defaults_that_are_taken():
     """They stand in `commands.toml` as text, so that the help needs no heat model."""
     told = COMMANDS["belt-length"]["arguments"]
-    study, protocol = belt_length_command.STUDY, Protocol()
+    study, protocol = belt_length_command.STUDY, belt_length.Protocol()
     rig = study.thermal()
     taken = {name: (getattr(study, field),) for name, (field, *_) in BOUNDS.items()}
     taken |= belt_length_command.STUDIED | {"ramp": (protocol.ramp,), "run": (protocol.run,)}

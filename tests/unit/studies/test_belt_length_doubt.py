@@ -7,22 +7,13 @@ import numpy as np
 import pytest
 
 import cosim.studies.belt_length.case as case_module
-from cosim.studies.belt_length import Case, Protocol
+from cosim.studies.belt_length import Case, Protocol, unknowns
 from cosim.studies.belt_length.drift import interface_drift, run_drift
 from cosim.studies.belt_length.lengths import shortest_in_doubt
 from cosim.studies.belt_length.rigs import fitted
 from cosim.studies.belt_length.uncertainty import uncertainty
-from cosim.studies.belt_length.unknowns import (
-    ENTRY,
-    ICE,
-    INTERFACE,
-    UNKNOWNS,
-    answers,
-    as_it_is,
-    combined,
-)
-from thermal import Belt, ThermalParameters
-from thermal.belt.parameters import Layer
+from cosim.studies.belt_length.unknowns import answers, as_it_is, combined
+from thermal import Belt, Layer, ThermalParameters
 
 CASE = Case(1.0, 0.15)
 SAMPLES = 64
@@ -50,9 +41,8 @@ def test_a_polynomial_is_found_again():
 
     other = np.random.default_rng(2).random((20, 3))
     assert fitted(points, model(points))(other) == pytest.approx(model(other), abs=1e-9)
-    assert fitted(points, np.exp(model(points)))(other) == pytest.approx(
-        np.exp(model(other)), rel=1e-6
-    )
+    grown = fitted(points, np.exp(model(points)))(other)
+    assert grown == pytest.approx(np.exp(model(other)), rel=1e-6)
 
 
 @pytest.mark.parametrize("rise", [0.0, 0.3])
@@ -61,39 +51,27 @@ def test_as_it_is_gives_the_drift_as_it_is(rise):
     values = as_it_is(CASE) | {"sample_rise": rise}
     own = replace(CASE, h=CASE.film, ice_rise=rise)
     drift = combined(answers(CASE, values), values)
-    assert drift[ENTRY] == pytest.approx(run_drift(own), rel=1e-3)
-    assert drift[INTERFACE] == pytest.approx(interface_drift(own), rel=1e-3)
+    assert drift[unknowns.ENTRY] == pytest.approx(run_drift(own), rel=1e-3)
+    assert drift[unknowns.INTERFACE] == pytest.approx(interface_drift(own), rel=1e-3)
 
 
 def test_the_parts_make_the_drift_of_a_rig_with_all_of_them():
     """Friction, railing and warm rollers superposed, against the rig that has them."""
-    values = as_it_is(CASE) | {
-        "friction": 1.1,
-        "railing_friction": 0.15,
-        "railing_share": 0.6,
-        "roller_rise": 0.3,
-        "roller_conductance": 200.0,
-        "contact_area": 0.5,
-        "heat_capacity": 1.2,
-    }
+    values = as_it_is(CASE) | {"friction": 1.1, "railing_friction": 0.15, "railing_share": 0.6}
+    values |= {"roller_rise": 0.3, "roller_conductance": 200.0}
+    values |= {"contact_area": 0.5, "heat_capacity": 1.2}
     drift = combined(answers(CASE, values), values)
     length = CASE.sliding().footprint.length
+    of_railing = {"length": 0.08, "friction": 0.15, "share": 0.6, "load": CASE.mass * 9.81}
+    of_railing["conductance"] = CASE.film
+    of_rollers = {"belt.rollers": 2, "belt.roller_conductance": 200.0, "belt.roller_rise": 0.3}
     whole = replace(CASE, friction=1.1 * CASE.friction, h=CASE.film, drawn=True).changed(
-        {
-            "belt.railing_length": 0.08,
-            "belt.railing_friction": 0.15,
-            "belt.railing_share": 0.6,
-            "belt.railing_conductance": CASE.film,
-            "belt.railing_load": CASE.mass * 9.81,
-            "belt.rollers": 2,
-            "belt.roller_conductance": 200.0,
-            "belt.roller_rise": 0.3,
-            "belt.heat_capacity": 1.2 * 840.0,
-            "contact.length": 0.5 * length,
-        }
+        {f"belt.railing_{name}": value for name, value in of_railing.items()}
+        | of_rollers
+        | {"belt.heat_capacity": 1.2 * 840.0, "contact.length": 0.5 * length}
     )
-    assert drift[ENTRY] == pytest.approx(run_drift(whole), rel=1e-6)
-    assert drift[INTERFACE] == pytest.approx(interface_drift(whole), rel=1e-6)
+    assert drift[unknowns.ENTRY] == pytest.approx(run_drift(whole), rel=1e-6)
+    assert drift[unknowns.INTERFACE] == pytest.approx(interface_drift(whole), rel=1e-6)
 
 
 def test_a_contact_of_a_third_is_resolved(monkeypatch):
@@ -110,7 +88,7 @@ def test_the_ice_melts_where_its_rise_says_so():
     """Answers are as if nothing melted; the model itself melts on either side of the air's
     temperature at which they say so."""
     values = as_it_is(CASE)
-    rise = float(combined(answers(CASE, values), values)[ICE])
+    rise = float(combined(answers(CASE, values), values)[unknowns.ICE])
     for part, melts in ((0.97, True), (1.03, False)):
         # films of the air as they are, or they would follow its temperature
         case = replace(CASE, h=CASE.film, ambient_degC=-part * rise)
@@ -126,7 +104,7 @@ def test_rigs_whose_ice_melts_are_counted(found):
 
 
 def test_intervals_of_the_indices_and_what_the_polynomials_miss(found):
-    assert found.evaluations == SAMPLES + 2 * len(UNKNOWNS)
+    assert found.evaluations == SAMPLES + 2 * len(unknowns.UNKNOWNS)
     for one in found.influences:
         assert max(one["first_order_half_width"], one["total_half_width"]) < 0.05, one["key"]
     assert found.unexplained < 0.05
@@ -144,12 +122,11 @@ def test_single_changes_are_runs_of_the_model(found):
     friction, air = by_key["friction"], by_key["h"]
     with coarsely():
         as_it_is_drift, windy = run_drift(CASE), run_drift(replace(CASE, h=25.0))
-    assert (friction["drift_low"], friction["drift_high"]) == pytest.approx(
-        (0.7 * as_it_is_drift, 1.2 * as_it_is_drift), rel=1e-3
-    )
+    ends = friction["drift_low"], friction["drift_high"]
+    assert ends == pytest.approx((0.7 * as_it_is_drift, 1.2 * as_it_is_drift), rel=1e-3)
     assert air["drift_high"] == pytest.approx(windy, rel=0.01)
     assert by_key["roller_rise"]["with_others"] == {"roller_conductance": 100.0}
-    assert len(found.table()) == len(UNKNOWNS)
+    assert len(found.table()) == len(unknowns.UNKNOWNS)
 
 
 def test_no_indices_where_the_ice_melts():
@@ -190,9 +167,8 @@ def test_a_belt_lags_behind_air_that_warms():
     sliding.force, sliding.air_warming = 0.0, rate
     tau = rig.belt.capacity_per_area / (2.0 * h)
     # 8 cm of 20 m lie under the ice and cool on one face alone; steps of second order
-    assert sliding.run(time).belt_mean == pytest.approx(
-        -rate * tau * -np.expm1(-time / tau), rel=4e-3
-    )
+    expected = rate * tau * np.expm1(-time / tau)
+    assert sliding.run(time).belt_mean == pytest.approx(expected, rel=4e-3)
 
 
 #: A coat, steel and a felt, and rollers as warm and as firm as they may be in a doubt.

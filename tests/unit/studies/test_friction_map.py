@@ -16,18 +16,8 @@ from cosim.cli import is_bad_input
 from cosim.cli.studies import friction_map as friction_regimes_command
 from cosim.studies.friction_map import FrictionMap, friction_map
 from cosim.studies.friction_map import map as map_module
-from cosim.studies.friction_map.laws import (
-    conducted_share,
-    differences,
-    measured_beside,
-    own_point,
-)
-from cosim.studies.friction_map.map import (
-    SteadySliding,
-    decade_slopes,
-    lowest_friction,
-    steady_scenario,
-)
+from cosim.studies.friction_map.laws import conducted_share, differences, measured_beside, own_point
+from cosim.studies.friction_map.map import SteadySliding, decade_slopes
 from cosim.studies.friction_map.page import page, tiles
 
 CASE = read_scenario("melting_friction").changed(
@@ -53,12 +43,12 @@ def test_less_than_a_decade_has_no_slope():
 def test_minimum_of_a_parabola_on_logarithmic_axes():
     speed = np.array([0.2, 0.5, 1.0, 2.0, 7.0])
     value = 0.03 * np.exp(0.3 * np.log(speed / 1.2) ** 2)
-    assert lowest_friction(speed, value) == pytest.approx((1.2, 0.03), rel=1e-9)
-    assert lowest_friction(speed, speed) is None
+    assert map_module.lowest_friction(speed, value) == pytest.approx((1.2, 0.03), rel=1e-9)
+    assert map_module.lowest_friction(speed, speed) is None
 
 
 def test_the_block_stands_at_its_balance_from_the_start():
-    case = steady_scenario(CASE, 0.1, -8.0, 1.0)
+    case = map_module.steady_scenario(CASE, 0.1, -8.0, 1.0)
     (point,) = friction_map(CASE, [0.1], [-8.0], 0.1).points
     force = 4.0 * case.springs.stiffness * case.initial.x
     assert force == pytest.approx(point.law * 0.67 * 9.81, rel=1e-12)
@@ -86,15 +76,12 @@ def test_what_the_command_leaves(tmp_path, capsys):
     assert "-0.54" in page.replace("\u2212", "-") and "All 4 runs" in page
 
 
-@pytest.mark.parametrize(
-    "changes, speed, ambient, line",
-    [
-        ({}, 0.0, -8.0, "speed = 0 m/s: allowed is above 0"),
-        ({}, 0.1, 1.0, "ambient.temperature_degC"),
-        ({"springs.stiffness": 0.0}, 0.1, -8.0, "springs.stiffness = 0 N/m: friction of 0.209 N"),
-        ({"springs.stiffness": 0.2}, 0.1, -8.0, "into the springs' anchors"),
-    ],
-)
+@pytest.mark.parametrize("changes, speed, ambient, line", [
+    ({}, 0.0, -8.0, "speed = 0 m/s: allowed is above 0"),
+    ({}, 0.1, 1.0, "ambient.temperature_degC"),
+    ({"springs.stiffness": 0.0}, 0.1, -8.0, "springs.stiffness = 0 N/m: friction of 0.209 N"),
+    ({"springs.stiffness": 0.2}, 0.1, -8.0, "into the springs' anchors"),
+])  # fmt: skip
 def test_what_cannot_slide_steadily_is_refused_in_one_line(changes, speed, ambient, line):
     with pytest.raises(ValueError, match=line) as refused:
         friction_map(CASE.changed(changes), [speed], [ambient], 0.1)

@@ -13,21 +13,14 @@ from stickslip.reference.scheme_options import DESCRIPTIONS
 from cosim.cli import main
 from cosim.cli.studies import reproduce as reproduction_command
 from cosim.report.files import json_text
-from cosim.studies.reproduction import (
-    Check,
-    Claim,
-    Reproduction,
-    Row,
-    UnknownClaim,
-    claim_ids,
-    reproduce,
-)
+from cosim.studies import reproduction
+from cosim.studies.reproduction import Check, Claim, Reproduction, reproduce
 from cosim.studies.reproduction import claim as sheet
 from cosim.studies.reproduction.motion import Motion, figures
 
 
 def claim_of(*checks: Check) -> Claim:
-    row = Row("q", "m", 1.0, "§0", printed=2.0, mended=math.nan)
+    row = reproduction.Row("q", "m", 1.0, "§0", printed=2.0, mended=math.nan)
     return Claim("C0", "a claim", rows=[row], checks=list(checks))
 
 
@@ -39,16 +32,13 @@ def test_a_part_is_decided_by_the_soundest_model_that_can_tell(answers):
     assert Check("it is so", *answers).verdict == expected
 
 
-@pytest.mark.parametrize(
-    ("sound", "weight", "verdict"),
-    [
-        (True, sheet.PUT_IN, "follows from the assumption"),
-        (True, sheet.OPEN, "undecided"),
-        (False, sheet.OPEN, "undecided"),
-        (False, sheet.PUT_IN, "does not hold"),
-        (True, sheet.FAR, "holds"),
-    ],
-)
+@pytest.mark.parametrize(("sound", "weight", "verdict"), [
+    (True, sheet.PUT_IN, "follows from the assumption"),
+    (True, sheet.OPEN, "undecided"),
+    (False, sheet.OPEN, "undecided"),
+    (False, sheet.PUT_IN, "does not hold"),
+    (True, sheet.FAR, "holds"),
+])  # fmt: skip
 def test_a_turn_softens_the_verdict(sound, weight, verdict):
     turned = sheet.Turn("another law", "it is otherwise", not sound, weight)
     kept = sheet.Turn("another start", "it is the same", sound, weight)
@@ -70,9 +60,8 @@ def test_a_claim_is_as_good_as_its_worst_part():
     assert claim_of(good, faulty, bad).verdict == "does not hold"
     assert claim_of(open_).verdict == "cannot be checked"
     assert "(other parts: 1 holds, 1 holds only with fault)" in claim_of(good, faulty, bad).reason
-    undecided = Check(
-        "open", True, True, False, turns=[sheet.Turn("a change", "x", True, sheet.OPEN)]
-    )
+    turn = sheet.Turn("a change", "x", True, sheet.OPEN)
+    undecided = Check("open", True, True, False, turns=[turn])
     assert claim_of(faulty, undecided).verdict == "undecided"
     assert claim_of(good, bad).reason.startswith("bad (as printed: no")
 
@@ -134,16 +123,17 @@ def test_figures_of_a_known_motion():
     unseen = figures(motion, visible=0.1)
     assert math.isnan(unseen["oscillations"])
     # of several the mean of those that have it
-    assert figures(motion, motion.between(4.5))["slip_share"] == pytest.approx(
-        0.5 * (0.8 + 5 / 5.5)
-    )
+    both = figures(motion, motion.between(4.5))
+    assert both["slip_share"] == pytest.approx(0.5 * (0.8 + 5 / 5.5))
     assert figures(motion, motion.between(6.0))["stick_duration"] == pytest.approx(1.0)
 
 
 def test_ids():
-    assert claim_ids(["c14", "C2", "C2"]) == ("C2", "C14") and len(claim_ids([])) == 18
-    with pytest.raises(UnknownClaim, match="claim 'C19': unknown, allowed are C1 to C18"):
-        claim_ids(["C1", "C19"])
+    assert reproduction.claim_ids(["c14", "C2", "C2"]) == ("C2", "C14")
+    assert len(reproduction.claim_ids([])) == 18
+    said = "claim 'C19': unknown, allowed are C1 to C18"
+    with pytest.raises(reproduction.UnknownClaim, match=said):
+        reproduction.claim_ids(["C1", "C19"])
 
 
 @pytest.fixture(scope="module")

@@ -4,22 +4,15 @@ import math
 
 import pytest
 
+from cosim.studies.reproduction import readings
 from cosim.studies.reproduction.attributions import as_data, attribution
-from cosim.studies.reproduction.readings import (
-    AS_PRINTED,
-    BALANCED,
-    MARKS,
-    READINGS,
-    ROUNDED,
-    met,
-    outcome,
-)
+from cosim.studies.reproduction.readings import AS_PRINTED, BALANCED, met, outcome
 
 ONSET = "turned_by_1deg_after_s"
 
 
 def reading(start: str):
-    return next(one for one in READINGS if one.name.startswith(start))
+    return next(one for one in readings.READINGS if one.name.startswith(start))
 
 
 def test_as_printed_gives_dataset_1_and_not_dataset_2():
@@ -61,12 +54,12 @@ def test_the_rotation_does_not_need_f2_where_switching_is_clean():
 
 
 def test_what_is_said_follows_from_the_figures():
-    values = tuple(0.5 * (mark["low"] + mark["high"]) for mark in MARKS)
+    values = tuple(0.5 * (mark["low"] + mark["high"]) for mark in readings.MARKS)
     row = {"values": values, "met": met(values), ONSET: 8.0}
-    of = [row | {"reading": one.name} for one in (AS_PRINTED, ROUNDED, BALANCED)]
+    of = [row | {"reading": one.name} for one in (AS_PRINTED, readings.ROUNDED, BALANCED)]
     bears = {"reading": "as printed", "rotates": True, "without": {"F2": 0.1, "F13": 50.0}}
     found = as_data(of, [bears | {"one_spring_explains": True, "both": True}])
     assert found["found"] and found["says"].startswith("A reading")
     assert "mending F2 ends that in 1 of them, mending F13 in 0" in found["bears"]
     assert "1 of 1. C7" in found["bears"]
-    assert met((0.0,) * len(MARKS)) == (False,) * len(MARKS)
+    assert met((0.0,) * len(readings.MARKS)) == (False,) * len(readings.MARKS)

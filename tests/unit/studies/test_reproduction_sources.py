@@ -1,7 +1,5 @@
 """The study's column: every number stands in the study's text, in the section that is named."""
 
-from __future__ import annotations
-
 import re
 
 import pytest

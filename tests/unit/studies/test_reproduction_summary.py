@@ -1,7 +1,5 @@
 """Runs of which only figures are known: figures of a motion, ranges, distances, small campaigns."""
 
-from __future__ import annotations
-
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,17 +9,9 @@ import pytest
 from cosim.gap.data import Campaign, MeasuredRun, read_campaign
 from cosim.gap.data.campaign_file import Rig
 from cosim.studies.reproduction.motion import Motion
-from cosim.studies.reproduction.summary import find, find_summary_gap
+from cosim.studies.reproduction.summary import find, find_summary_gap, models
 from cosim.studies.reproduction.summary.draws import Draws, Target, observations, predict
-from cosim.studies.reproduction.summary.models import (
-    Candidate,
-    Span,
-    extensions,
-    figures,
-    motion_of,
-    not_felt,
-    plain_candidate,
-)
+from cosim.studies.reproduction.summary.models import extensions, figures, plain_candidate
 
 FRICTION = {"friction.mu_s": 0.3, "friction.mu_k": 0.2}
 SDS = {"mean_x": 5e-4, "frequency": 0.02, "slip_share": 0.01, "amplitude_x": 5e-4}
@@ -34,7 +24,7 @@ def campaign(values=FRICTION, sds=SDS, points=POINTS) -> Campaign:
     runs = []
     for number, (speed, mass, stiffness) in enumerate(points, 1):
         run = MeasuredRun(f"run {number}", None, mass, stiffness, speed, -8.0, False)
-        seen = figures(motion_of(empty, run, values, None))
+        seen = figures(models.motion_of(empty, run, values, None))
         runs.append(replace(run, summary={name: (seen[name], sd) for name, sd in sds.items()}))
     return replace(empty, runs=tuple(runs))
 
@@ -56,17 +46,17 @@ def test_figures_of_a_swing(amplitude, frequency):
 
 
 def test_a_known_number_is_spread_as_it_is_known():
-    span = Span("a.b", 0.15, 0.45, prior=(0.3, 0.05))
+    span = models.Span("a.b", 0.15, 0.45, prior=(0.3, 0.05))
     drawn = np.array([span.at(share) for share in np.linspace(0.0005, 0.9995, 1000)])
     assert drawn.std() == pytest.approx(0.05, rel=0.02)  # cut at three standard deviations
-    assert Candidate((), "", (span,)).surprise({"a.b": 0.4}) == pytest.approx(4.0)
+    assert models.Candidate((), "", (span,)).surprise({"a.b": 0.4}) == pytest.approx(4.0)
 
 
 def test_every_effect_of_the_catalogue_is_tried_or_left_out_for_a_reason():
     study = read_campaign(Path(__file__).parents[3] / "cosim/gap/campaigns/study.toml")
     tried = {candidate.effects[-1] for candidate in extensions(study, plain_candidate(study))}
-    assert len(tried | set(not_felt(study))) == 14
-    assert not tried & set(not_felt(study))
+    assert len(tried | set(models.not_felt(study))) == 14
+    assert not tried & set(models.not_felt(study))
 
 
 def test_an_effect_that_is_off_leaves_the_plain_model():
@@ -81,7 +71,9 @@ def test_an_effect_that_is_off_leaves_the_plain_model():
 def drawn(target: Target, *rows: list[float]) -> Draws:
     """A draw for each row: its figure, seed by seed."""
     none = np.zeros(len(rows))
-    return Draws(Candidate((), "", ()), target, none[:, None], none, np.array(rows)[:, :, None])
+    return Draws(
+        models.Candidate((), "", ()), target, none[:, None], none, np.array(rows)[:, :, None]
+    )
 
 
 def test_misfit_is_of_distance_and_of_scatter():
@@ -112,11 +104,11 @@ def test_nothing_is_missing_where_nothing_is_and_the_same_seed_says_the_same():
 @pytest.mark.slow
 def test_an_effect_is_found_in_figures_of_the_exact_model(monkeypatch):
     few = ("static_strengthening", "film_drag", "spring_hardening")  # all fourteen take long
-    monkeypatch.setattr(
-        find,
-        "extensions",
-        lambda *args: tuple(w for w in extensions(*args) if w.effects[-1] in few),
-    )
+
+    def chosen(*args):
+        return tuple(each for each in extensions(*args) if each.effects[-1] in few)
+
+    monkeypatch.setattr(find, "extensions", chosen)
     hidden = FRICTION | {"static_strengthening.rate": 0.08}
     one = campaign(hidden, points=[*POINTS, (0.15, 2.0, 68.0)])
     answer = find_summary_gap(one, seed=1)

@@ -7,10 +7,9 @@ import pytest
 
 from cosim import read_scenario
 from cosim.report.style import shown
-from cosim.studies.stability import maps, study
+from cosim.studies.stability import maps, range_sentence, study
 from cosim.studies.stability.figures import draw_range, draw_regime_map
 from cosim.studies.stability.maps import PretensionMap
-from cosim.studies.stability.study import range_sentence
 
 PARAMETERS = read_scenario("study").mechanics
 CASE = SimpleNamespace(name="known", parameters=PARAMETERS, interface=None)

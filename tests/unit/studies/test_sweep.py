@@ -187,24 +187,21 @@ def test_errors_of_the_program_are_recorded_and_tried_again(tmp_path, monkeypatc
     assert (sweep(BASE, VARY, **SHORT, folder=tmp_path).status == 0).all()
 
 
-@pytest.mark.parametrize(
-    "vary, line",
-    [
-        ({}, "nothing is varied"),
-        ({"rig.mas": [1.0]}, "rig.mas: no such key of a scenario, nearest: rig.mass"),
-        ({"ambient.temperature_degC": [1.0]}, "is no key of the mechanics, allowed with a "),
-        ({"rig.mass": []}, "rig.mass: no values, allowed is at least one"),
-        ({"rig.mass": 1.0}, r"rig.mass: not a list \(1.0\)"),
-        ({"rig.mass": [1.0, 1]}, "rig.mass: 1 is there twice"),
-        ({"rig.mass": [1.0, "heavy"]}, r'rig.mass: not a number \("heavy"\), allowed is a number'),
-        ({"rig.mass": [1.0, -2.0]}, r"rig.mass: out of range \(-2.0\), allowed .* greater than 0"),
-        ({"rig.mass": [1.0], ("rig.mass", "surface.speed"): [(2.0, 1.0)]}, "rig.mass: varied"),
-        ({("rig.mass", "rig.mass"): [(1.0, 1.0)]}, "links a key with itself"),
-        ({("rig.mass", "surface.speed"): [(1.0,)]}, "not one value for each linked key"),
-        ({"rig.surface": ["slab"], "rig.slab_radius": [0.5, 0.01]}, "rig.slab_radius: 0.01 m puts"),
-        ({"rig.mass": np.arange(1, 2001), "surface.speed": np.arange(2000)}, "^4000000 combi"),
-    ],
-)
+@pytest.mark.parametrize("vary, line", [
+    ({}, "nothing is varied"),
+    ({"rig.mas": [1.0]}, "rig.mas: no such key of a scenario, nearest: rig.mass"),
+    ({"ambient.temperature_degC": [1.0]}, "is no key of the mechanics, allowed with a "),
+    ({"rig.mass": []}, "rig.mass: no values, allowed is at least one"),
+    ({"rig.mass": 1.0}, r"rig.mass: not a list \(1.0\)"),
+    ({"rig.mass": [1.0, 1]}, "rig.mass: 1 is there twice"),
+    ({"rig.mass": [1.0, "heavy"]}, r'rig.mass: not a number \("heavy"\), allowed is a number'),
+    ({"rig.mass": [1.0, -2.0]}, r"rig.mass: out of range \(-2.0\), allowed .* greater than 0"),
+    ({"rig.mass": [1.0], ("rig.mass", "surface.speed"): [(2.0, 1.0)]}, "rig.mass: varied"),
+    ({("rig.mass", "rig.mass"): [(1.0, 1.0)]}, "links a key with itself"),
+    ({("rig.mass", "surface.speed"): [(1.0,)]}, "not one value for each linked key"),
+    ({"rig.surface": ["slab"], "rig.slab_radius": [0.5, 0.01]}, "rig.slab_radius: 0.01 m puts"),
+    ({"rig.mass": np.arange(1, 2001), "surface.speed": np.arange(2000)}, "^4000000 combi"),
+])  # fmt: skip
 def test_bad_input_is_refused_in_one_line_before_anything_runs(tmp_path, computed, vary, line):
     with pytest.raises(SweepError, match=line) as refusal:
         sweep(BASE, vary, **SHORT, folder=tmp_path / "none")

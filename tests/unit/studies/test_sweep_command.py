@@ -30,37 +30,28 @@ def case(tmp_path):
     return file
 
 
-@pytest.mark.parametrize(
-    "text, values",
-    [
-        ("a.b= 1e-1 , .5,2,-0.1", [0.1, 0.5, 2, -0.1]),
-        ("a.b=disc,'ring',0.1", ["disc", "ring", 0.1]),
-        ('a.b=[x],["x", phi]', [("x",), ("x", "phi")]),
-        ("a.b=[],[0,1]", [(), (0, 1)]),
-        ("a.b=true,false,'true'", [True, False, "true"]),
-        (
-            "a.b=[{thickness=1e-3, density=700}],[]",
-            [({"thickness": 1e-3, "density": 700},), ()],
-        ),
-    ],
-)
+@pytest.mark.parametrize("text, values", [
+    ("a.b= 1e-1 , .5,2,-0.1", [0.1, 0.5, 2, -0.1]),
+    ("a.b=disc,'ring',0.1", ["disc", "ring", 0.1]),
+    ('a.b=[x],["x", phi]', [("x",), ("x", "phi")]),
+    ("a.b=[],[0,1]", [(), (0, 1)]),
+    ("a.b=true,false,'true'", [True, False, "true"]),
+    ("a.b=[{thickness=1e-3, density=700}],[]", [({"thickness": 1e-3, "density": 700},), ()]),
+])  # fmt: skip
 def test_text_to_values(text, values):
     """As TOML has them, and words without quotation marks."""
     assert parse_vary([text]) == {("a.b",): values}
 
 
-@pytest.mark.parametrize(
-    "texts, line",
-    [
-        (["rig.mass"], "--vary rig.mass: not a key with values, allowed is key=v1,v2"),
-        (["=1"], "--vary =1: not a key with values"),
-        (["rig.mass="], "--vary rig.mass=: no values"),
-        (["rig.mass=1,,2"], "an empty value is not a value"),
-        (["a+b=1:2,3"], "--vary a.b=1:2,3: 3 is not 2 values for the linked keys"),
-        (["a=[1,2"], "a bracket or a quotation mark is not closed"),
-        (["rig.mass=1", "rig.mass=2"], "--vary rig.mass: varied twice"),
-    ],
-)
+@pytest.mark.parametrize("texts, line", [
+    (["rig.mass"], "--vary rig.mass: not a key with values, allowed is key=v1,v2"),
+    (["=1"], "--vary =1: not a key with values"),
+    (["rig.mass="], "--vary rig.mass=: no values"),
+    (["rig.mass=1,,2"], "an empty value is not a value"),
+    (["a+b=1:2,3"], "--vary a.b=1:2,3: 3 is not 2 values for the linked keys"),
+    (["a=[1,2"], "a bracket or a quotation mark is not closed"),
+    (["rig.mass=1", "rig.mass=2"], "--vary rig.mass: varied twice"),
+])  # fmt: skip
 def test_text_that_is_refused(texts, line):
     with pytest.raises(SweepError, match=line):
         parse_vary(texts)

@@ -32,12 +32,9 @@ def coulomb():
     """The Coulomb oscillator, begun where it re-sticks: in its cycle from the start."""
     straight = Rig(mass=MASS, degrees_of_freedom=("x",), spring_length=0.2)
     case = Parameters(
-        rig=straight,
-        springs=Springs(stiffness=STIFFNESS),
-        friction=Friction(mu_s=MU_S, mu_k=MU_K),
-        surface=Surface(speed=SPEED),
-        initial=Initial(x=MIDDLE - JUMP, vx=SPEED),
-    )
+        rig=straight, springs=Springs(stiffness=STIFFNESS), friction=Friction(mu_s=MU_S, mu_k=MU_K),
+        surface=Surface(speed=SPEED), initial=Initial(x=MIDDLE - JUMP, vx=SPEED),
+    )  # fmt: skip
     return numbers_of(simulate(case, 60.0, 0.01))
 
 
@@ -47,25 +44,22 @@ def test_every_feature_is_there_with_unit_and_words(coulomb):
     assert all(one.unit and one.long_name for one in FEATURES.values())
 
 
-@pytest.mark.parametrize(
-    "name, value, error",
-    [
-        # located events and cubics through positions and velocities: far below a row's distance
-        ("slip_time", SLIP, 1e-9),
-        ("x_max", MIDDLE + SWING, 1e-7),
-        ("x_min", MIDDLE - SWING, 1e-7),
-        # by the mean period: located events, whatever the window cuts off
-        ("frequency", 1.0 / (SLIP + STICK), 1e-9),
-        ("slip_share", SLIP / (SLIP + STICK), 0.5 / 60.0),
-        ("x_mean", MIDDLE, 2e-4),
-        # the force jumps at re-stick: a row's mean is first order
-        ("kinetic_coefficient", MU_K, 1e-12),
-        ("friction_coefficient", MU_K, 2e-3),
-        ("phi_max", 0.0, 0.0),
-        ("y_mean", 0.0, 0.0),
-        ("energy_residual", 0.0, 1e-9),
-    ],
-)
+@pytest.mark.parametrize("name, value, error", [
+    # located events and cubics through positions and velocities: far below a row's distance
+    ("slip_time", SLIP, 1e-9),
+    ("x_max", MIDDLE + SWING, 1e-7),
+    ("x_min", MIDDLE - SWING, 1e-7),
+    # by the mean period: located events, whatever the window cuts off
+    ("frequency", 1.0 / (SLIP + STICK), 1e-9),
+    ("slip_share", SLIP / (SLIP + STICK), 0.5 / 60.0),
+    ("x_mean", MIDDLE, 2e-4),
+    # the force jumps at re-stick: a row's mean is first order
+    ("kinetic_coefficient", MU_K, 1e-12),
+    ("friction_coefficient", MU_K, 2e-3),
+    ("phi_max", 0.0, 0.0),
+    ("y_mean", 0.0, 0.0),
+    ("energy_residual", 0.0, 1e-9),
+])  # fmt: skip
 def test_coulomb_oscillator(coulomb, name, value, error):
     assert coulomb[name] == pytest.approx(value, abs=error, rel=0.0)
 

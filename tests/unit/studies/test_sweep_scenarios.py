@@ -11,23 +11,17 @@ from stickslip.trajectory import counted_break_aways
 from cosim import Scenario, run_scenario
 from cosim.cli.studies import sweep as sweep_command
 from cosim.fmu.build import ensure_fmu
-from cosim.studies.sweep import SweepError, features, result, sweep
+from cosim.studies.sweep import SweepError, features, product_grid, result, sweep
 from cosim.studies.sweep.axis import parse_vary
-from cosim.studies.sweep.grid import product_grid
 
 LAYERS = [
     {"thickness": 1e-3, "density": 2400.0, "heat_capacity": 800.0, "conductivity": 1.5},
     {"thickness": 1e-3, "density": 1200.0, "heat_capacity": 1900.0, "conductivity": 0.2},
 ]
-SHORT = Scenario.from_tables(
-    {
-        "name": "short",
-        "rig": {"degrees_of_freedom": ["x"]},
-        "surface": {"speed": 0.15, "run_up_time": 0.2},
-        "run": {"duration": 1.0, "output_interval": 0.01},
-        "belt": {"layers": LAYERS, "length": 0.4},
-    }
-)
+SHORT = Scenario.from_tables(dict(
+    name="short", rig={"degrees_of_freedom": ["x"]}, belt={"layers": LAYERS, "length": 0.4},
+    surface={"speed": 0.15, "run_up_time": 0.2}, run={"duration": 1.0, "output_interval": 0.01},
+))  # fmt: skip
 
 
 @pytest.fixture(scope="module")
@@ -91,38 +85,32 @@ def test_scenarios_that_differ_in_heat_are_run_coupled():
         product_grid([SHORT, SHORT], {})
 
 
-@pytest.mark.parametrize(
-    ("vary", "coupled"),
-    [
-        ({"run.duration": [0.5, 1.0]}, False),
-        ({"ambient.temperature_degC": [-8.0, -2.0]}, False),
-        ({"rig.degrees_of_freedom": [("x",), ("x", "y", "phi")]}, False),
-        ({"belt.layers": [LAYERS[:1], LAYERS]}, True),
-        ({"contact.conductance": [1e3, 1e4], "rig.mass": [0.5, 1.0]}, True),
-        ({"coupling.scheme": ["gauss_seidel", "jacobi"], "ice.height": [0.1]}, True),
-    ],
-)
+@pytest.mark.parametrize(("vary", "coupled"), [
+    ({"run.duration": [0.5, 1.0]}, False),
+    ({"ambient.temperature_degC": [-8.0, -2.0]}, False),
+    ({"rig.degrees_of_freedom": [("x",), ("x", "y", "phi")]}, False),
+    ({"belt.layers": [LAYERS[:1], LAYERS]}, True),
+    ({"contact.conductance": [1e3, 1e4], "rig.mass": [0.5, 1.0]}, True),
+    ({"coupling.scheme": ["gauss_seidel", "jacobi"], "ice.height": [0.1]}, True),
+])  # fmt: skip
 def test_any_key_may_be_varied(vary, coupled):
     grid = product_grid(SHORT, vary)
     assert grid.run.coupled is coupled
     assert len(set(grid.keys())) == len(grid)
 
 
-@pytest.mark.parametrize(
-    ("texts", "line"),
-    [
-        (["belt.lenth=1"], "belt.lenth: no such key of a scenario, nearest: belt.length"),
-        (["belt.layers[3].conductivity=1"], "the scenario has 2 of belt.layers, counted from 1"),
-        (["belt.layers[1].colour=1"], r"belt.layers\[1\].colour: no such key of a scenario"),
-        (["belt.layers[1].conductivity=-1"], r"belt.layers\[1\].conductivity: out of range"),
-        (["belt.layers=[{thickness=1e-3}]"], r"belt.layers\[1\].density: missing"),
-        (["belt.layers=[{thickness=1]"], "is no TOML|is not closed"),
-        (["ice.height=true"], "ice.height: not a number"),
-        (["run.duration=1e9"], "run.duration"),
-        (["belt.length=0.01"], "belt.length"),
-        (["coupling.scheme=seidel"], "coupling.scheme: not known"),
-    ],
-)
+@pytest.mark.parametrize(("texts", "line"), [
+    (["belt.lenth=1"], "belt.lenth: no such key of a scenario, nearest: belt.length"),
+    (["belt.layers[3].conductivity=1"], "the scenario has 2 of belt.layers, counted from 1"),
+    (["belt.layers[1].colour=1"], r"belt.layers\[1\].colour: no such key of a scenario"),
+    (["belt.layers[1].conductivity=-1"], r"belt.layers\[1\].conductivity: out of range"),
+    (["belt.layers=[{thickness=1e-3}]"], r"belt.layers\[1\].density: missing"),
+    (["belt.layers=[{thickness=1]"], "is no TOML|is not closed"),
+    (["ice.height=true"], "ice.height: not a number"),
+    (["run.duration=1e9"], "run.duration"),
+    (["belt.length=0.01"], "belt.length"),
+    (["coupling.scheme=seidel"], "coupling.scheme: not known"),
+])  # fmt: skip
 def test_what_cannot_be_is_refused_before_anything_runs(texts, line, monkeypatch):
     def never(*arguments, **options):
         raise AssertionError("nothing is to be run")

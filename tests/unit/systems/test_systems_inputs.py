@@ -55,20 +55,17 @@ def test_a_variable_of_a_unit_is_set_by_name(one, tmp_path, capsys):
     assert '"part.gain": 3' in capsys.readouterr().out
 
 
-@pytest.mark.parametrize(
-    ("setting", "said"),
-    [
-        ("two.u=1", "two.u: no unit is named 'two'"),
-        ("one.part.gian=1", "no variable of one is named 'part.gian'; nearest: 'part.gain'"),
-        ("one.u=[1, 2]", "one.u: not possible ([1, 2]), allowed is a number, true, false"),
-        ("one.u=nan", "one.u = nan: must be a finite number"),
-        ("one=1", "one: no unit"),
-        ("run.stop", "allowed is KEY=VALUE"),
-        ("run.stop=soon", 'run.stop: not a number ("soon")'),
-        ("units.one.file=x", "no unit is named 'units'"),
-        ("run.stopp=1", "run.stopp: no such key, nearest known: run.stop"),
-    ],
-)
+@pytest.mark.parametrize(("setting", "said"), [
+    ("two.u=1", "two.u: no unit is named 'two'"),
+    ("one.part.gian=1", "no variable of one is named 'part.gian'; nearest: 'part.gain'"),
+    ("one.u=[1, 2]", "one.u: not possible ([1, 2]), allowed is a number, true, false"),
+    ("one.u=nan", "one.u = nan: must be a finite number"),
+    ("one=1", "one: no unit"),
+    ("run.stop", "allowed is KEY=VALUE"),
+    ("run.stop=soon", 'run.stop: not a number ("soon")'),
+    ("units.one.file=x", "no unit is named 'units'"),
+    ("run.stopp=1", "run.stopp: no such key, nearest known: run.stop"),
+])  # fmt: skip
 def test_what_cannot_be_set_is_refused_in_a_line(one, setting, said, tmp_path, capsys):
     line = refusal(capsys, "couple", one(), "--set", setting, "-o", tmp_path / "out")
     assert said in line
@@ -103,21 +100,18 @@ def test_an_input_over_time_comes_from_a_table(one):
     assert ended(substeps) == pytest.approx(1.25, rel=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("more", "table", "said"),
-    [
-        ("", "t,u\n0,1\n", "line 1: its columns are t, u; allowed are time and then inputs"),
-        ("", "time,u,u\n0,1,1\n", "inputs, each once"),
-        ("", "time,v\n0,1\n", "no input of one is named 'v'"),
-        ("", "time,u\n0,1\n1,x\n", "line 3: u = 'x', allowed is a finite number"),
-        ("", "time,u\n0,1\n1,inf\n", "line 3: u = 'inf', allowed is a finite number"),
-        ("", "time,u\n0,1\n1\n", "line 3: has 1 cells, the header has 2"),
-        ("", "time,u\n1,1\n\n0,1\n", "line 4: the time goes back to 0 s"),
-        ("", "time,u\n", "has no rows"),
-        ("", "\0\xff", "drive.csv: "),
-        ("\ninputs = { u = 1.0 }", "time,u\n0,1\n", "one.u: is set, and a column of"),
-    ],
-)
+@pytest.mark.parametrize(("more", "table", "said"), [
+    ("", "t,u\n0,1\n", "line 1: its columns are t, u; allowed are time and then inputs"),
+    ("", "time,u,u\n0,1,1\n", "inputs, each once"),
+    ("", "time,v\n0,1\n", "no input of one is named 'v'"),
+    ("", "time,u\n0,1\n1,x\n", "line 3: u = 'x', allowed is a finite number"),
+    ("", "time,u\n0,1\n1,inf\n", "line 3: u = 'inf', allowed is a finite number"),
+    ("", "time,u\n0,1\n1\n", "line 3: has 1 cells, the header has 2"),
+    ("", "time,u\n1,1\n\n0,1\n", "line 4: the time goes back to 0 s"),
+    ("", "time,u\n", "has no rows"),
+    ("", "\0\xff", "drive.csv: "),
+    ("\ninputs = { u = 1.0 }", "time,u\n0,1\n", "one.u: is set, and a column of"),
+])  # fmt: skip
 def test_a_table_that_cannot_be_is_refused_in_a_line(one, more, table, said, tmp_path, capsys):
     path = one('input_file = "drive.csv"' + more, table)
     line = refusal(capsys, "couple", path, "-o", tmp_path / "out")
@@ -149,17 +143,13 @@ INTERFACE = (
 OTHER = '<{} modelIdentifier="events"/>'
 
 
-@pytest.mark.parametrize(
-    ("changes", "lines", "said"),
-    [
-        ({FIRST: FIRST + BINARY}, "inputs = { blob = 0 }", "unit.blob is a Binary, which is not"),
-        ({FIRST: FIRST + SIZED}, "parameters = { count = 3 }", "unit.count is a structural par"),
-        ({INTERFACE: OTHER.format("ScheduledExecution")}, "", "is for scheduled execution only"),
-        ({INTERFACE: OTHER.format("ModelExchange")}, "", "export it as one, with the solver"),
-        ({FIRST: FIRST + BINARY + SIZED}, "", None),
-    ],
-    ids=["binary", "structural", "scheduled", "exchange", "left alone"],
-)
+@pytest.mark.parametrize(("changes", "lines", "said"), [
+    ({FIRST: FIRST + BINARY}, "inputs = { blob = 0 }", "unit.blob is a Binary, which is not"),
+    ({FIRST: FIRST + SIZED}, "parameters = { count = 3 }", "unit.count is a structural par"),
+    ({INTERFACE: OTHER.format("ScheduledExecution")}, "", "is for scheduled execution only"),
+    ({INTERFACE: OTHER.format("ModelExchange")}, "", "export it as one, with the solver"),
+    ({FIRST: FIRST + BINARY + SIZED}, "", None),
+], ids=["binary", "structural", "scheduled", "exchange", "left alone"])  # fmt: skip
 def test_what_is_not_coupled_here_is_refused_by_its_name(tmp_path, changes, lines, said, capsys):
     """Variables of these kinds that nobody sets do no harm."""
     made("events", tmp_path, **changes)

@@ -12,23 +12,14 @@ from cosim.cli import main
 
 SEGFAULT, PRINTS, LOGS, LOGS_ERROR = 1, 6, 7, 8
 SYSTEM = """
-[units.calm]
-file = "faulty.fmu"
-[units.loud]
-file = "faulty.fmu"
-[units.loud.parameters]
-fault = {fault}
-at = 0.25
-[units.third]
-file = "faulty.fmu"
-[units.third.parameters]
-fault = {other}
-at = 0.5
-[coupling]
-macro_step = 0.25
-[run]
-stop = 1.0
-checkpoint_seconds = 0
+coupling.macro_step = 0.25
+run = {{ stop = 1.0, checkpoint_seconds = 0 }}
+[units]
+calm.file = "faulty.fmu"
+loud.file = "faulty.fmu"
+loud.parameters.fault = {fault}
+loud.parameters.at = 0.25
+third = {{ file = "faulty.fmu", parameters = {{ fault = {other}, at = 0.5 }} }}
 """
 
 
@@ -70,7 +61,7 @@ def test_messages_are_in_a_file_and_two_lines_say_so(system, tmp_path, capsys):
 
 
 def test_a_text_is_set_as_it_is(system, tmp_path):
-    told = ("at = 0.25\n", 'at = 2.0\ntext = "as it is"\n')
+    told = ("at = 0.25\n", 'at = 2.0\nloud.parameters.text = "as it is"\n')
     assert main(["couple", system(LOGS, told=told), "-o", str(tmp_path / "out")]) == 0
     assert ("", "loud", "warning", "texts", "as it is") in rows(tmp_path / "out")
 
@@ -89,7 +80,7 @@ def test_verbose_shows_them_and_asks_for_more(system, tmp_path, capsys):
 
 
 def test_what_an_isolated_unit_writes_is_in_it(system, tmp_path, capfd):
-    alone = ("[units.loud]\n", "[units.loud]\nisolate = true\n")
+    alone = ("loud.file", "loud.isolate = true\nloud.file")
     folder = tmp_path / "out"
     assert main(["couple", system(PRINTS, alone=alone), "-o", str(folder)]) == 0
     assert {row[1:] for row in rows(folder)} == {

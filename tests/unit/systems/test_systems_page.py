@@ -13,19 +13,11 @@ from cosim.systems.show.page import ways
 
 TIME = np.linspace(0.0, 1.0, 11)
 PAIR = """
-[units.rig]
-file = "rig.fmu"
-parameters."part.gain" = {gain}
-[units.other]
-file = "other.fmu"
-parameters.y = 1.0
-[[connections]]
-from = "other.y"
-to = "rig.u"
-[coupling]
-macro_step = 0.1
-[run]
-stop = 1.0
+connections = [{{ from = "other.y", to = "rig.u" }}]
+coupling.macro_step = 0.1
+run.stop = 1.0
+units.rig = {{ file = "rig.fmu", parameters = {{ "part.gain" = {gain} }} }}
+units.other = {{ file = "other.fmu", parameters.y = 1.0 }}
 """
 
 
@@ -46,13 +38,10 @@ def labels(described):
 
 def test_rounding_is_not_drawn_and_said_to_be_left_out():
     columns = over_time(
-        x=output(0.02 * TIME),
-        y=output(1e-17 * np.sin(9.0 * TIME)),
-        residual=output(1e-14 * TIME),
-        turn=output(1e-15 * TIME, "rad", nominal=0.1),
-        small=output(1e-9 * TIME, "rad"),
+        x=output(0.02 * TIME), y=output(1e-17 * np.sin(9.0 * TIME)), residual=output(1e-14 * TIME),
+        turn=output(1e-15 * TIME, "rad", nominal=0.1), small=output(1e-9 * TIME, "rad"),
         still=output(np.full(11, 3.0), "1"),
-    )
+    )  # fmt: skip
     drawn = signals(columns)
     assert labels(drawn) == ["a.x [mm]", "a.small [nrad]"]
     assert drawn.note == (
@@ -88,13 +77,10 @@ def pair(tmp_path):
     return run
 
 
-@pytest.mark.parametrize(
-    "port, says",
-    [
-        ("off_belt", "the block has left the belt"),
-        ("spring_overstretched", "a spring is longer than it can be"),
-    ],
-)
+@pytest.mark.parametrize("port, says", [
+    ("off_belt", "the block has left the belt"),
+    ("spring_overstretched", "a spring is longer than it can be"),
+])  # fmt: skip
 def test_a_run_that_left_its_rig_is_not_simply_complete(pair, port, says):
     numbers, page = pair(port)
     (found,) = numbers["beyond_rig"]
@@ -116,14 +102,11 @@ def test_a_sentence_a_picture_and_four_figures_come_first(pair):
     assert tiles.count("<b>") == 4
 
 
-@pytest.mark.parametrize(
-    "unit, start, end, low, high, way",
-    [
-        ("m", 0.0, 0.0094, -1.295e-5, 0.03148, "is between 0 and 31.5 mm"),
-        ("degC", -8.0, -7.937321, -8.0, -7.937321, "goes from −8 to −7.9373 °C"),
-        ("1", 0.0, 24123.4, 0.0, 24123.4, "goes from 0 to 24100"),
-    ],
-)
+@pytest.mark.parametrize("unit, start, end, low, high, way", [
+    ("m", 0.0, 0.0094, -1.295e-5, 0.03148, "is between 0 and 31.5 mm"),
+    ("degC", -8.0, -7.937321, -8.0, -7.937321, "goes from −8 to −7.9373 °C"),
+    ("1", 0.0, 24123.4, 0.0, 24123.4, "goes from 0 to 24100"),
+])  # fmt: skip
 def test_the_headline_has_digits_by_the_range_and_readable_units(unit, start, end, low, high, way):
     output = {"start": start, "end": end, "lowest": low, "highest": high, "unit": unit}
     numbers = {"outputs": {"a.x": output | {"rounding": False}}, "connections": []}

@@ -12,27 +12,12 @@ from cosim.coupling import FmuParticipant
 from cosim.coupling.exchange import Statistics
 
 LOOP = """
-[units.a]
-file = "a.fmu"
-[units.a.parameters]
-part.gain = 0.5
-part.rate = 1.0
-y = 1.0
-[units.b]
-file = "b.fmu"
-[units.b.parameters]
-part.gain = 3.0
-part.rate = 1.0
-[[connections]]
-from = "a.y"
-to = "b.u"
-[[connections]]
-from = "b.y"
-to = "a.u"
+connections = [{{ from = "a.y", to = "b.u" }}, {{ from = "b.y", to = "a.u" }}]
+run.stop = 1.0
+units.a = {{ file = "a.fmu", parameters = {{ part.gain = 0.5, part.rate = 1.0, y = 1.0 }} }}
+units.b = {{ file = "b.fmu", parameters = {{ part.gain = 3.0, part.rate = 1.0 }} }}
 [coupling]
 {coupling}
-[run]
-stop = 1.0
 """
 
 

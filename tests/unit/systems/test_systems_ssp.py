@@ -39,9 +39,8 @@ def component(name, source, inner="", **attributes):
 
 
 def connection(start, end, inner="", **attributes):
-    ends = zip(("start", "end"), (start, end), strict=True)
     text = ""
-    for side, place in ends:
+    for side, place in (("start", start), ("end", end)):
         element, _, port = place.rpartition(".")
         text += f' {side}Element="{element}"' if element else ""
         text += f' {side}Connector="{port}"'
@@ -77,6 +76,12 @@ def system(elements, connections="", before="", name="root"):
         f'<ssd:System name="{name}">{before}<ssd:Elements>{elements}</ssd:Elements>'
         f"<ssd:Connections>{connections}</ssd:Connections></ssd:System>"
     )
+
+
+def defined(name, base, after='<ssd:DefaultExperiment stopTime="0.5"/>'):
+    """Units of the file: one, and when the experiment ends."""
+    unit = f'<ssc:Unit name="{name}"><ssc:BaseUnit {base}/></ssc:Unit>'
+    return f"<ssd:Units>{unit}</ssd:Units>{after}"
 
 
 def structure(
@@ -157,18 +162,14 @@ def test_a_folder_of_the_same_contents(write, tmp_path):
 def test_connectors_of_nested_systems_pass_on(write):
     """a within two systems, b in another; a.y goes out of two borders and into one."""
     deep = system(
-        component("a", "a.fmu", values(real("u", 3.0))),
-        connection("a.y", "out"),
-        connectors(out=("output", "")),
-        "deep",
-    )
+        component("a", "a.fmu", values(real("u", 3.0))), connection("a.y", "out"),
+        connectors(out=("output", "")), "deep",
+    )  # fmt: skip
     left = system(deep, connection("deep.out", "out"), connectors(out=("output", "")), "left")
     right = system(
-        component("b", "b.fmu"),
-        connection("in", "b.u"),
-        connectors(**{"in": ("input", "")}),
+        component("b", "b.fmu"), connection("in", "b.u"), connectors(**{"in": ("input", "")}),
         "right",
-    )
+    )  # fmt: skip
     done = run(write(structure(system(left + right, connection("left.out", "right.in")))))
     assert set(done.assembly.system.participants) == {"left_deep_a", "right_b"}
     np.testing.assert_allclose(done.result["right_b.y"], ramps(done)[1], rtol=0, atol=1e-13)
@@ -178,11 +179,9 @@ def test_transformations_are_made_border_by_border(write):
     """u_b = 2 (3 y_a + 1) + 10 through two borders."""
     linear = '<ssc:LinearTransformation factor="{}" offset="{}"/>'.format
     left = system(
-        component("a", "a.fmu", values(real("u", 3.0))),
-        connection("a.y", "out", linear(3, 1)),
-        connectors(out=("output", "")),
-        "left",
-    )
+        component("a", "a.fmu", values(real("u", 3.0))), connection("a.y", "out", linear(3, 1)),
+        connectors(out=("output", "")), "left",
+    )  # fmt: skip
     to_b = connection("left.out", "b.u", linear(2, 10))
     done = run(write(structure(system(left + component("b", "b.fmu"), to_b))))
     result = done.result
@@ -199,15 +198,14 @@ def test_units_are_converted_unless_that_is_suppressed(write):
 
 
 def test_units_of_the_file_count_where_the_fmus_have_none(write):
-    units = """<ssd:Units><ssc:Unit name="km"><ssc:BaseUnit m="1" factor="1000"/></ssc:Unit>
-      <ssc:Unit name="m"><ssc:BaseUnit m="1"/></ssc:Unit></ssd:Units>"""
-    ssd = structure(system(BOTH, CHAIN), units + '<ssd:DefaultExperiment stopTime="0.5"/>')
-    before, after = ssd.split('<ssd:Component name="b"')
-    before = before.replace(
-        '"y" kind="output"><ssc:Real/>', '"y" kind="output"><ssc:Real unit="km"/>'
+    ssd = structure(system(BOTH, CHAIN), defined("km", 'm="1" factor="1000"'))
+    ssd = ssd.replace(
+        "</ssd:Units>", '<ssc:Unit name="m"><ssc:BaseUnit m="1"/></ssc:Unit></ssd:Units>'
     )
-    after = after.replace('"u" kind="input"><ssc:Real/>', '"u" kind="input"><ssc:Real unit="m"/>')
-    result = run(write(f'{before}<ssd:Component name="b"{after}')).result
+    a, b = ssd.split('<ssd:Component name="b"')
+    a = a.replace('"y" kind="output"><ssc:Real/>', '"y" kind="output"><ssc:Real unit="km"/>')
+    b = b.replace('"u" kind="input"><ssc:Real/>', '"u" kind="input"><ssc:Real unit="m"/>')
+    result = run(write(f'{a}<ssd:Component name="b"{b}')).result
     np.testing.assert_allclose(result["b.u"][1:], 1000.0 * result["a.y"][1:], rtol=1e-13)
 
 
@@ -248,28 +246,21 @@ def test_a_mapping_gives_one_value_to_several(write, inline):
 
 
 def test_a_value_is_converted_to_the_unit_of_its_variable(write):
-    units = (
-        '<ssd:Units><ssc:Unit name="mm"><ssc:BaseUnit m="1" factor="0.001"/></ssc:Unit></ssd:Units>'
-    )
-    ssd = structure(
-        system(component("a", "a.fmu", values(real("u", 3000.0, "mm"))) + component("b", "b.fmu")),
-        units + '<ssd:DefaultExperiment stopTime="0.5"/>',
-    )
-    done = run(write(ssd, (("m", ""), ("", ""))))
-    assert done.result["a.y"][-1] == pytest.approx(1.5, rel=1e-12)
+    a = component("a", "a.fmu", values(real("u", 3000.0, "mm")))
+    ssd = structure(system(a + component("b", "b.fmu")), defined("mm", 'm="1" factor="0.001"'))
     entry = '<ssm:MappingEntry source="u" target="u" suppressUnitConversion="true"/>'
     mapping = f'<ssm:ParameterMapping {SPACES} version="1.0">{entry}</ssm:ParameterMapping>'
     mapped = f"</ssd:ParameterValues><ssd:ParameterMapping>{mapping}</ssd:ParameterMapping>"
-    done = run(write(ssd.replace("</ssd:ParameterValues>", mapped), (("m", ""), ("", ""))))
-    assert done.result["a.y"][-1] == pytest.approx(1500.0, rel=1e-12)
+    for text, end in ((ssd, 1.5), (ssd.replace("</ssd:ParameterValues>", mapped), 1500.0)):
+        done = run(write(text, (("m", ""), ("", ""))))
+        assert done.result["a.y"][-1] == pytest.approx(end, rel=1e-12)
 
 
 def test_a_value_that_is_none_in_the_unit_of_its_variable_is_refused(write):
-    units = (
-        '<ssd:Units><ssc:Unit name="km"><ssc:BaseUnit m="1" factor="1000"/></ssc:Unit></ssd:Units>'
-    )
     a = component("a", "a.fmu", values(real("u", 1e308, "km")))
-    path = write(structure(system(a), units), (("m", ""), ("", "")))
+    path = write(
+        structure(system(a), defined("km", 'm="1" factor="1000"', "")), (("m", ""), ("", ""))
+    )
     with pytest.raises(SystemFault, match=r"a\.u: 1e\+308 km is not a finite number in m$"):
         run(path)
 
@@ -314,128 +305,72 @@ def test_the_step_of_other_masters_is_taken(write, annotation):
         assert bool(specification.remarks) is ("osp" in annotation)
 
 
-REFUSED = {
-    "model exchange": (
-        component("a", "a.fmu", implementation="ModelExchange"),
-        "component 'a' asks for ModelExchange, which is not done here; allowed is CoSimulation",
-    ),
-    "a type": (
-        component("a", "a.fmu", type="application/x-ssp-package"),
-        "component 'a' is of type application/x-ssp-package, allowed is",
-    ),
-    "a dictionary": (
-        '<ssd:SignalDictionaryReference name="bus" dictionary="d"/>',
-        "SignalDictionaryReference 'bus' in system 'root' is not done here",
-    ),
-    "no such file": (component("a", "c.fmu"), "has no resources/c.fmu, which its structure names"),
-    "no such variable": (
-        component("a", "a.fmu", values(real("gian", 1.0))),
-        "no variable of a is named 'gian'; nearest: 'gain'",
-    ),
-    "a computed one": (
-        component("a", "a.fmu", values(real("taken", 1.0))),
-        "a.taken: what it starts from cannot be set, of variables that are no parameter",
-    ),
-    "no number": (
-        component("a", "a.fmu", values(real("gain", "much"))),
-        "'gain' of the set 'set' is 'much', allowed is a finite number",
-    ),
-    "no number of a computer": (
-        component("a", "a.fmu", values(INTEGER.format("1" + 400 * "0"))),
-        "000', allowed is a finite number",
-    ),
-    "binary": (
-        component(
-            "a",
-            "a.fmu",
-            values('<ssv:Parameter name="gain"><ssv:Binary value="00"/></ssv:Parameter>'),
-        ),
-        "'gain' of the set 'set' is a Binary, which is not set here",
-    ),
-    "twice": (
-        component("a", "a.fmu") + component("a", "b.fmu"),
-        "system 'root' has two elements named 'a'",
-    ),
-    "no components": ("", "has no component"),
-}
+def only(*place, inner="", **attributes):
+    return structure(system(component(*place, inner, **attributes)))
 
 
-@pytest.mark.parametrize("case", REFUSED)
-def test_what_is_not_done_is_refused_by_name(write, case, capsys):
-    elements, message = REFUSED[case]
-    path = write(structure(system(elements)))
-    with pytest.raises((SystemFault, FmuError)) as refused:
-        run(path)
-    assert message in str(refused.value)
-    refusal(capsys, "couple", path)
+def gain(value):
+    return only("a", "a.fmu", inner=values(real("gain", value)))
 
 
-LINKS = {
-    "no element": (connection("c.y", "b.u"), "connection c.y -> b.u: no element is named 'c'"),
-    "no connector": (connection("a.yy", "b.u"), "no connector is named 'yy'; nearest: 'y'"),
-    "both give": (connection("a.y", "b.y"), "connection a.y -> b.y: both ends give"),
-    "twice": (CHAIN + CHAIN, "connection a.y -> b.u: b.u is fed twice"),
-    "a mapping": (
-        connection("a.y", "b.u", "<ssc:IntegerMappingTransformation/>"),
-        "connection a.y -> b.u: IntegerMappingTransformation is not done here",
-    ),
-    "a parameter": (
-        connection("a.y", "b.gain"),
-        "connection a.y -> b.gain: a parameter that another unit computes is not done here",
-    ),
-}
-
-
-@pytest.mark.parametrize("case", LINKS)
-def test_a_connection_that_cannot_be_is_refused_by_name(write, case):
-    ends, message = LINKS[case]
-    with pytest.raises((SystemFault, CouplingError)) as refusal:
-        run(write(structure(system(BOTH, ends))))
-    assert message in str(refusal.value)
-
-
-@pytest.mark.parametrize(
-    "base, message",
-    [
-        ('m="1" factor="0"', "unit 'km' has factor = 0"),
-        ('m="one"', "BaseUnit has m = 'one', allowed is a finite number"),
-    ],
-)
-def test_a_unit_that_makes_no_sense_is_refused(write, base, message):
-    units = f'<ssd:Units><ssc:Unit name="km"><ssc:BaseUnit {base}/></ssc:Unit></ssd:Units>'
-    with pytest.raises(SystemFault, match=message):
-        run(write(structure(system(BOTH, CHAIN), units)))
-
-
-@pytest.mark.parametrize(
-    ("what", "said"),
-    [
-        ("<ssc:String/>", "is a String, which"),
-        ('<ssc:Real/><ssc:Dimension size="3"/>', "is an array, which"),
-    ],
-)
-def test_strings_and_arrays_are_not_coupled(write, what, said):
-    text = IN_A_ROW.replace('"y" kind="output"><ssc:Real/>', f'"y" kind="output">{what}')
-    with pytest.raises(SystemFault, match=f"connector a.y {said} is not coupled here"):
-        run(write(text))
+def linked(*ends):
+    return structure(system(BOTH, "".join(ends)))
 
 
 ENTITIES = '<?xml version="1.0"?><!DOCTYPE x [<!ENTITY e SYSTEM "file:///etc/passwd">]>'
+OUTPUT = '"y" kind="output">'
+#: What is written, and words of what is said.
+REFUSED = [
+    (only("a", "a.fmu", implementation="ModelExchange"),
+     "component 'a' asks for ModelExchange, which is not done here; allowed is CoSimulation"),
+    (only("a", "a.fmu", type="application/x-ssp-package"),
+     "component 'a' is of type application/x-ssp-package, allowed is"),
+    (structure(system('<ssd:SignalDictionaryReference name="bus" dictionary="d"/>')),
+     "SignalDictionaryReference 'bus' in system 'root' is not done here"),
+    (only("a", "c.fmu"), "has no resources/c.fmu, which its structure names"),
+    (only("a", "a.fmu", inner=values(real("gian", 1.0))),
+     "no variable of a is named 'gian'; nearest: 'gain'"),
+    (only("a", "a.fmu", inner=values(real("taken", 1.0))),
+     "a.taken: what it starts from cannot be set, of variables that are no parameter"),
+    (gain("much"), "'gain' of the set 'set' is 'much', allowed is a finite number"),
+    # of more digits than a number of a computer has
+    (only("a", "a.fmu", inner=values(INTEGER.format("1" + 400 * "0"))),
+     "000', allowed is a finite number"),
+    (gain("00").replace("ssv:Real", "ssv:Binary"),
+     "'gain' of the set 'set' is a Binary, which is not set here"),
+    (structure(system(component("a", "a.fmu") + component("a", "b.fmu"))),
+     "system 'root' has two elements named 'a'"),
+    (structure(system("")), "has no component"),
+    (linked(connection("c.y", "b.u")), "connection c.y -> b.u: no element is named 'c'"),
+    (linked(connection("a.yy", "b.u")), "no connector is named 'yy'; nearest: 'y'"),
+    (linked(connection("a.y", "b.y")), "connection a.y -> b.y: both ends give"),
+    (linked(CHAIN, CHAIN), "connection a.y -> b.u: b.u is fed twice"),
+    (linked(connection("a.y", "b.u", "<ssc:IntegerMappingTransformation/>")),
+     "connection a.y -> b.u: IntegerMappingTransformation is not done here"),
+    (linked(connection("a.y", "b.gain")),
+     "connection a.y -> b.gain: a parameter that another unit computes is not done here"),
+    (structure(system(BOTH, CHAIN), defined("km", 'm="1" factor="0"', "")),
+     "unit 'km' has factor = 0"),
+    (structure(system(BOTH, CHAIN), defined("km", 'm="one"', "")),
+     "BaseUnit has m = 'one', allowed is a finite number"),
+    (IN_A_ROW.replace(f"{OUTPUT}<ssc:Real/>", f"{OUTPUT}<ssc:String/>"),
+     "connector a.y is a String, which is not coupled here"),
+    (IN_A_ROW.replace(f"{OUTPUT}<ssc:Real/>", f'{OUTPUT}<ssc:Real/><ssc:Dimension size="3"/>'),
+     "connector a.y is an array, which is not coupled here"),
+    (ENTITIES + IN_A_ROW.replace('name="made"', 'name="&e;"'), "SystemStructure.ssd"),
+    (ENTITIES + IN_A_ROW, "has a document type"),
+    (IN_A_ROW.replace("resources/a.fmu", "../a.fmu"), "points outside"),
+    (IN_A_ROW.replace("resources/a.fmu", "http://a/b.fmu"), "is not in the pack"),
+]  # fmt: skip
 
 
-def test_entities_are_refused(write):
-    text = IN_A_ROW.replace('name="made"', 'name="&e;"')
-    with pytest.raises(SystemFault, match="SystemStructure.ssd"):
-        run(write(ENTITIES + text))
-    with pytest.raises(SystemFault, match="has a document type"):
-        run(write(ENTITIES + IN_A_ROW))
-
-
-def test_references_that_point_outside_are_refused(write):
-    text = IN_A_ROW
-    for source, said in (("../a.fmu", "points outside"), ("http://a/b.fmu", "is not in the pack")):
-        with pytest.raises(SystemFault, match=said):
-            run(write(text.replace("resources/a.fmu", source)))
+@pytest.mark.parametrize(("ssd", "says"), REFUSED, ids=[says for _, says in REFUSED])
+def test_what_is_not_done_is_refused_by_name(write, ssd, says, capsys):
+    path = write(ssd)
+    with pytest.raises((SystemFault, FmuError, CouplingError)) as refused:
+        run(path)
+    assert says in str(refused.value)
+    refusal(capsys, "couple", path)
 
 
 @pytest.mark.parametrize("content", [b"", b"PK", b"no archive", b"PK\x03\x04" + bytes(50)])

@@ -44,16 +44,12 @@ def test_substeps_that_cannot_be_are_refused(lag, value):
 
 
 ARRAYS = """
+coupling.macro_step = 0.5
+run.stop = 1.0
 [units.unit]
 file = "events.fmu"
-[units.unit.parameters]
-"p[1,2]" = 7.0
-[units.unit.inputs]
-"u[2]" = 10.0
-[coupling]
-macro_step = 0.5
-[run]
-stop = 1.0
+parameters = { "p[1,2]" = 7.0 }
+inputs = { "u[2]" = 10.0 }
 """
 
 

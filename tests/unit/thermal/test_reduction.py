@@ -58,13 +58,10 @@ def test_a_belt_with_few_elements_keeps_them_all():
     assert few.belt.face.size == 5
 
 
-@pytest.mark.parametrize(
-    ("belt", "key"),
-    [
-        ({"railing_length": 0.2, "railing_conductance": 10.0}, "belt.railing_length = 0.2"),
-        ({"rollers": 2}, "belt.rollers = 2"),
-    ],
-)
+@pytest.mark.parametrize(("belt", "key"), [
+    ({"railing_length": 0.2, "railing_conductance": 10.0}, "belt.railing_length = 0.2"),
+    ({"rollers": 2}, "belt.rollers = 2"),
+])  # fmt: skip
 def test_supports_are_refused(belt, key):
     with pytest.raises(ParameterError, match=key):
         reduce(ThermalParameters.checked({"belt": belt}))

@@ -37,18 +37,15 @@ def test_state_of_another_mesh_is_refused():
         BeltIceModel(COARSE).restore(BeltIceModel().state())
 
 
-@pytest.mark.parametrize(
-    ("step", "says"),
-    [
-        ((0.0, 0.1, 0.1), r"duration = 0 s must be positive"),
-        ((-1.0, 0.1, 0.1), "duration = -1 s"),
-        ((0.1, -0.1, 0.1), r"heat = -0\.1 J"),
-        ((math.nan, 0.1, 0.1), "duration = nan"),
-        ((0.1, math.inf, 0.1), "heat = inf"),
-        ((0.1, 0.1, math.nan), "displacement = nan"),
-        ((0.1, 0.1, -1e6), "more than 1000 loops"),
-    ],
-)
+@pytest.mark.parametrize(("step", "says"), [
+    ((0.0, 0.1, 0.1), r"duration = 0 s must be positive"),
+    ((-1.0, 0.1, 0.1), "duration = -1 s"),
+    ((0.1, -0.1, 0.1), r"heat = -0\.1 J"),
+    ((math.nan, 0.1, 0.1), "duration = nan"),
+    ((0.1, math.inf, 0.1), "heat = inf"),
+    ((0.1, 0.1, math.nan), "displacement = nan"),
+    ((0.1, 0.1, -1e6), "more than 1000 loops"),
+])  # fmt: skip
 def test_bad_steps_are_refused_and_leave_the_state(step, says):
     model = BeltIceModel(COARSE)
     before = model.state()

@@ -14,20 +14,11 @@ NO_ICE = Ice(conductivity=1e-9, heat_capacity=1e-3, air_heat_transfer=0.0)
 def test_frictional_half_spaces(steps, strips):
     """dT = 2 q sqrt(t/pi)/(e1 + e2), shares e_i/(e1 + e2): steel on rubber, 1e4 W/m2, 1 s."""
     parameters = ThermalParameters(
-        belt=Belt(
-            length=4.0,
-            width=2.0,
-            thickness=5e-3,
-            density=1100,
-            heat_capacity=1700,
-            conductivity=0.2,
-            air_heat_transfer=0.0,
-            cell_length=2e-3,
-            elements=10,
-        ),
+        belt=Belt(length=4.0, width=2.0, thickness=5e-3, density=1100, heat_capacity=1700,
+                  conductivity=0.2, air_heat_transfer=0.0, cell_length=2e-3, elements=10),
         ice=Ice(density=7836, heat_capacity=443, conductivity=48.9, air_heat_transfer=0.0),
         contact=Contact(radius=1.0, conductance=1e12, strips=strips),
-    )
+    )  # fmt: skip
     model = BeltIceModel(parameters)
     for _ in range(steps):
         model.step(1.0 / steps, 1e4 * model.footprint.area / steps, 0.0)
@@ -64,14 +55,10 @@ def test_one_pass_heats_the_belt_by_force_over_capacity(speed, macro_step):
 
 def ice_only(flux, macro_step, steps):
     """All heat into the ice: a belt that takes next to nothing."""
-    model = BeltIceModel(
-        ThermalParameters(
-            belt=Belt(
-                width=0.08, cell_length=0.02, conductivity=1e-9, density=1e-3, air_heat_transfer=0.0
-            ),
-            ice=Ice(air_heat_transfer=0.0, axial_elements=14, radial_elements=1),
-        )
-    )
+    nothing = {"conductivity": 1e-9, "density": 1e-3, "air_heat_transfer": 0.0}
+    belt = Belt(width=0.08, cell_length=0.02, **nothing)
+    ice = Ice(air_heat_transfer=0.0, axial_elements=14, radial_elements=1)
+    model = BeltIceModel(ThermalParameters(belt=belt, ice=ice))
     for _ in range(steps):
         model.step(macro_step, flux * model.footprint.area * macro_step, 0.0)
         yield model.outputs()

@@ -109,13 +109,10 @@ def left_after(speed, **belt):
     return model, model.belt.heat() / before
 
 
-@pytest.mark.parametrize(
-    "support",
-    [
-        {"railing_length": 0.12, "railing_conductance": 300.0},
-        {"rollers": 1, "roller_arc": 0.12, "roller_conductance": 300.0},
-    ],
-)
+@pytest.mark.parametrize("support", [
+    {"railing_length": 0.12, "railing_conductance": 300.0},
+    {"rollers": 1, "roller_arc": 0.12, "roller_conductance": 300.0},
+])  # fmt: skip
 def test_a_support_cools_what_runs_over_it(support):
     """A thin belt loses the part 1 - exp(-h l/(v c'')) of its heat on a support of length l."""
     speed = 0.2

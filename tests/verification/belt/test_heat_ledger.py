@@ -10,41 +10,23 @@ CLOSED = 1e-10
 SHORT = {"length": 0.3, "cell_length": 4e-3}
 CASES = {
     "rig": ThermalParameters(belt=Belt(**SHORT)),
-    "loop hardly longer than the contact": ThermalParameters(
-        belt=Belt(length=0.09, cell_length=3e-3)
-    ),
+    "loop hardly longer than the contact": ThermalParameters(belt=Belt(length=0.09,
+            cell_length=3e-3)),
     "near melting": ThermalParameters(ambient=Ambient(temperature_degC=-0.3), belt=Belt(**SHORT)),
-    "strong draught": ThermalParameters(
-        belt=Belt(air_heat_transfer=500.0, **SHORT), ice=Ice(air_heat_transfer=200.0)
-    ),
+    "strong draught": ThermalParameters(belt=Belt(air_heat_transfer=500.0, **SHORT),
+        ice=Ice(air_heat_transfer=200.0)),
     "poor contact": ThermalParameters(belt=Belt(**SHORT), contact=Contact(conductance=5.0)),
-    "perfect contact, wide belt": ThermalParameters(
-        belt=Belt(width=0.3, **SHORT), contact=Contact(conductance=1e12, strips=3)
-    ),
-    "layers, railing, rollers": ThermalParameters(
-        belt=Belt(
-            layers=(
-                Layer(thickness=3e-4, density=2600.0, heat_capacity=780.0, conductivity=2.0),
-                Layer(thickness=7e-4, density=500.0, heat_capacity=1300.0, conductivity=0.12),
-            ),
-            railing_length=0.1,
-            railing_conductance=200.0,
-            railing_friction=0.1,
-            railing_load=13.45,
-            railing_share=0.5,
-            rollers=2,
-            roller_arc=0.04,
-            roller_rise=0.7,
-            **SHORT,
-        )
-    ),
+    "perfect contact, wide belt": ThermalParameters(belt=Belt(width=0.3, **SHORT),
+        contact=Contact(conductance=1e12, strips=3)),
+    "layers, railing, rollers": ThermalParameters(belt=Belt(layers=(Layer(thickness=3e-4,
+                    density=2600.0, heat_capacity=780.0, conductivity=2.0),
+                Layer(thickness=7e-4, density=500.0, heat_capacity=1300.0, conductivity=0.12)),
+            railing_length=0.1, railing_conductance=200.0, railing_friction=0.1, railing_load=13.45,
+            railing_share=0.5, rollers=2, roller_arc=0.04, roller_rise=0.7, **SHORT)),
     "rectangle": ThermalParameters(belt=Belt(**SHORT), contact=Contact(radius=0.045, length=0.08)),
     "odd cells": ThermalParameters(belt=Belt(length=0.305, cell_length=5e-3)),
-}
-PASSES = dict.fromkeys(CASES, 12) | {
-    "loop hardly longer than the contact": 60,
-    "near melting": 25,
-}
+}  # fmt: skip
+PASSES = dict.fromkeys(CASES, 12) | {"loop hardly longer than the contact": 60, "near melting": 25}
 
 
 @pytest.mark.parametrize("case", CASES)

@@ -11,8 +11,7 @@ import pytest
 from scipy.integrate import quad
 from scipy.special import k0
 
-from thermal import Belt, BeltIceModel, Contact, Ice, ThermalParameters
-from thermal.steady_sliding import SteadySliding
+from thermal import Belt, BeltIceModel, Contact, Ice, SteadySliding, ThermalParameters
 
 HALF_LENGTH, PECLET = 2.5e-3, 0.5
 K, RHO, C = 0.5, 700.0, 840.0
@@ -42,17 +41,11 @@ def jaeger(x):
 def parameters(cell, elements=30):
     """A belt so thick and long that it is a half-space; uniform flux, no ice. Default material."""
     return ThermalParameters(
-        belt=Belt(
-            length=LOOP * HALF_LENGTH,
-            thickness=30.0 * HALF_LENGTH,
-            width=0.005,
-            air_heat_transfer=0.0,
-            cell_length=cell,
-            elements=elements,
-        ),
+        belt=Belt(length=LOOP * HALF_LENGTH, thickness=30.0 * HALF_LENGTH, width=0.005,
+                  air_heat_transfer=0.0, cell_length=cell, elements=elements),
         ice=Ice(conductivity=1e-9, heat_capacity=1e-3, air_heat_transfer=0.0),
         contact=Contact(radius=3e-3, length=2.0 * HALF_LENGTH, strips=1),
-    )
+    )  # fmt: skip
 
 
 def test_contact_frame_follows_jaeger():

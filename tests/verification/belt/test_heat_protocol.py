@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from thermal import Belt, BeltIceModel, Contact, ThermalParameters
-from thermal.steady_sliding import SteadySliding
+from thermal import Belt, BeltIceModel, Contact, SteadySliding, ThermalParameters
 
 FORCE = 0.3 * 1.371 * 9.81
 RAMP, RUN, STEP = 10.0, 20.0, 0.02
@@ -92,13 +91,9 @@ def test_another_film_leaves_the_temperatures_and_then_matters():
 def test_rises_are_the_sum_of_what_each_heat_makes():
     """Contact, railing and warm rollers; the doubt of the belt's length rests on it."""
     belt = Belt(
-        cell_length=4e-3,
-        railing_length=0.08,
-        railing_friction=0.1,
-        railing_load=13.0,
-        rollers=2,
+        cell_length=4e-3, railing_length=0.08, railing_friction=0.1, railing_load=13.0, rollers=2,
         roller_rise=0.4,
-    )
+    )  # fmt: skip
     sliding = SteadySliding(ThermalParameters(belt=belt), 0.5, FORCE)
     entries = []
     for force, railing, rollers in ((FORCE, 1, 1), (FORCE, 0, 0), (0.0, 1, 0), (0.0, 0, 1)):

@@ -3,17 +3,13 @@
 import numpy as np
 import pytest
 
-from thermal import Belt, BeltIceModel, Contact, Ice, ThermalParameters
-from thermal.steady_sliding import SteadySliding
+from thermal import Belt, BeltIceModel, Contact, Ice, SteadySliding, ThermalParameters
 
 LOAD, FRICTION, SHARE = 13.45, 0.1, 0.5  # N, 1, 1
 RAILING = {
-    "railing_length": 0.08,
-    "railing_friction": FRICTION,
-    "railing_load": LOAD,
-    "railing_share": SHARE,
-    "railing_conductance": 15.0,
-}
+    "railing_length": 0.08, "railing_friction": FRICTION, "railing_load": LOAD,
+    "railing_share": SHARE, "railing_conductance": 15.0,
+}  # fmt: skip
 ROLLERS = {"rollers": 2, "roller_arc": 0.1, "roller_conductance": 1000.0}
 #: Next to nothing crosses the contact.
 APART = Contact(conductance=1e-9)
@@ -40,14 +36,9 @@ def test_warm_rollers_warm_a_belt_that_conducts_well():
     """h_r A_r (T_r - T) = h A_open T for a belt of one temperature, no friction anywhere."""
     h, warm = 15.0, 2.0
     belt = Belt(
-        cell_length=4e-3,
-        conductivity=2e3,
-        air_heat_transfer=h,
-        roller_rise=warm,
-        rollers=2,
-        roller_arc=0.1,
-        roller_conductance=50.0,
-    )
+        cell_length=4e-3, conductivity=2e3, air_heat_transfer=h, roller_rise=warm, rollers=2,
+        roller_arc=0.1, roller_conductance=50.0,
+    )  # fmt: skip
     sliding = SteadySliding(ThermalParameters(belt=belt, contact=APART), 5.0, 0.0)
     state = sliding.settle()
     lane = sliding.footprint.lane

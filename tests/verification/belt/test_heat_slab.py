@@ -39,11 +39,8 @@ def between_nodes(belt, values, points):
     element = np.clip(np.searchsorted(nodes[::2], points, side="right") - 1, 0, nodes.size // 2 - 1)
     left, right = nodes[2 * element], nodes[2 * element + 2]
     s = (points - left) / (right - left)
-    return (
-        values[2 * element] * (1 - s) * (1 - 2 * s)
-        + values[2 * element + 1] * 4 * s * (1 - s)
-        + values[2 * element + 2] * s * (2 * s - 1)
-    )
+    left, middle, right = (values[2 * element + k] for k in range(3))
+    return left * (1 - s) * (1 - 2 * s) + middle * 4 * s * (1 - s) + right * s * (2 * s - 1)
 
 
 def test_finite_slab_under_constant_flux_and_order_in_l2():
@@ -51,13 +48,9 @@ def test_finite_slab_under_constant_flux_and_order_in_l2():
     flux, t = 1e3, 0.2
     points = (np.arange(4000) + 0.5) / 4000 * D
     n = np.arange(1, 60)[:, None]
-    series = np.sum(
-        np.exp(-ALPHA * (n * np.pi / D) ** 2 * t)
-        * 2
-        / (n * np.pi) ** 2
-        * np.cos(n * np.pi * points / D),
-        axis=0,
-    )
+    wave = n * np.pi / D
+    decayed = np.exp(-ALPHA * wave**2 * t) * 2 / (n * np.pi) ** 2
+    series = np.sum(decayed * np.cos(wave * points), axis=0)
     exact = flux * t / (RHO * C * D) + flux * D / K * ((3 * (1 - points / D) ** 2 - 1) / 6 - series)
     sizes, errors = [], []
     for elements in (3, 6, 12, 24):

@@ -4,15 +4,12 @@ import numpy as np
 import pytest
 from settled_belt import settle
 
-from thermal import Belt, BeltIceModel, NoSteadyState, ThermalParameters
-from thermal.steady_sliding import SteadySliding
+from thermal import Belt, BeltIceModel, NoSteadyState, SteadySliding, ThermalParameters
 
 SENSES = (
-    "belt_entry_temperature",
-    "belt_exit_temperature",
-    "ice_face_temperature",
+    "belt_entry_temperature", "belt_exit_temperature", "ice_face_temperature",
     "interface_temperature",
-)
+)  # fmt: skip
 
 
 def rises(model):
@@ -70,14 +67,11 @@ def test_ice_that_melts_for_ever_is_told():
         settle(BeltIceModel(), 0.01, 10.0, 1e-3)
 
 
-@pytest.mark.parametrize(
-    ("speed", "force", "says"),
-    [
-        (0.0, 4.0, "speed = 0 m/s must be above 0"),
-        (0.1, -1.0, "force = -1 N"),
-        (np.nan, 1.0, "speed = nan"),
-    ],
-)
+@pytest.mark.parametrize(("speed", "force", "says"), [
+    (0.0, 4.0, "speed = 0 m/s must be above 0"),
+    (0.1, -1.0, "force = -1 N"),
+    (np.nan, 1.0, "speed = nan"),
+])  # fmt: skip
 def test_steady_sliding_refuses_what_cannot_be(speed, force, says):
     with pytest.raises(ValueError, match=says):
         SteadySliding(ThermalParameters(), speed, force)

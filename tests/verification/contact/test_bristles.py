@@ -56,17 +56,14 @@ def by_scipy(times, **changes):
     return run.y[0]
 
 
-@pytest.mark.parametrize(
-    ("changes", "duration"),
-    [
-        ({}, 4.0),
-        ({"speed": 0.15, "start": 0.0, "mass": 2.0}, 4.0),
-        ({"speed": 0.02, "stiffness": 160.0, "transition_speed": 1e-3}, 4.0),
-        ({"presliding_distance": 2e-5, "transition_speed": 8e-3, "mass": 1.5}, 5.0),
-        ({"presliding_distance": 1e-4, "transition_exponent": 2.0, "speed": 0.1}, 5.0),
-        ({"bristle_damping": 0.1, "transition_exponent": 0.7}, 3.0),
-    ],
-)
+@pytest.mark.parametrize(("changes", "duration"), [
+    ({}, 4.0),
+    ({"speed": 0.15, "start": 0.0, "mass": 2.0}, 4.0),
+    ({"speed": 0.02, "stiffness": 160.0, "transition_speed": 1e-3}, 4.0),
+    ({"presliding_distance": 2e-5, "transition_speed": 8e-3, "mass": 1.5}, 5.0),
+    ({"presliding_distance": 1e-4, "transition_exponent": 2.0, "speed": 0.1}, 5.0),
+    ({"bristle_damping": 0.1, "transition_exponent": 0.7}, 3.0),
+])  # fmt: skip
 def test_the_motion_is_that_of_lugre(changes, duration):
     run = simulate(parameters(**changes), duration, 0.01)
     x = by_scipy(run.time, **changes)

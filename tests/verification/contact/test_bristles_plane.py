@@ -8,12 +8,7 @@ from stickslip import Parameters
 from stickslip.arrays import RunArrays
 from stickslip.catalogue import CATALOGUE
 from stickslip.kernel import layout
-from stickslip.kernel.bristles.law import (
-    bristle_energy,
-    set_bristle_friction,
-    set_sliding_shear,
-    storing_power,
-)
+from stickslip.kernel.bristles import law as bristles
 from stickslip.kernel.contact import scale_sliding
 from stickslip.kernel.friction.force import friction_in_slip
 
@@ -54,9 +49,9 @@ def test_in_steady_sliding_friction_is_the_disc_s(kappa, motion):
     p, u = rig(kappa).pack(), [0.0] * layout.U_SIZE
     u[layout.U_TEMPERATURE] = -8.0
     w, z = sliding(p, motion), [0.0] * layout.INSTANT
-    set_sliding_shear(p, u, z, w, 0)
+    bristles.set_sliding_shear(p, u, z, w, 0)
     w[SHEAR] = z[layout.SHEAR_X : layout.SHEAR_X + 3]
-    set_bristle_friction(p, u, w)
+    bristles.set_bristle_friction(p, u, w)
     found = w[FRICTION]
     speed = max(abs(motion[0]), abs(motion[1]), 0.04 * abs(motion[2]))
     assert np.abs(w[SHEARING]).max() < 1e-11 * speed
@@ -73,15 +68,15 @@ def test_a_small_shear_is_that_of_a_uniform_layer():
     w = sliding(p, (0.0, 0.0, 0.0))
     scale = np.array([1.0, kappa, kappa * a])
     w[SHEAR] = scale * shear
-    set_bristle_friction(p, u, w)
+    bristles.set_bristle_friction(p, u, w)
     expected = -stiffness * shear * np.array([1.0, kappa**2, 0.5 * (kappa * a) ** 2])
     np.testing.assert_allclose(w[FRICTION], expected, rtol=1e-12)
     z = w[layout.W_STATE :]
     energy = -0.5 * np.dot(expected, shear)
-    assert bristle_energy(p, z, 0) == pytest.approx(energy, rel=1e-12)
+    assert bristles.bristle_energy(p, z, 0) == pytest.approx(energy, rel=1e-12)
     w[SHEARING] = scale * np.array([1e-3, 2e-3, 0.05])
     power = -np.dot(expected, [1e-3, 2e-3, 0.05])
-    assert storing_power(p, w) == pytest.approx(power, rel=1e-12)
+    assert bristles.storing_power(p, w) == pytest.approx(power, rel=1e-12)
 
 
 def test_it_takes_up_more_than_it_gives_back():
@@ -93,9 +88,9 @@ def test_it_takes_up_more_than_it_gives_back():
         shear = draw.normal(size=3)
         shear *= least * draw.uniform(0.0, 0.6) / np.linalg.norm(shear)
         w[SHEAR] = shear
-        set_bristle_friction(p, u, w)
+        bristles.set_bristle_friction(p, u, w)
         power = np.dot(w[FRICTION], w[SLIDING])
-        assert -power - storing_power(p, w) > 0.0
+        assert -power - bristles.storing_power(p, w) > 0.0
 
 
 def without_elimination(p):
@@ -120,12 +115,10 @@ def places(p, u, times):
 def test_the_plane_s_motion_is_that_of_a_stiff_solver():
     """Slopes of the kernel by LSODA; and what it costs to leave the bristles out of fast slips."""
     tables = {
-        "rig": {"spring_natural_length": 0.17},
-        "springs": {"stiffness": 40.0},
-        "lateral_friction": {"ratio": 0.8},
-        "surface": {"speed": 0.05},
+        "rig": {"spring_natural_length": 0.17}, "springs": {"stiffness": 40.0},
+        "lateral_friction": {"ratio": 0.8}, "surface": {"speed": 0.05},
         "initial": {"x": 0.004, "y": 0.003, "phi": 0.1, "vx": 0.05},
-    }
+    }  # fmt: skip
     p, u = with_friction(Parameters(**tables), **BRISTLES).pack(), np.zeros(layout.U_SIZE)
     u[layout.U_SPEED], u[layout.U_TEMPERATURE] = 0.05, -8.0
     kernel, w = CATALOGUE.compiled, np.zeros(layout.W_SIZE)

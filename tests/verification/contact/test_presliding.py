@@ -43,12 +43,8 @@ def test_what_a_stick_that_creeps_shows():
     slid = SPEED * time - x
     lag = RATE * x
     power = STIFFNESS * x * lag
-    heat = (
-        STIFFNESS
-        * RATE
-        * (SPEED / RATE) ** 2
-        * (time + 2.0 * np.expm1(-RATE * time) / RATE - np.expm1(-2.0 * RATE * time) / (2.0 * RATE))
-    )
+    heat = time + 2.0 * np.expm1(-RATE * time) / RATE - np.expm1(-2.0 * RATE * time) / (2.0 * RATE)
+    heat *= STIFFNESS * RATE * (SPEED / RATE) ** 2
     assert not run["mode"][stick].any() and not run["slip_time"][stick].any()
     np.testing.assert_allclose(run["sliding_speed"][stick], lag, rtol=1e-10, atol=0)
     np.testing.assert_allclose(run["sliding_distance"][stick], slid, rtol=0, atol=1e-13)
@@ -96,28 +92,20 @@ def test_the_heat_of_a_creep_weakens_the_slip_after_it():
 PLANES = {
     "belt": {},
     "isotropic": {"lateral_friction": {"ratio": 1.0}},
-    "slab": {
-        "rig": {"surface": "slab", "slab_radius": 0.4},
-        "initial": {
-            "vx": 0.02 * (1.0 - 0.007 / 0.4),
-            "vy": 0.02 * -0.008 / 0.4,
-            "omega": 0.02 / 0.4,
-        },
-    },
+    "slab": {"rig": {"surface": "slab", "slab_radius": 0.4},
+             "initial": {"vx": 0.02 * (1.0 - 0.007 / 0.4), "vy": 0.02 * -0.008 / 0.4,
+                         "omega": 0.02 / 0.4}},
     "damped": {"structural_damping": {"coefficient": 3.0, "rotational": 0.01}},
     "guided": {"rig": {"degrees_of_freedom": ("x", "y")}},
-}
+}  # fmt: skip
 
 
 def in_the_plane(case: str, creep: float) -> Parameters:
     blocks = {
-        "rig": {"spring_natural_length": 0.17},
-        "springs": {"stiffness": 40.0},
-        "friction": {"mu_s": 0.5, "stick_creep": creep},
-        "lateral_friction": {"ratio": 0.6},
-        "surface": {"speed": 0.02},
-        "initial": {"x": -0.008, "y": 0.007, "phi": 0.1, "vx": 0.02},
-    }
+        "rig": {"spring_natural_length": 0.17}, "springs": {"stiffness": 40.0},
+        "friction": {"mu_s": 0.5, "stick_creep": creep}, "lateral_friction": {"ratio": 0.6},
+        "surface": {"speed": 0.02}, "initial": {"x": -0.008, "y": 0.007, "phi": 0.1, "vx": 0.02},
+    }  # fmt: skip
     for name, table in PLANES[case].items():
         blocks[name] = blocks.get(name, {}) | table
     return Parameters(**blocks)
@@ -190,17 +178,12 @@ def test_loads_that_change_at_every_step_do_not_tear_the_stick():
         assert abs(o[layout.O_ENERGY_RESIDUAL]) < 1e-12
         ends.append((o[layout.O_X], o[layout.O_HEAT]))
     c = CREEP / HOLD
-    exact = solve_ivp(
-        lambda t, y: [
-            SPEED - c * (STIFFNESS * y[0] + growth * t),
-            c * (STIFFNESS * y[0] + growth * t) ** 2,
-        ],
-        (0.0, 1.0),
-        [0.0, 0.0],
-        method="DOP853",
-        rtol=1e-13,
-        atol=1e-16,
-    ).y[:, -1]
-    errors = np.abs(np.array(ends) - exact)
+
+    def slopes(t, y):
+        load = STIFFNESS * y[0] + growth * t
+        return [SPEED - c * load, c * load**2]
+
+    exact = solve_ivp(slopes, (0.0, 1.0), [0.0, 0.0], method="DOP853", rtol=1e-13, atol=1e-16)
+    errors = np.abs(np.array(ends) - exact.y[:, -1])
     assert np.all(errors[1] < 1e-6)
     assert errors[0, 0] / errors[1, 0] == pytest.approx(4.0, rel=0.05)

@@ -18,30 +18,19 @@ from stickslip.kernel import layout
 def turning() -> Parameters:
     """mu_k = mu_s, wound up by its start so that it gives way turning as well as sliding."""
     return Parameters(
-        rig={"spring_natural_length": 0.17},
-        springs={"stiffness": 60.0},
-        friction={"mu_s": 0.3, "mu_k": 0.3},
-        lateral_friction={"ratio": 1.0},
-        surface={"speed": 0.02},
-        initial={"y": 0.004, "phi": 0.1, "vx": 0.02},
-    )
+        rig={"spring_natural_length": 0.17}, springs={"stiffness": 60.0},
+        friction={"mu_s": 0.3, "mu_k": 0.3}, lateral_friction={"ratio": 1.0},
+        surface={"speed": 0.02}, initial={"y": 0.004, "phi": 0.1, "vx": 0.02},
+    )  # fmt: skip
 
 
 def ageing(ratio: float) -> Parameters:
     return Parameters(
-        rig={"spring_natural_length": 0.17},
-        springs={"stiffness": 97.0},
-        surface={"speed": 0.011},
-        lateral_friction={"ratio": ratio},
-        initial={"y": 0.005, "phi": 0.1},
-        rate_and_state={
-            "direct": 0.0074,
-            "evolution": 0.016,
-            "distance": 1e-5,
-            "reference_speed": 3e-4,
-            "creep_speed": 1e-6,
-        },
-    )
+        rig={"spring_natural_length": 0.17}, springs={"stiffness": 97.0}, surface={"speed": 0.011},
+        lateral_friction={"ratio": ratio}, initial={"y": 0.005, "phi": 0.1},
+        rate_and_state={"direct": 0.0074, "evolution": 0.016, "distance": 1e-5,
+            "reference_speed": 3e-4, "creep_speed": 1e-6},
+    )  # fmt: skip
 
 
 def creep_from(memory, duration: float):
@@ -78,11 +67,8 @@ def radau(memory, begin, end: float) -> np.ndarray:
         force = w[layout.W_LOAD : layout.W_LOAD + 3] + w[layout.W_FRICTION : layout.W_FRICTION + 3]
         mean = w[layout.W_MEAN_SPEED]
         return [
-            *y[3:6],
-            *(force / inertia),
-            kernel.rate_and_state_age_rate(mean, y[6], distance),
-            mean,
-        ]
+            *y[3:6], *(force / inertia), kernel.rate_and_state_age_rate(mean, y[6], distance), mean,
+        ]  # fmt: skip
 
     start = np.array([*begin[layout.X : layout.X + 6], begin[layout.RATE_AND_STATE_AGE], 0.0])
     start[layout.VX - layout.X : 6] += 1e-9 * begin[layout.DIRECTION : layout.DIRECTION + 3] / scale

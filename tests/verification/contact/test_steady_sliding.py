@@ -50,39 +50,29 @@ def gradient(n, w) -> np.ndarray:
     """Of the mean local sliding speed with respect to the scaled motion n."""
     sliding = np.hypot(n[0], n[1])
     disc_friction(float(sliding), float(abs(n[2])), w)
-    return np.array(
-        [
-            w[layout.W_PAIR] * n[0] / sliding,
-            w[layout.W_PAIR] * n[1] / sliding,
-            w[layout.W_PAIR + 1] * np.sign(n[2]),
-        ]
-    )
+    return np.array([*(w[layout.W_PAIR] * n[:2] / sliding), w[layout.W_PAIR + 1] * np.sign(n[2])])
 
 
 def draw_rig(seed: int) -> dict:
     """A planar rig whose friction loses nothing on breaking away, or is weaker across."""
     draw = random.Random(f"rig {seed}")
     slides_quasi_steadily, mu = draw.random() < 0.5, draw.uniform(0.02, 0.6)
+    sizes = {
+        "mass": (0.2, 3.0),
+        "spring_natural_length": (0.14, 0.22),
+        "contact_radius": (0.01, 0.08),
+    }
+    start = {"x": 0.02, "y": 0.01, "phi": 0.2, "omega": 1.0}
     return dict(
-        rig={
-            "mass": draw.uniform(0.2, 3.0),
-            "spring_natural_length": draw.uniform(0.14, 0.22),
-            "contact_radius": draw.uniform(0.01, 0.08),
-        },
+        rig={name: draw.uniform(*ends) for name, ends in sizes.items()},
         springs={"stiffness": 10.0 ** draw.uniform(0.7, 2.5)},
-        friction={
-            "mu_s": mu,
-            "mu_k": mu * (draw.choice([1.0, 1.05]) if slides_quasi_steadily else 0.8),
-        },
+        friction=dict(
+            mu_s=mu, mu_k=mu * (draw.choice([1, 1.05]) if slides_quasi_steadily else 0.8)
+        ),
         lateral_friction={"ratio": 1.0 if slides_quasi_steadily else draw.uniform(0.05, 0.95)},
         turning_surface={"curvature": draw.choice([0.0, 0.0, 0.1, 2.0])},
         surface={"speed": 10.0 ** draw.uniform(-2.5, 0.0)},
-        initial={
-            "x": draw.uniform(-0.02, 0.02),
-            "y": draw.uniform(-0.01, 0.01),
-            "phi": draw.uniform(-0.2, 0.2),
-            "omega": draw.uniform(-1.0, 1.0),
-        },
+        initial={name: draw.uniform(-most, most) for name, most in start.items()},
         **_effects(draw.randrange(2**31)),
     )
 

@@ -11,16 +11,8 @@ import pytest
 from heated_block import ON_A_LINE, ORDER, coupled
 from part import Restorable
 
-from cosim import read_scenario
-from cosim.coupling import (
-    AdaptiveStep,
-    Connection,
-    Doubling,
-    GaussSeidel,
-    Tolerance,
-    outputs,
-    port_table,
-)
+from cosim import coupling, read_scenario
+from cosim.coupling import outputs, port_table
 
 RAMP, RUN, PAUSE, SPEED = 0.5, 1.0, 180.0, 3.0  # s, s, s, m/s
 LENGTHS = 2 * (RAMP, RUN, RAMP, PAUSE)
@@ -49,20 +41,17 @@ class Drive(Restorable):
 
 def belt(**how):
     result = coupled(
-        CASE,
-        GaussSeidel(("drive", *ORDER), "linear"),
-        Drive(),
-        links=[Connection("drive.speed", "mechanics.surface_speed")],
-        stop=float(KINKS[-1]),
-        events=KINKS[1:-1].tolist(),
-        **how,
-    )
+        CASE, coupling.GaussSeidel(("drive", *ORDER), "linear"), Drive(),
+        links=[coupling.Connection("drive.speed", "mechanics.surface_speed")],
+        stop=float(KINKS[-1]), events=KINKS[1:-1].tolist(), **how,
+    )  # fmt: skip
     assert result.status == "complete", result.reason
     return result
 
 
 def adaptive(tolerance):
-    return belt(control=AdaptiveStep(Doubling(Tolerance(tolerance)), 0.01, 1e-4, PAUSE))
+    estimate = coupling.Doubling(coupling.Tolerance(tolerance))
+    return belt(control=coupling.AdaptiveStep(estimate, 0.01, 1e-4, PAUSE))
 
 
 def errors(result, reference):

@@ -10,25 +10,14 @@ import numpy as np
 import pytest
 from part import Restorable
 
-from cosim.coupling import (
-    Aitken,
-    Connection,
-    CoupledSystem,
-    GaussSeidel,
-    Iterated,
-    Jacobi,
-    QuasiNewton,
-    inputs,
-    outputs,
-    port_table,
-    run,
-)
+from cosim import coupling
+from cosim.coupling import Connection, CoupledSystem, GaussSeidel, Iterated, Jacobi, run
 
 
 class Friction(Restorable):
     """Power mu0 (1 - beta T) N v of a contact, which follows its temperature at once."""
 
-    name, ports = "friction", port_table(inputs(T="K") + outputs(P="W"))
+    name, ports = "friction", coupling.port_table(coupling.inputs(T="K") + coupling.outputs(P="W"))
 
     def __init__(self, mu, beta, load, speed):
         self.mu, self.beta, self.strength, self.given = mu, beta, load * speed, 0.0
@@ -43,7 +32,7 @@ class Friction(Restorable):
 class Body(Restorable):
     """C T' = P - G T, solved exactly for a held power."""
 
-    name, ports = "body", port_table(inputs(P="W") + outputs(T="K"))
+    name, ports = "body", coupling.port_table(coupling.inputs(P="W") + coupling.outputs(T="K"))
 
     def __init__(self, capacity, loss):
         self.capacity, self.loss, self.t, self.given = capacity, loss, 0.0, 0.0
@@ -81,7 +70,9 @@ def test_the_friction_heat_loop_is_stable_below_its_border():
             assert (away[150:].max() < away[50:100].max()) == settles
 
 
-@pytest.mark.parametrize("acceleration", [Aitken(), QuasiNewton()], ids=["Aitken", "quasi-Newton"])
+@pytest.mark.parametrize(
+    "acceleration", [coupling.Aitken(), coupling.QuasiNewton()], ids=["Aitken", "quasi-Newton"]
+)
 def test_a_feedback_that_diverges_explicitly_converges_iterated(acceleration):
     """kappa = 60, and steps as long as the body's own time: explicit steps run away."""
 

@@ -36,14 +36,11 @@ def film(speed):
     """
     eta, melting, length = FILM["viscosity"], FILM["latent_heat"], FILM["length"]
     thickness = sqrt(2.0 * eta * speed * length / melting)  # scale of the numbers
+    start, atol = [1e-8 * thickness, 0.0], [1e-12 * thickness, 1e-12 * PRESSURE * length / speed]
     grown = solve_ivp(
         lambda t, y: [eta * speed**2 / (melting * y[0]), eta * speed / y[0]],
-        (0.0, length / speed),
-        [1e-8 * thickness, 0.0],
-        rtol=1e-11,
-        atol=[1e-12 * thickness, 1e-12 * PRESSURE * length / speed],
-        method="DOP853",
-    )
+        (0.0, length / speed), start, "DOP853", rtol=1e-11, atol=atol,
+    )  # fmt: skip
     assert grown.success
     return grown.y[1, -1] / (length / speed) / PRESSURE
 
@@ -63,11 +60,9 @@ def test_ice_on_rock_is_linear_up_to_the_melting_point():
 def test_static_friction_is_linear_as_well(temperature):
     """Seen in where the belt has carried a block when it breaks away."""
     sticky = Parameters(
-        rig={"degrees_of_freedom": ("x",)},
-        friction={"mu_s": 0.3, "mu_k": 0.05},
-        temperature_dependence={"static_sensitivity": 0.06},
-        initial={"vx": 0.15},
-    )
+        rig={"degrees_of_freedom": ("x",)}, friction={"mu_s": 0.3, "mu_k": 0.05},
+        temperature_dependence={"static_sensitivity": 0.06}, initial={"vx": 0.15},
+    )  # fmt: skip
     run = simulate(sticky, 3.0, interface_temperature=temperature)
     expected = 0.3 * (1.0 - 0.06 * (min(temperature, 0.0) + 8.0))
     first_slip = run.events[run.events[:, 1] == 1][0]

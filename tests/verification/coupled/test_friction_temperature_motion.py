@@ -7,13 +7,12 @@ quadrature over the contact is held against an adaptive one.
 import numpy as np
 import pytest
 from disc_integral import law_over_disc
-from one_mass_model import HEAT, OneMass, X
+from one_mass_model import HEAT, MASS, MU_K, NORMAL, SPEED, OneMass, X
 from stickslip import Parameters, simulate
 from stickslip.kernel.friction.force import friction_in_slip
 from stickslip.kernel.layout import U_SIZE, U_TEMPERATURE, W_FRICTION, W_SIZE
 
-MASS, MU_S, MU_K, SPEED, RADIUS = 0.67, 0.2815, 0.2086, 0.15, 0.04
-NORMAL = MASS * 9.81
+RADIUS = 0.04
 TIMES = np.linspace(0.0, 3.0, 301)
 ASPERITY = {"length": 1e-3, "hardness": 2e7, "effusivity": 2034.0, "constant": 1.128}
 CONDUCTIVITY, ROUGHNESS = 2.7, 1e-8
@@ -38,29 +37,15 @@ def friction(u, temperature, dry=MU_K):
 
 @pytest.mark.parametrize("temperature", [-16.0, -8.0, -1.0])
 def test_cycles_of_stick_and_slip(temperature):
-    model = OneMass(
-        mass=MASS,
-        pull=lambda x: -80.68 * x,
-        kinetic=lambda sliding, s: NORMAL * friction(sliding, temperature),
-        static=lambda held, s: MU_S * NORMAL,
-        speed=lambda t: SPEED,
-    )
+    model = OneMass(kinetic=lambda sliding, s: NORMAL * friction(sliding, temperature))
     states, events = model.run(TIMES)
     run = simulate(
-        Parameters(
-            rig=dict(
-                mass=MASS, degrees_of_freedom=("x",), spring_length=1.0, spring_natural_length=1.0
-            ),
-            springs=dict(stiffness=20.17),
-            solver=dict(tolerance=1e-13),
-            initial={"vx": SPEED},
-            asperity_melting=ASPERITY,
-            melt_film=FILM,
-        ),
-        TIMES[-1],
-        TIMES[1],
-        interface_temperature=temperature,
-    )
+        Parameters(rig=dict(mass=MASS, degrees_of_freedom=("x",), spring_length=1.0,
+                       spring_natural_length=1.0), springs=dict(stiffness=20.17),
+                   solver=dict(tolerance=1e-13), initial={"vx": SPEED}, asperity_melting=ASPERITY,
+                   melt_film=FILM),
+        TIMES[-1], TIMES[1], interface_temperature=temperature,
+    )  # fmt: skip
     assert len(events) > 4 and len(run.events) == len(events)
     np.testing.assert_allclose(run.events[:, 0], events[:, 0], rtol=0, atol=1e-8)
     np.testing.assert_allclose(run["x"], states[X], rtol=0, atol=1e-9)
@@ -95,18 +80,13 @@ def test_every_point_of_the_contact_has_the_friction_of_its_speed(temperature):
 def test_the_ledger_closes_however_near_to_melting(temperature, directions):
     """Near melting all of dry friction goes within a hair of rest, and a block guided along x still
     lands on the belt; one that is free to turn passes rest at a distance, film or not."""
-    run = simulate(
-        Parameters(
-            rig={"spring_natural_length": 0.17, "degrees_of_freedom": directions},
-            lateral_friction={"ratio": 1.0},
-            asperity_melting=ASPERITY,
-            melt_film=FILM,
-            speed_ripple={"amplitude": 0.9, "frequency": 0.5},  # so that slips end
-            initial={"vx": SPEED, "x": 0.01, "y": 0.005, "phi": 0.1},
-        ),
-        8.0,
-        interface_temperature=temperature,
-    )
+    case = Parameters(
+        rig={"spring_natural_length": 0.17, "degrees_of_freedom": directions},
+        lateral_friction={"ratio": 1.0}, asperity_melting=ASPERITY, melt_film=FILM,
+        speed_ripple={"amplitude": 0.9, "frequency": 0.5},  # so that slips end
+        initial={"vx": SPEED, "x": 0.01, "y": 0.005, "phi": 0.1},
+    )  # fmt: skip
+    run = simulate(case, 8.0, interface_temperature=temperature)
     assert run.complete
     assert len(run.slip_starts) > (2 if len(directions) == 1 or temperature == -8.0 else 0)
     assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]

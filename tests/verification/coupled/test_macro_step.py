@@ -22,16 +22,11 @@ STEPS = (0.08, 0.04, 0.02, 0.01, 0.005, 0.0025)
 @cache
 def coupled_run(step: float, sensitivity: float) -> tuple[np.ndarray, np.ndarray]:
     """Interface temperature (degC) and x (m) at the multiples of 0.16 s."""
+    times = {"duration": DURATION, "output_interval": COMMON, "snapshot_interval": COMMON}
     scenario = read_scenario("warm_friction").changed(
-        {
-            "run.duration": DURATION,
-            "run.output_interval": COMMON,
-            "run.snapshot_interval": COMMON,
-            "coupling.macro_step": step,
-            "surface.run_up_time": 0.0,
-            "initial.vx": 0.15,
-            "temperature_dependence.sensitivity": sensitivity,
-        }
+        {f"run.{name}": value for name, value in times.items()}
+        | {"surface.run_up_time": 0.0, "initial.vx": 0.15, "coupling.macro_step": step}
+        | {"temperature_dependence.sensitivity": sensitivity}
     )
     result = run_scenario(scenario).result
     assert result.status == "complete"

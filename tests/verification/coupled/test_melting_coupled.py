@@ -11,8 +11,7 @@ import numpy as np
 import pytest
 from melting_by_hand import MeltingBlock
 
-from cosim import read_scenario
-from cosim.coupling.case import run_scenario
+from cosim import read_scenario, run_scenario
 from cosim.report import run_columns, summary
 
 END = 4.5
@@ -56,14 +55,8 @@ def test_friction_film_and_melted_mass_by_hand(coupled, by_hand, time):
 
 
 def test_the_onset_where_the_whole_face_touches():
-    case = read_scenario("meltwater").changed(
-        {
-            "run.duration": 0.9,
-            "belt.width": 0.08,
-            "coupling.macro_step": 1e-3,
-            "run.output_interval": 1e-3,
-        }
-    )
+    steps = dict.fromkeys(("coupling.macro_step", "run.output_interval"), 1e-3)
+    case = read_scenario("meltwater").changed({"run.duration": 0.9, "belt.width": 0.08} | steps)
     run = run_scenario(case).result
     one_column = MeltingBlock(area=np.pi * 0.04**2, width=0.08, dt=2.5e-4).run(0.9)
     onset = run.time[np.argmax(run["thermal.melted_mass"] > 0.0)]

@@ -21,12 +21,10 @@ SPEEDS = np.geomspace(1e-3, 30.0, 9)
 
 def parameters(share=1.0, roughness=ROUGHNESS, **blocks) -> Parameters:
     return Parameters(
-        rig={"mass": MASS, "degrees_of_freedom": ("x",)},
-        springs={"stiffness": 1500.0},
+        rig={"mass": MASS, "degrees_of_freedom": ("x",)}, springs={"stiffness": 1500.0},
         friction={"mu_s": MU_S, "mu_k": MU_K},
-        mixed_lubrication={"share": share, "roughness": roughness},
-        **blocks,
-    )
+        mixed_lubrication={"share": share, "roughness": roughness}, **blocks,
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("share", [0.3, 1.0])
@@ -36,9 +34,8 @@ def test_dry_and_wet_contact_share_the_load(share, film):
     found = friction_coefficient(parameters(share), SPEEDS, film_thickness=film)
     w = share * film / (film + ROUGHNESS)
     depth = film / w
-    np.testing.assert_allclose(
-        found, (1.0 - w) * MU_K + w * ETA * SPEEDS / depth / PRESSURE, rtol=1e-12
-    )
+    expected = (1.0 - w) * MU_K + w * ETA * SPEEDS / depth / PRESSURE
+    np.testing.assert_allclose(found, expected, rtol=1e-12)
 
 
 def test_limits():
@@ -84,21 +81,13 @@ def test_heat_film_and_friction_close_on_themselves(mass, speed):
     1 nm. Melt rate from the heat, film from the melt rate, shear from the film, heat from the
     shear.
     """
-    rig = Parameters(
-        rig={"mass": mass},
-        friction={"mu_s": 0.2, "mu_k": 0.2},
-        mixed_lubrication={"share": 1.0, "roughness": 1e-9},
-    )
-    model = BeltIceModel(
-        ThermalParameters(
-            ambient=Ambient(temperature_degC=-1e-3),
-            belt=Belt(
-                width=0.08, length=1.0, cell_length=2e-3, conductivity=1e-7, air_heat_transfer=0.0
-            ),
-            ice=Ice(conductivity=1e-7, air_heat_transfer=0.0),
-            contact=Contact(conductance=1e12, load=mass * 9.81, wiper=1.0),
-        )
-    )
+    water = {"share": 1.0, "roughness": 1e-9}
+    rig = Parameters(rig={"mass": mass}, friction=dict(mu_s=0.2, mu_k=0.2), mixed_lubrication=water)
+    alone = {"conductivity": 1e-7, "air_heat_transfer": 0.0}
+    contact = Contact(conductance=1e12, load=mass * 9.81, wiper=1.0)
+    belt, ice = Belt(width=0.08, length=1.0, cell_length=2e-3, **alone), Ice(**alone)
+    ambient = Ambient(temperature_degC=-1e-3)
+    model = BeltIceModel(ThermalParameters(ambient=ambient, belt=belt, ice=ice, contact=contact))
     melting = WATER_DENSITY * Ice().latent_heat
     step = 0.02 * model.footprint.length / speed
     film = 0.0
@@ -118,6 +107,5 @@ def test_heat_film_and_friction_close_on_themselves(mass, speed):
     assert film == pytest.approx(brentq(excess, 1e-8, 1e-4), rel=3e-3)
     # 0.7 %: the 1 nm of roughness, 0.2 % of the film
     assert film == pytest.approx(sqrt(WATER_VISCOSITY * speed * length / melting), rel=1e-2)
-    assert mu == pytest.approx(
-        sqrt(WATER_VISCOSITY * speed * melting / length) / pressure, rel=1e-2
-    )
+    stress = sqrt(WATER_VISCOSITY * speed * melting / length)
+    assert mu == pytest.approx(stress / pressure, rel=1e-2)

@@ -18,11 +18,9 @@ STOP, MACRO_STEP = 4.0, 0.1
 #: Of the temperature 1e-4 K + 1e-4 |T|: a thousandth of what the step itself is off by.
 TOLERANCE = Tolerance(1e-4)
 HEAVY = {
-    "rig.mass": 160.0,
-    "springs.stiffness": 6000.0,
-    "structural_damping.coefficient": 2000.0,
+    "rig.mass": 160.0, "springs.stiffness": 6000.0, "structural_damping.coefficient": 2000.0,
     "surface.run_up_time": 2.0,
-}
+}  # fmt: skip
 CASE = read_scenario("meltwater").changed(ROCK | ON_A_LINE | HEAVY)
 
 

@@ -17,21 +17,13 @@ def test_a_constant_power_warms_a_half_space_with_the_root_of_the_time():
     time, small, stiffness = 0.5, 1e-6, 20.17
     power = MU_K * NORMAL * SPEED
     run = simulate(
-        Parameters(
-            rig={**ALONG_X, "mass": MASS},
-            springs={"stiffness": stiffness},
-            friction={"mu_s": MU_K, "mu_k": MU_K},
-            surface={"speed": SPEED},
-            initial={"x": MU_K * NORMAL / (4.0 * stiffness)},
-            thermal_weakening={
-                "per_joule": small / power,
-                "relaxation_time": time,
-                "diffusion": 1.0,
-            },
-        ),
-        20.0 * time,
-        time / 20.0,
-    )
+        Parameters(rig={**ALONG_X, "mass": MASS}, springs={"stiffness": stiffness},
+                   friction={"mu_s": MU_K, "mu_k": MU_K}, surface={"speed": SPEED},
+                   initial={"x": MU_K * NORMAL / (4.0 * stiffness)},
+                   thermal_weakening={"per_joule": small / power, "relaxation_time": time,
+                       "diffusion": 1.0}),
+        20.0 * time, time / 20.0,
+    )  # fmt: skip
     assert np.all(run["mode"][1:] == 1)
     loss = 1.0 - np.abs(run["friction_force_x"][1:]) / (MU_K * NORMAL)
     warmth = loss / small / np.sqrt(run.time[1:])

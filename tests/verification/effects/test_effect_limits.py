@@ -37,14 +37,11 @@ STATED = {
     "rate_and_state.evolution": (0.01, {"distance": 1e-3}, 1),
 }
 STICKING = {
-    "static_strengthening.rate": (0.04, {}, 1),
-    "static_strengthening.saturating": (0.1, {}, 1),
-    "static_strengthening.power": (0.1, {}, 1),
-    "stick_stiffness.ratio": (-0.1, {}, 1),
+    "static_strengthening.rate": (0.04, {}, 1), "static_strengthening.saturating": (0.1, {}, 1),
+    "static_strengthening.power": (0.1, {}, 1), "stick_stiffness.ratio": (-0.1, {}, 1),
     "temperature_dependence.static_sensitivity": (0.02, {}, 1),
-    "rate_and_state.direct": (4e-3, {}, 1),
-    "rate_and_state.evolution": (4e-3, {}, 1),
-}
+    "rate_and_state.direct": (4e-3, {}, 1), "rate_and_state.evolution": (4e-3, {}, 1),
+}  # fmt: skip
 # a switch of which nothing is stated acts in slip, to first order from its least typical size
 SLIDING = {
     f"{effect.id}.{key}": (details(effect.table.model_fields[key])["typical"][0], {}, 1)
@@ -68,10 +65,8 @@ def position_in_slip(parameters: Parameters) -> np.ndarray:
     p, u, z = np.array(parameters.pack()), np.zeros(layout.U_SIZE), np.zeros(layout.Z_SIZE)
     w, e = np.zeros(layout.W_SIZE), np.zeros(layout.E_FIRST)
     u[layout.U_SPEED], u[layout.U_TEMPERATURE], u[layout.U_FILM] = (
-        parameters.surface.speed,
-        WARMER,
-        WATER,
-    )
+        parameters.surface.speed, WARMER, WATER,
+    )  # fmt: skip
     kernel.initialise(p, z, 0.0)
     kernel.advance(p, u, z, w, e, 0.2)
     assert e[layout.E_COUNT] == 0.0 and z[layout.SHOWN + layout.MODE] == layout.SLIP

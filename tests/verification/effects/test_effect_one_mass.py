@@ -11,20 +11,9 @@ from stickslip import Parameters, simulate
 
 MASS, STIFFNESS, MU_S, MU_K, SPEED = 0.67, 80.68, 0.2815, 0.2086, 0.15
 NORMAL = MASS * GRAVITY
+
 RIG = dict(mass=MASS, degrees_of_freedom=("x",), spring_length=1.0, spring_natural_length=1.0)
 TIMES = np.linspace(0.0, 3.0, 301)
-
-
-def model(**changes) -> OneMass:
-    """The plain oscillator of the source study's first case, with some laws exchanged."""
-    plain = {
-        "mass": MASS,
-        "pull": lambda x: -STIFFNESS * x,
-        "kinetic": lambda sliding, s: MU_K * NORMAL,
-        "static": lambda held, s: MU_S * NORMAL,
-        "speed": lambda t: SPEED,
-    }
-    return OneMass(**(plain | changes))
 
 
 def kinetic(law):
@@ -192,7 +181,7 @@ def test_cycles(case):
         **({case.partition(",")[0]: effect} if effect else {}),
     )
     run = simulate(parameters, TIMES[-1], TIMES[1])
-    samples, events = model(**laws).run(TIMES)
+    samples, events = OneMass(**laws).run(TIMES)
     assert len(events) >= 3  # break-away, re-stick, break-away again
     # speed times the rounding of an event's time is far below; what is left is both integrators'
     np.testing.assert_allclose(run.events, events, rtol=0, atol=1e-9)

@@ -52,15 +52,11 @@ def test_slip_in_the_plane(case):
     effect, laws = CASES[case]
     blocks = {case.partition(",")[0]: effect} if effect else {}
     run = simulate(
-        Parameters(
-            rig={"spring_natural_length": 0.17},
-            initial=dict(zip(STATE[:6], START, strict=True)),
-            solver=dict(tolerance=1e-13),
-            **({"lateral_friction": {"ratio": 1.0}} | blocks),
-        ),
-        0.2,
-        0.2,
-    )
+        Parameters(rig={"spring_natural_length": 0.17},
+                   initial=dict(zip(STATE[:6], START, strict=True)), solver=dict(tolerance=1e-13),
+                   **({"lateral_friction": {"ratio": 1.0}} | blocks)),
+        0.2, 0.2,
+    )  # fmt: skip
     assert not len(run.events) or run.events[-1, 0] == 0.0  # it slides all the time
     expected = Slider(**laws).run(START, 0.2)
     np.testing.assert_allclose([run[name][-1] for name in STATE], expected, rtol=0, atol=1e-9)
@@ -70,16 +66,12 @@ def test_a_block_at_rest_on_a_slab_goes_round_with_it():
     """Stick on a turning surface: phi = v t/R, x = R sin phi, y = R (1 - cos phi)."""
     radius, speed = 0.5, 0.15
     run = simulate(
-        Parameters(
-            rig={"spring_length": 2.0, "spring_natural_length": 2.0},
-            springs={"stiffness": 1.0},
-            friction={"mu_s": 0.9, "mu_k": 0.5},
-            lateral_friction={"ratio": 1.0},
-            turning_surface={"curvature": 1.0 / radius},
-            initial={"vx": speed, "omega": speed / radius},
-        ),
+        Parameters(rig={"spring_length": 2.0, "spring_natural_length": 2.0},
+                   springs={"stiffness": 1.0}, friction={"mu_s": 0.9, "mu_k": 0.5},
+                   lateral_friction={"ratio": 1.0}, turning_surface={"curvature": 1.0 / radius},
+                   initial={"vx": speed, "omega": speed / radius}),
         2.0,
-    )
+    )  # fmt: skip
     assert not len(run.events)  # never left the surface
     phi = speed * run.time / radius
     np.testing.assert_allclose(run["phi"], phi, rtol=0, atol=1e-12)

@@ -20,9 +20,9 @@ def field(parameters: Parameters, places: np.ndarray) -> np.ndarray:
     return np.array(found)
 
 
-def scattered(**changes) -> Parameters:
-    size = {"deviation": 0.1, "correlation_length": 0.02, "seed": 1}
-    return Parameters(surface_scatter=size | changes, **X_ONLY)
+def scattered(seed: int = 1, **more) -> Parameters:
+    size = {"deviation": 0.1, "correlation_length": 0.02, "seed": seed}
+    return Parameters(surface_scatter=size, **X_ONLY, **more)
 
 
 @pytest.mark.parametrize("ramp", [0.0, 1.5])
@@ -30,13 +30,10 @@ def test_ripple_of_the_speed(ramp):
     """v_s = v (1 + A sin(2 pi f t + phase)), times t/T in a ramp; its integral is the travel."""
     v, a, f, phase = 0.15, 0.2, 1.7, np.radians(50.0)
     run = simulate(
-        Parameters(
-            speed_ripple={"amplitude": a, "frequency": f, "phase_deg": 50.0},
-            surface={"speed": v, "run_up_time": ramp},
-            **X_ONLY,
-        ),
+        Parameters(speed_ripple={"amplitude": a, "frequency": f, "phase_deg": 50.0},
+                   surface={"speed": v, "run_up_time": ramp}, **X_ONLY),
         4.0,
-    )
+    )  # fmt: skip
     t, rate = run.time, 2.0 * np.pi * f
     ramp_factor = np.minimum(1.0, t / ramp) if ramp else np.ones_like(t)
     speed = v * ramp_factor * (1.0 + a * np.sin(rate * t + phase))
@@ -70,15 +67,7 @@ def test_scatter_has_its_mean_deviation_and_correlation():
     """Over 4000 seeds; what is left is the sampling error, asked to stay below four deviations."""
     deviation, length, seeds = 0.1, 0.02, 4000
     places = 0.3 + length * np.array([0.0, 0.5, 1.0, 2.0, 4.0])
-    fields = (
-        np.array(
-            [
-                field(scattered(deviation=deviation, correlation_length=length, seed=seed), places)
-                for seed in range(seeds)
-            ]
-        )
-        - 1.0
-    )
+    fields = np.array([field(scattered(seed=seed), places) for seed in range(seeds)]) - 1.0
     noise = 1.0 / np.sqrt(seeds)
     assert np.max(np.abs(fields.mean(axis=0))) < 4.0 * noise * deviation
     # the variance of a square is below 2 for a sum of waves, as for the normal distribution
@@ -90,16 +79,6 @@ def test_scatter_has_its_mean_deviation_and_correlation():
 
 def test_scatter_does_not_depend_on_the_step():
     """Cycles are those of a hundred times the tolerance: it is a field, not a throw per step."""
-    runs = [
-        simulate(
-            Parameters(
-                surface_scatter={"deviation": 0.1, "correlation_length": 0.02},
-                solver={"tolerance": tolerance},
-                **X_ONLY,
-            ),
-            6.0,
-        )
-        for tolerance in (1e-11, 1e-13)
-    ]
+    runs = [simulate(scattered(solver={"tolerance": each}), 6.0) for each in (1e-11, 1e-13)]
     assert len(runs[0].events) > 10
     np.testing.assert_allclose(runs[0].events, runs[1].events, rtol=0, atol=1e-9)

@@ -30,14 +30,10 @@ def test_at_rest_the_contact_holds_the_larger_of_mu_s_and_the_first_point():
     for mu_s, held in ((0.4, 0.4), (0.1, 0.25)):
         with warnings.catch_warnings(action="ignore"):  # of a mu_s below that
             parameters = Parameters(
-                rig={
-                    "degrees_of_freedom": ("x",),
-                    "spring_length": 1.0,
-                    "spring_natural_length": 1.0,
-                },
-                initial={"vx": 0.15},
-                **table(mu_s=mu_s),
-            )
+                rig={"degrees_of_freedom": ("x",), "spring_length": 1.0,
+                     "spring_natural_length": 1.0},
+                initial={"vx": 0.15}, **table(mu_s=mu_s),
+            )  # fmt: skip
         assert parameters.pack()[P_MU_K] == MU[0]
         run = simulate(parameters, 3.0)
         assert 4.0 * 20.17 * run.events[0, 2] == pytest.approx(held * NORMAL, rel=1e-9)
@@ -46,16 +42,12 @@ def test_at_rest_the_contact_holds_the_larger_of_mu_s_and_the_first_point():
 def test_what_else_acts_on_mu_k_multiplies_it():
     """Load, place, distance slid: the force of a slip is all of them times the table's value."""
     run = simulate(
-        Parameters(
-            rig={"degrees_of_freedom": ("x",), "spring_natural_length": 0.17},
-            load_dependence={"exponent": 0.3, "reference_force": 8.0},
-            surface_pattern={"amplitude": 0.1, "wavelength": 0.2},
-            run_in={"change": -0.3, "distance": 0.5},
-            **table(),
-        ),
-        4.0,
-        1e-2,
-    )
+        Parameters(rig={"degrees_of_freedom": ("x",), "spring_natural_length": 0.17},
+                   load_dependence={"exponent": 0.3, "reference_force": 8.0},
+                   surface_pattern={"amplitude": 0.1, "wavelength": 0.2},
+                   run_in={"change": -0.3, "distance": 0.5}, **table()),
+        4.0, 1e-2,
+    )  # fmt: skip
     slip = (run["mode"] == 1) & (run["sliding_speed"] > 1e-3)
     assert slip.sum() > 50
     place = (run["x"] - run["surface_travel"])[slip]

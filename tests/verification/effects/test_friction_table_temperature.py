@@ -11,17 +11,15 @@ from stickslip.kernel.friction.coefficient import is_felt
 from stickslip.kernel.friction.table import table_coefficient
 from stickslip.kernel.layout import P_MU_K, U_FILM, U_SIZE, U_TEMPERATURE
 
-from cosim.scenario import ScenarioError, read_scenario
+from cosim.scenario import read_scenario
 
 SPEED = (0.0, 0.05, 0.1, 0.3, 0.6)
 TEMPERATURE = (-20.0, -10.0, -4.0, -1.0)
 #: Colder ice rubs more, at no two speeds in the same proportion; the last row has a minimum.
 MU = (
-    *(0.40, 0.38, 0.35, 0.30, 0.28),
-    *(0.30, 0.24, 0.20, 0.18, 0.17),
-    *(0.25, 0.15, 0.12, 0.10, 0.09),
-    *(0.12, 0.06, 0.04, 0.05, 0.08),
-)
+    *(0.40, 0.38, 0.35, 0.30, 0.28), *(0.30, 0.24, 0.20, 0.18, 0.17),
+    *(0.25, 0.15, 0.12, 0.10, 0.09), *(0.12, 0.06, 0.04, 0.05, 0.08),
+)  # fmt: skip
 
 
 def table(speed=SPEED, temperature=TEMPERATURE, mu=MU) -> dict:
@@ -98,57 +96,21 @@ def test_a_slip_has_the_friction_of_the_interface():
         assert np.abs(both["energy_residual"]).max() < 1e-9
 
 
-def written(folder, text):
-    (folder / "mu.csv").write_text(text, encoding="utf-8")
-    (folder / "case.toml").write_text('[friction]\ntable = "mu.csv"\nmu_s = 0.5\n')
-    return folder / "case.toml"
-
-
-def csv_text():
-    rows = [
-        f"{v},{MU[5 * i + j]},{degrees}"
-        for j, v in enumerate(SPEED)
-        for i, degrees in enumerate(TEMPERATURE)
-    ]
-    return "\n".join(["v,mu,T_degC", *rows]) + "\n"
-
-
 def test_a_file_in_any_order(tmp_path):
-    case = written(tmp_path, csv_text())
+    rows = [(v, MU[5 * i + j], t) for j, v in enumerate(SPEED) for i, t in enumerate(TEMPERATURE)]
+    text = "".join(f"{v},{mu},{t}\n" for v, mu, t in rows)
+    (tmp_path / "mu.csv").write_text(f"v,mu,T_degC\n{text}", encoding="utf-8")
     assert read_table(tmp_path / "mu.csv") == (SPEED, TEMPERATURE, MU)
-    friction = read_scenario(case).friction
+    friction = read_scenario("reference", {"friction.table": str(tmp_path / "mu.csv")}).friction
     assert (friction.table_mu, friction.table_temperature_degC) == (MU, TEMPERATURE)
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "what"),
-    [
-        ("0.05,0.24,-10.0\n", "", "no mu at v = 0.05, T_degC = -10; needed is one for each of 5"),
-        ("0.05,0.24,-10.0", "0.05,0.24,-20.0", "line 7: v = 0.05 at T_degC = -20 is there already"),
-        ("0.24,-10.0", "0.24,cold", 'line 7, T_degC = "cold": not a finite number'),
-        (
-            "v,mu,T_degC",
-            "v,mu,T_C",
-            "column T_C is not read (there are v, mu, T_C); allowed is T_degC",
-        ),
-        ("0.24,-10.0", "0.24,-300", "line 7, T_degC = -300: allowed is -273.15 to 100 degC"),
-    ],
-)
-def test_a_file_that_is_no_grid(old, new, what, tmp_path):
-    with pytest.raises(ScenarioError) as refusal:
-        read_scenario(written(tmp_path, csv_text().replace(old, new)))
-    assert what in str(refusal.value)
-
-
-@pytest.mark.parametrize(
-    ("change", "what"),
-    [
-        ({"temperature": (-4.0,), "mu": MU[:5]}, "table_temperature_degC has 1 value"),
-        ({"temperature": (-4.0, -8.0), "mu": MU[:10]}, "table_temperature_degC must grow"),
-        ({"mu": MU[:-1]}, "table_mu has 19 values: allowed are 20"),
-        ({"mu": (*MU[:15], *[0.0] * 5)}, "no friction at one of the temperatures"),
-    ],
-)
+@pytest.mark.parametrize(("change", "what"), [
+    ({"temperature": (-4.0,), "mu": MU[:5]}, "table_temperature_degC has 1 value"),
+    ({"temperature": (-4.0, -8.0), "mu": MU[:10]}, "table_temperature_degC must grow"),
+    ({"mu": MU[:-1]}, "table_mu has 19 values: allowed are 20"),
+    ({"mu": (*MU[:15], *[0.0] * 5)}, "no friction at one of the temperatures"),
+])  # fmt: skip
 def test_numbers_that_are_no_table(change, what):
     with pytest.raises(ValueError, match=what):
         Parameters(**table(**change))

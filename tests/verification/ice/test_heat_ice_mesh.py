@@ -61,28 +61,22 @@ def refused(path, says):
     assert line.startswith(str(path)) and re.search(says, line), line
 
 
-@pytest.mark.parametrize(
-    ("factor", "says"),
-    [
-        (1000.0, r"the sample is 80 x 60 x 100 m, allowed is up to 2 m: is the file in mm\?"),
-        (100.0, r"is the file in cm\?"),
-        (1e-3, "the sample is 8e-05 x 6e-05 x 0.0001 m, allowed is at least 0.002 m"),
-    ],
-)
+@pytest.mark.parametrize(("factor", "says"), [
+    (1000.0, r"the sample is 80 x 60 x 100 m, allowed is up to 2 m: is the file in mm\?"),
+    (100.0, r"is the file in cm\?"),
+    (1e-3, "the sample is 8e-05 x 6e-05 x 0.0001 m, allowed is at least 0.002 m"),
+])  # fmt: skip
 def test_wrong_units(tmp_path, cube, factor, says):
     refused(write(tmp_path / "sample.vtu", factor * cube[0], cube[1]), says)
 
 
-@pytest.mark.parametrize(
-    ("name", "content", "says"),
-    [
-        ("absent.msh", None, "no such file"),
-        ("empty.msh", "", "cannot be read as a mesh"),
-        ("text.vtk", "hello", "cannot be read as a mesh"),
-        ("broken.vtu", "<VTKFile>", "cannot be read as a mesh"),
-        ("sample.xyz", "1 2 3", "cannot be read as a mesh"),
-    ],
-)
+@pytest.mark.parametrize(("name", "content", "says"), [
+    ("absent.msh", None, "no such file"),
+    ("empty.msh", "", "cannot be read as a mesh"),
+    ("text.vtk", "hello", "cannot be read as a mesh"),
+    ("broken.vtu", "<VTKFile>", "cannot be read as a mesh"),
+    ("sample.xyz", "1 2 3", "cannot be read as a mesh"),
+])  # fmt: skip
 def test_unreadable(tmp_path, capsys, name, content, says):
     if content is not None:
         (tmp_path / name).write_text(content)
@@ -146,32 +140,26 @@ def round_below(points, cells):
     return points, cells
 
 
-@pytest.mark.parametrize(
-    ("spoil", "says"),
-    [
-        (not_a_number, "without three finite coordinates"),
-        (two_pieces, "falls into 2 pieces that share no facet"),
-        (without_volume, "have no volume"),
-        (folded, "tetrahedra overlap: the mesh is folded"),
-        (a_facet_of_three, "1 facets belong to more than two tetrahedra"),
-        (hollow, "1 hollows inside, allowed is solid ice"),
-        (touching_along_an_edge, "surface is not closed"),
-        (above_the_belt, "its lowest node is at z = 0.01 m, allowed is a base at z = 0"),
-        (round_below, "no flat base at z = 0"),
-    ],
-)
+@pytest.mark.parametrize(("spoil", "says"), [
+    (not_a_number, "without three finite coordinates"),
+    (two_pieces, "falls into 2 pieces that share no facet"),
+    (without_volume, "have no volume"),
+    (folded, "tetrahedra overlap: the mesh is folded"),
+    (a_facet_of_three, "1 facets belong to more than two tetrahedra"),
+    (hollow, "1 hollows inside, allowed is solid ice"),
+    (touching_along_an_edge, "surface is not closed"),
+    (above_the_belt, "its lowest node is at z = 0.01 m, allowed is a base at z = 0"),
+    (round_below, "no flat base at z = 0"),
+])  # fmt: skip
 def test_a_spoilt_sample(tmp_path, cube, spoil, says):
     points, cells = cube
     refused(write(tmp_path / "s.vtu", *spoil(points.copy(), cells)), says)
 
 
-@pytest.mark.parametrize(
-    ("cells", "kind", "says"),
-    [
-        ([[0, 1, 3]], "triangle", r"has no volume cells \(triangle\), allowed are tetrahedra"),
-        ([[0, 1, 3, 2, 4, 5, 7, 6]], "hexahedron", r"has other volume cells \(hexahedron\)"),
-    ],
-)
+@pytest.mark.parametrize(("cells", "kind", "says"), [
+    ([[0, 1, 3]], "triangle", r"has no volume cells \(triangle\), allowed are tetrahedra"),
+    ([[0, 1, 3, 2, 4, 5, 7, 6]], "hexahedron", r"has other volume cells \(hexahedron\)"),
+])  # fmt: skip
 def test_other_cells(tmp_path, cells, kind, says):
     corners = np.array(np.meshgrid([0, 0.1], [0, 0.1], [0, 0.1])).reshape(3, -1).T
     refused(write(tmp_path / "s.vtu", corners, np.array(cells), kind), says)

@@ -7,21 +7,12 @@ from sample_meshes import box, cylinder, write
 from scipy.linalg import eigh
 from scipy.special import erfc
 
-from thermal import (
-    Belt,
-    BeltIceModel,
-    Contact,
-    FieldSeries,
-    Ice,
-    MeshError,
-    ParameterError,
-    ThermalParameters,
-)
+import thermal
+from thermal import Belt, BeltIceModel, Ice, SteadySliding, ThermalParameters
 from thermal.ice.body import IceBody
 from thermal.ice.cylinder import Cylinder
 from thermal.ice.sample import Sample, assembled, response_space
 from thermal.relaxation import mean_decay
-from thermal.steady_sliding import SteadySliding
 
 K, RHO, C = 2.2, 917.0, 2050.0
 ALPHA = K / (RHO * C)
@@ -97,7 +88,7 @@ def test_fields_of_a_sample_read_back(tmp_path):
     path = write(tmp_path / "sample.vtu", *cylinder(2, 3))
     model = BeltIceModel(ThermalParameters(belt=Belt(cell_length=5e-3), ice=Ice(mesh=str(path))))
     model.step(1.0, 5.0, 0.1)
-    mesh = meshio.read(FieldSeries(tmp_path, model).write(0.0))
+    mesh = meshio.read(thermal.FieldSeries(tmp_path, model).write(0.0))
     kinds = {block.type: block.data for block in mesh.cells}
     assert set(kinds) == {"quad", "tetra"}
     assert len(kinds["tetra"]) == len(model.ice.cells)
@@ -109,17 +100,19 @@ def test_fields_of_a_sample_read_back(tmp_path):
 
 def test_refusals_name_the_key(tmp_path):
     big = write(tmp_path / "mm.vtu", 1e3 * cylinder(2, 2)[0], cylinder(2, 2)[1])
-    with pytest.raises(MeshError, match=r"^ice\.mesh: .*mm\.vtu: .* is the file in mm\?"):
+    with pytest.raises(thermal.MeshError, match=r"^ice\.mesh: .*mm\.vtu: .* is the file in mm\?"):
         BeltIceModel(ThermalParameters(ice=Ice(mesh=str(big))))
     beside = write(tmp_path / "beside.vtu", cylinder(2, 2)[0] + [0.0, 0.2, 0.0], cylinder(2, 2)[1])
-    with pytest.raises(MeshError, match="its base does not lie on the belt"):
+    with pytest.raises(thermal.MeshError, match="its base does not lie on the belt"):
         BeltIceModel(ThermalParameters(ice=Ice(mesh=str(beside))))
     long_base = write(tmp_path / "long.vtu", *box((2, 2, 2), (0.1, 0.02, 0.05)))
-    with pytest.raises(ParameterError, match=r"belt\.length = 0\.09 m is shorter than the contact"):
+    with pytest.raises(
+        thermal.ParameterError, match=r"belt\.length = 0\.09 m is shorter than the contact"
+    ):
         BeltIceModel(
             ThermalParameters(
                 belt=Belt(length=0.09, width=0.01),
-                contact=Contact(radius=0.01),
+                contact=thermal.Contact(radius=0.01),
                 ice=Ice(mesh=str(long_base)),
             )
         )

@@ -86,11 +86,8 @@ def test_a_wiper_takes_its_part_of_what_passes(movement):
 
 def test_what_froze_on_the_belt_and_was_wiped_off_is_on_the_books():
     """Melted = water anywhere + ice on the belt + ice wiped off."""
-    model = BeltIceModel(
-        ThermalParameters(
-            ambient=Ambient(temperature_degC=-2.0), contact=Contact(wiper=1.0), ice=COARSE_ICE
-        )
-    )
+    air, wiped = Ambient(temperature_degC=-2.0), Contact(wiper=1.0)
+    model = BeltIceModel(ThermalParameters(ambient=air, contact=wiped, ice=COARSE_ICE))
     for _ in range(400):
         model.step(0.01, 4.0, 0.03)
     water, found = model.meltwater, model.outputs()
@@ -102,14 +99,10 @@ def test_what_froze_on_the_belt_and_was_wiped_off_is_on_the_books():
 
 def test_a_belt_that_is_wiped_brings_no_water_back():
     """Warm air and belt, so that nothing freezes: all that was wiped is on the books."""
+    air, belt = Ambient(temperature_degC=-1e-3), Belt(cell_length=2e-3)
     wet, wiped = (
         BeltIceModel(
-            ThermalParameters(
-                ambient=Ambient(temperature_degC=-1e-3),
-                contact=Contact(wiper=share),
-                belt=Belt(cell_length=2e-3),
-                ice=COARSE_ICE,
-            )
+            ThermalParameters(ambient=air, contact=Contact(wiper=share), belt=belt, ice=COARSE_ICE)
         )
         for share in (0.0, 1.0)
     )

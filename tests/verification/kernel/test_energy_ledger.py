@@ -12,14 +12,11 @@ from stickslip import Initial, Parameters, Surface, simulate
 def test_guided_on_a_turning_surface(free, ramp):
     """A block that cannot follow the surface's turn slides on it as soon as that turns."""
     run = simulate(
-        Parameters(
-            rig=dict(surface="slab", slab_radius=0.9, degrees_of_freedom=free),
-            lateral_friction=dict(ratio=1.0),
-            surface=dict(speed=0.3, run_up_time=ramp),
-            initial=dict(x=0.005, y=0.008, phi=0.1),
-        ),
+        Parameters(rig=dict(surface="slab", slab_radius=0.9, degrees_of_freedom=free),
+                   lateral_friction=dict(ratio=1.0), surface=dict(speed=0.3, run_up_time=ramp),
+                   initial=dict(x=0.005, y=0.008, phi=0.1)),
         3.0,
-    )
+    )  # fmt: skip
     assert run.complete
     assert np.max(np.abs(run["energy_residual"])) < 1e-9 * run["heat"][-1]
     turning = run["surface_speed_actual"] / 0.9

@@ -13,14 +13,10 @@ FRICTIONLESS = dict(mu_s=0.0, mu_k=0.0)
 def test_free_vibration(ratio, speed):
     """x = x0 cos(omega t), omega = sqrt(4 k / m): along x the exact geometry is linear too."""
     run = simulate(
-        Parameters(
-            friction=FRICTIONLESS,
-            lateral_friction=dict(ratio=ratio),
-            surface=dict(speed=speed),
-            initial=dict(x=0.03),
-        ),
+        Parameters(friction=FRICTIONLESS, lateral_friction=dict(ratio=ratio),
+                   surface=dict(speed=speed), initial=dict(x=0.03)),
         20.0,
-    )
+    )  # fmt: skip
     assert run.complete
     omega = np.sqrt(4.0 * 20.17 / 0.67)
     assert np.max(np.abs(run["x"] - 0.03 * np.cos(omega * run.time))) < 1e-9 * 0.03
@@ -60,15 +56,10 @@ def test_coulomb_spinning_disc_stops():
     """A disc that only spins slows down at mu N (2/3) a / J and stops after omega0 / that."""
     rig = dict(spring_natural_length=0.2)
     run = simulate(
-        Parameters(
-            rig=rig,
-            springs=dict(stiffness=0.0),
-            surface=dict(speed=0.0),
-            lateral_friction=dict(ratio=1.0),
-            initial=dict(omega=10.0),
-        ),
+        Parameters(rig=rig, springs=dict(stiffness=0.0), surface=dict(speed=0.0),
+                   lateral_friction=dict(ratio=1.0), initial=dict(omega=10.0)),
         3.0,
-    )
+    )  # fmt: skip
     inertia = 0.5 * 0.67 * 0.04**2
     slowing = 0.2086 * 0.67 * GRAVITY * (2.0 / 3.0) * 0.04 / inertia
     assert run.events[-1, 0] == pytest.approx(10.0 / slowing, rel=1e-12)

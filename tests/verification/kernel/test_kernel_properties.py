@@ -128,13 +128,10 @@ def test_break_away_shortly_before_the_ramp_ends():
     stiffness, mass, mu_s, speed = 80.68, 0.67, 0.2815, 0.15
     for ramp in np.linspace(0.26, 0.30, 41):
         run = simulate(
-            Parameters(
-                rig={"degrees_of_freedom": ("x",)},
-                friction={"mu_s": mu_s},
-                surface={"speed": speed, "run_up_time": ramp},
-            ),
+            Parameters(rig={"degrees_of_freedom": ("x",)}, friction={"mu_s": mu_s},
+                       surface={"speed": speed, "run_up_time": ramp}),
             0.5,
-        )
+        )  # fmt: skip
         load = mu_s * mass * GRAVITY - mass * speed / ramp
         expected = np.sqrt(2.0 * ramp * load / (stiffness * speed))
         assert expected < ramp

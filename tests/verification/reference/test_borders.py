@@ -40,15 +40,12 @@ def closed_form(damping, sticks):
     return low
 
 
-@pytest.mark.parametrize(
-    ("start", "damping", "sticks"),
-    [
-        (REST, 0.0, BeltStart.sticks_from_rest),
-        (REST, 0.07, BeltStart.sticks_from_rest),
-        (RIDING, 0.07, BeltStart.sticks_riding),
-        (FROM_RAMP, 0.07, BeltStart.sticks_after_run_up),
-    ],
-)
+@pytest.mark.parametrize(("start", "damping", "sticks"), [
+    (REST, 0.0, BeltStart.sticks_from_rest),
+    (REST, 0.07, BeltStart.sticks_from_rest),
+    (RIDING, 0.07, BeltStart.sticks_riding),
+    (FROM_RAMP, 0.07, BeltStart.sticks_after_run_up),
+])  # fmt: skip
 def test_the_fastest_stick_slip_is_that_of_the_closed_form(start, damping, sticks):
     """Bisected to 1e-4; a last stick within half the run at constant speed is one."""
     parameters = other_starts(published(damping=damping))[start]

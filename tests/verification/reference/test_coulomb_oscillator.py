@@ -18,11 +18,9 @@ def unit_oscillator(**changes) -> Parameters:
     """m = K = 1, F_s = 1 N, F_k = 0.5 N, v = 0.2 m/s; the block starts at rest on the belt."""
     blocks = {
         "rig": dict(mass=1.0, spring_length=10.0, spring_natural_length=10.0),
-        "springs": dict(stiffness=0.25),
-        "friction": dict(mu_s=F_S / GRAVITY, mu_k=F_K / GRAVITY),
-        "surface": dict(speed=SPEED),
-        "initial": Initial(vx=SPEED),
-    }
+        "springs": dict(stiffness=0.25), "friction": dict(mu_s=F_S / GRAVITY, mu_k=F_K / GRAVITY),
+        "surface": dict(speed=SPEED), "initial": Initial(vx=SPEED),
+    }  # fmt: skip
     return Parameters(**(blocks | changes))
 
 

@@ -20,28 +20,20 @@ DURATION = 6.0
 
 # kernel's block -> the scheme's numbers
 CASES = {
-    "static_strengthening": (
-        {"rate": 0.05, "hold_time": 0.01},
-        {"ageing": 0.05, "hold_time": 0.01},
-    ),
+    "static_strengthening": ({"rate": 0.05, "hold_time": 0.01},
+        {"ageing": 0.05, "hold_time": 0.01}),
     "film_drag": ({"coefficient": 0.4}, {"film": 0.4}),
-    "thermal_weakening": (
-        {"per_joule": 1.0, "relaxation_time": 2.0},
-        {"weakening_per_joule": 1.0, "relaxation": 2.0},
-    ),
+    "thermal_weakening": ({"per_joule": 1.0, "relaxation_time": 2.0},
+        {"weakening_per_joule": 1.0, "relaxation": 2.0}),
     "run_in": ({"change": 0.3, "distance": 0.5}, {"run_in": 0.3, "run_in_distance": 0.5}),
     "spring_hardening": ({"cubic": 2e4}, {"cubic": 2e4}),
     "structural_damping": ({"coefficient": 0.2}, {"damping": 0.2}),
-    "speed_ripple": (
-        {"amplitude": 0.2, "frequency": 0.7},
-        {"ripple": 0.2, "ripple_rate": 1.4 * np.pi},
-    ),
-    "surface_pattern": (
-        {"amplitude": 0.15, "wavelength": 0.2, "phase_deg": 30.0},
-        {"pattern": 0.15, "pattern_wavenumber": 10.0 * np.pi, "pattern_phase": np.radians(30.0)},
-    ),
+    "speed_ripple": ({"amplitude": 0.2, "frequency": 0.7},
+        {"ripple": 0.2, "ripple_rate": 1.4 * np.pi}),
+    "surface_pattern": ({"amplitude": 0.15, "wavelength": 0.2, "phase_deg": 30.0},
+        {"pattern": 0.15, "pattern_wavenumber": 10.0 * np.pi, "pattern_phase": np.radians(30.0)}),
     "stick_stiffness": ({"ratio": 0.6}, {"stick_springs": 2.4}),
-}
+}  # fmt: skip
 
 
 def scheme(faults=MENDED, **effects) -> Scheme:
@@ -53,16 +45,11 @@ def test_mended_scheme_with_an_effect_is_the_kernel(effect):
     block, numbers = CASES[effect]
     run = scheme(**numbers).run(duration=DURATION)
     exact = simulate(
-        Parameters(
-            rig={"degrees_of_freedom": ("x",), "contact_radius": 0.05},
-            friction={"mu_s": MU_S, "mu_k": MU_K * COVERED},
-            surface={"speed": SPEED},
-            initial={"vx": SPEED},
-            **{effect: block},
-        ),
-        DURATION,
-        1e-3,
-    )
+        Parameters(rig={"degrees_of_freedom": ("x",), "contact_radius": 0.05},
+                   friction={"mu_s": MU_S, "mu_k": MU_K * COVERED}, surface={"speed": SPEED},
+                   initial={"vx": SPEED}, **{effect: block}),
+        DURATION, 1e-3,
+    )  # fmt: skip
     x = np.interp(run.time, exact.time, exact["x"])
     plain = Scheme(scatter=0.0, faults=MENDED).run(duration=DURATION)
     away = np.abs(np.interp(plain.time, exact.time, exact["x"]) - plain.q[:, 0]).max()

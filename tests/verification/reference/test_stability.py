@@ -14,22 +14,16 @@ GRAVITY = 9.81
 
 def rig(pretension=0.0, ratio=1.0, speed=0.15, free=("x", "y", "phi"), **blocks):
     """The published rig on a belt that runs up in 10 s."""
-    return Parameters(
-        **{
-            "rig": dict(spring_natural_length=0.2 - pretension, degrees_of_freedom=free),
-            "lateral_friction": dict(ratio=ratio),
-            "surface": dict(speed=speed, run_up_time=10.0),
-        }
-        | blocks
-    )
+    own = {"rig": dict(spring_natural_length=0.2 - pretension, degrees_of_freedom=free)}
+    own |= {"lateral_friction": dict(ratio=ratio), "surface": dict(speed=speed, run_up_time=10.0)}
+    return Parameters(**own | blocks)
 
 
 def standing(ratio, pretension, speed=0.5):
     """Slides evenly from the start, at F_k/K, free to move across only."""
     place = 0.2086 * 0.67 * GRAVITY / (4.0 * 20.17)
-    return place, rig(
-        pretension, ratio, speed, ("x", "y"), surface=dict(speed=speed), initial=dict(x=place)
-    )
+    own = {"surface": dict(speed=speed), "initial": dict(x=place)}
+    return place, rig(pretension, ratio, speed, ("x", "y"), **own)
 
 
 def lateral_stiffness(place, pretension, k=20.17, length=0.2):
@@ -78,18 +72,14 @@ def drawn_rig(draw, i):
     """A rig at random: three quarters with friction in the plane."""
     mu_k, length = draw.uniform(0.03, 0.3), draw.uniform(0.15, 0.25)
     return Parameters(
-        rig=dict(
-            mass=draw.uniform(0.4, 2.2),
-            contact_radius=draw.uniform(0.03, 0.05),
-            attachment_radius=draw.uniform(0.04, 0.06),
-            spring_length=length,
-            spring_natural_length=length - draw.uniform(0.0, 0.012),
-        ),
+        rig=dict(mass=draw.uniform(0.4, 2.2), contact_radius=draw.uniform(0.03, 0.05),
+                 attachment_radius=draw.uniform(0.04, 0.06), spring_length=length,
+                 spring_natural_length=length - draw.uniform(0.0, 0.012)),
         springs=dict(stiffness=draw.uniform(18.0, 75.0)),
         friction=dict(mu_s=mu_k * draw.uniform(1.1, 1.6), mu_k=mu_k),
         lateral_friction=dict(ratio=(1.0, 1.0, 0.5, 0.0)[i % 4]),
         surface=dict(speed=draw.uniform(0.05, 0.4), run_up_time=5.0),
-    )
+    )  # fmt: skip
 
 
 MARGIN = 0.01
@@ -162,9 +152,8 @@ def test_the_least_pretension_is_the_border_of_the_runs():
     parameters = rig()
     borders = pretension_borders(parameters)
     # 8.321 mm by an independent model: a table of the disc's friction, DOP853, events of its own
-    assert borders.least == pytest.approx(8.321e-3, abs=0.01e-3) and not [
-        window for window in borders.windows if window[0] > 0.0
-    ]
+    assert borders.least == pytest.approx(8.321e-3, abs=0.01e-3)
+    assert not any(window[0] > 0.0 for window in borders.windows)
     margin = 0.05 * borders.least
     assert grows(with_pretension(parameters, borders.least - margin))
     assert not grows(with_pretension(parameters, borders.least + margin))
@@ -181,18 +170,11 @@ def test_a_guided_block_has_nothing_to_be_unstable():
     assert (found.verdict, found.growth, found.multipliers.size) == ("guided", 0.0, 0)
 
 
-@pytest.mark.parametrize(
-    "blocks",
-    [
-        {"spring_misalignment": dict(angle_deg=3.0)},
-        {"rig": dict(surface="slab", spring_natural_length=0.17)},
-        {
-            "rig": dict(
-                attachment_angles_deg=(150.0, 20.0, 200.0, 340.0), spring_natural_length=0.17
-            )
-        },
-    ],
-)
+@pytest.mark.parametrize("blocks", [
+    {"spring_misalignment": dict(angle_deg=3.0)},
+    {"rig": dict(surface="slab", spring_natural_length=0.17)},
+    {"rig": dict(attachment_angles_deg=(150.0, 20.0, 200.0, 340.0), spring_natural_length=0.17)},
+])  # fmt: skip
 def test_a_rig_without_a_line_is_asked_about_its_own_motion(blocks):
     """Its multipliers are those of neighbouring runs: a disturbed one comes back to it."""
     parameters = rig(0.03, **blocks)
@@ -211,11 +193,8 @@ def test_a_rig_without_a_line_is_asked_about_its_own_motion(blocks):
 def test_imperfections_and_the_start_do_not_change_the_line():
     """It is the line of the rig as drawn; half a percent of 1 um is the integrator's."""
     plain = rig(0.03)
-    real = rig(
-        0.03,
-        imperfections=dict(spring_stiffness=0.02, anchor_position=1e-3),
-        initial=dict(y=2e-3, phi=0.02),
-    )
+    off = dict(spring_stiffness=0.02, anchor_position=1e-3)
+    real = rig(0.03, imperfections=off, initial=dict(y=2e-3, phi=0.02))
     assert stability(real).growth == pytest.approx(stability(plain).growth, rel=1e-6)
 
 

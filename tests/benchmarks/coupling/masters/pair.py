@@ -1,7 +1,5 @@
 """Two coupled oscillators as native units and as a system (SSP), with their exact motion."""
 
-from __future__ import annotations
-
 import zipfile
 from pathlib import Path
 
@@ -38,12 +36,10 @@ COMPONENT = """
 
 def build(folder: Path) -> list[Path]:
     """Write `first.fmu`, `second.fmu` and the system of them; the two units."""
-    units = [
-        made("oscillator", folder, **{"{name}": name, "{start}": start}).rename(
-            folder / f"{name}.fmu"
-        )
-        for name, start in STARTS.items()
-    ]
+    units = []
+    for name, start in STARTS.items():
+        unit = made("oscillator", folder, **{"{name}": name, "{start}": start})
+        units.append(unit.rename(folder / f"{name}.fmu"))
     links = [(*source.split("."), *sink.split(".")) for source, sink in LINKS]
     text = STRUCTURE.format(
         components="".join(COMPONENT.format(name=name) for name in NAMES),

@@ -94,11 +94,8 @@ def course(drive, time, after=True):
     late = 0.5 * AT_ONCE if after else -0.5 * AT_ONCE
     begin, v, a, amplitude, w = [piece for piece in drive if piece[0] <= max(time + late, 0.0)][-1]
     t = time - begin
-    return (
-        v + a * t + amplitude * sin(w * t),
-        a + amplitude * w * cos(w * t),
-        -amplitude * w * w * sin(w * t),
-    )
+    sine, cosine = amplitude * sin(w * t), amplitude * cos(w * t)
+    return v + a * t + sine, a + w * cosine, -w * w * sine
 
 
 def at_rest_on(drive, tables):
@@ -172,13 +169,9 @@ def in_c(fmu, fmu3, tmp_path_factory):
         command = [program, libraries[version], built_guid(unit), version, len(states())]
         command += [INDICATORS, TOLERANCE, STOP, SHOWN, *named]
         command += [f"{places[k]}={v!r}" for k, v in given if k in reals and k in places]
-        done = subprocess.run(
-            list(map(str, command)),
-            input="\n".join(" ".join(map(repr, piece)) for piece in drive),
-            capture_output=True,
-            text=True,
-            timeout=120,
-        )
+        text = "\n".join(" ".join(map(repr, piece)) for piece in drive)
+        command = list(map(str, command))
+        done = subprocess.run(command, input=text, capture_output=True, text=True, timeout=120)
         assert done.returncode == 0, done.stderr
         rows = [line.split() for line in done.stdout.splitlines()]
         return np.array(rows, dtype=float), int(re.search(r"(\d+) events", done.stderr)[1])

@@ -28,19 +28,16 @@ def running(block):
 # --- instances ---
 
 
-@pytest.mark.parametrize(
-    ("changed", "said"),
-    [
-        ({"guid": b"{00000000-0000-0000-0000-000000000000}"}, "the GUID is not that of this unit"),
-        ({"guid": None}, "the GUID is not that of this unit"),
-        ({"kind": NO_KIND}, "this unit is for"),
-        ({"name": None}, "has no name"),
-        ({"name": b""}, "has no name"),
-        ({"token": b"{0}"}, "the instantiation token is not that of this unit"),
-        ({"required": 0, "name": None}, "has no name"),
-        ({"required": 1}, "has no intermediate update"),
-    ],
-)
+@pytest.mark.parametrize(("changed", "said"), [
+    ({"guid": b"{00000000-0000-0000-0000-000000000000}"}, "the GUID is not that of this unit"),
+    ({"guid": None}, "the GUID is not that of this unit"),
+    ({"kind": NO_KIND}, "this unit is for"),
+    ({"name": None}, "has no name"),
+    ({"name": b""}, "has no name"),
+    ({"token": b"{0}"}, "the instantiation token is not that of this unit"),
+    ({"required": 0, "name": None}, "has no name"),
+    ({"required": 1}, "has no intermediate update"),
+])  # fmt: skip
 def test_an_instance_that_cannot_be_is_none(unit, unit3, changed, said):
     one = (unit3 if {*changed} & {"token", "required"} else unit).instance(**changed)
     assert one.handle is None

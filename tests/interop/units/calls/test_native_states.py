@@ -11,18 +11,16 @@ BLOCKS = [
     {"lateral_friction.ratio": (0.1, 1.0), "initial.phi": (-0.1, 0.1), "initial.y": (-0.01, 0.01)},
     {"turning_surface.curvature": (-4.0, 4.0)},
     {"static_strengthening.rate": (0.01, 0.1), "static_strengthening.hold_time": (0.01, 0.1)},
-    {"velocity_weakening.stribeck": (0.1, 0.5)},
-    {"film_drag.coefficient": (0.1, 2.0)},
+    {"velocity_weakening.stribeck": (0.1, 0.5)}, {"film_drag.coefficient": (0.1, 2.0)},
     {"thermal_weakening.per_joule": (0.01, 0.1), "thermal_weakening.relaxation_time": (0.5, 5.0)},
     {"run_in.change": (-0.3, 0.3), "run_in.distance": (0.1, 1.0)},
     {"structural_damping.coefficient": (0.1, 1.0), "spring_hardening.cubic": (10.0, 1e3)},
     {"speed_ripple.amplitude": (0.1, 0.6), "speed_ripple.frequency": (0.5, 3.0)},
     {"surface_pattern.amplitude": (0.05, 0.3), "surface_scatter.deviation": (0.01, 0.1)},
-    {"friction.stick_creep": (1e-3, 4e-3)},
-    {"surface.run_up_time": (0.1, 3.0)},
+    {"friction.stick_creep": (1e-3, 4e-3)}, {"surface.run_up_time": (0.1, 3.0)},
     {"imperfections.spring_stiffness": (0.01, 0.1), "imperfections.seed": (1, 1000)},
     {"rig.mass": (0.3, 2.0), "springs.stiffness": (10.0, 60.0)},
-]
+]  # fmt: skip
 
 
 def drawn(numbers: random.Random) -> dict[str, float]:

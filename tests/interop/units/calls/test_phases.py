@@ -5,12 +5,15 @@ Of both versions of FMI, for co-simulation and model exchange, read off the tabl
 instance it gives variables, and no rates.
 """
 
+import csv
 from ctypes import byref, c_bool, c_double, c_int, c_int32, c_size_t, c_uint
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 import pytest
-from c_unit import ERROR, OK, EventInfo
+from c_unit import ERROR, OK
+from fmpy.fmi2 import fmi2EventInfo
 
 from cosim.fmu.exchange import INDICATORS, states
 
@@ -19,38 +22,9 @@ CONTINUOUS, ENDED, FAILED = "continuous", "ended", "failed"
 _LETTERS = {"I": NEW, "N": INITIALISING, "S": STEPPING, "E": EVENT, "C": CONTINUOUS}
 _LETTERS |= {"T": ENDED, "F": FAILED}
 
-# name in FMI 2, name in FMI 3, phases of co-simulation, phases of model exchange
-_CALLS = [
-    ("SetupExperiment", None, "I", "I"),
-    ("EnterInitializationMode", "EnterInitializationMode", "I", "I"),
-    ("ExitInitializationMode", "ExitInitializationMode", "N", "N"),
-    ("Terminate", "Terminate", "SE", "EC"),
-    ("Reset", "Reset", "INSETF", "INECTF"),
-    ("SetDebugLogging", "SetDebugLogging", "INSETF", "INECTF"),
-    ("GetReal", "GetFloat64", "NSETF", "NECTF"),
-    ("GetInteger", "GetInt32", "NSETF", "NECTF"),
-    ("SetReal", "SetFloat64", "INSE", "INEC"),
-    ("SetInteger", "SetInt32", "IN", "IN"),  # of this unit these are fixed parameters, all
-    ("DoStep", "DoStep", "S", ""),
-    ("CancelStep", None, "", ""),
-    (None, "EnterStepMode", "E", ""),
-    (None, "GetOutputDerivatives", "SET", ""),
-    ("EnterEventMode", None, "", "EC"),
-    (None, "EnterEventMode", "S", "C"),
-    ("NewDiscreteStates", "UpdateDiscreteStates", "E", "E"),
-    (None, "EvaluateDiscreteStates", "NE", "NE"),
-    ("EnterContinuousTimeMode", "EnterContinuousTimeMode", "", "E"),
-    ("CompletedIntegratorStep", "CompletedIntegratorStep", "", "C"),
-    ("SetTime", None, "", "EC"),
-    (None, "SetTime", "", "C"),
-    ("SetContinuousStates", "SetContinuousStates", "", "C"),
-    ("GetContinuousStates", "GetContinuousStates", "", "NECT"),
-    ("GetDerivatives", "GetContinuousStateDerivatives", "", "NECT"),
-    ("GetEventIndicators", "GetEventIndicators", "", "NECT"),
-    ("GetNominalsOfContinuousStates", "GetNominalsOfContinuousStates", "", "INECT"),
-    (None, "GetNumberOfContinuousStates", "", "INECT"),
-    (None, "GetNumberOfEventIndicators", "", "INECT"),
-]
+# name in FMI 2, name in FMI 3, phases of co-simulation, phases of model exchange; whole numbers of
+# this unit are fixed parameters, all, which are set before its run
+_CALLS = list(csv.reader(Path(__file__).with_name("phases.csv").read_text().splitlines()[1:]))
 
 
 class Interface(NamedTuple):
@@ -73,7 +47,7 @@ class Interface(NamedTuple):
         return {
             row[self.version - 2]: here & {_LETTERS[each] for each in row[2 + self.exchanges]}
             for row in _CALLS
-            if row[self.version - 2] is not None
+            if row[self.version - 2]
         }
 
 
@@ -145,7 +119,7 @@ class Walk:
             "SetupExperiment": (0, 0.0, 0.0, 0, 0.0),
             "EnterInitializationMode": () if old else (False, 0.0, 0.0, False, 0.0),
             "SetDebugLogging": (0, 0, None),
-            "NewDiscreteStates": (byref(EventInfo()),),
+            "NewDiscreteStates": (byref(fmi2EventInfo()),),
             "UpdateDiscreteStates": (*flags, byref(c_double())),
             "DoStep": (time, SIZE, 1) if old else (time, SIZE, True, *flags[:3], byref(reached)),
             "SetTime": (0.001,),

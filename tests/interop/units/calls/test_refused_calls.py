@@ -7,7 +7,8 @@ import math
 from ctypes import byref, c_char_p, c_double, c_int, c_int32, c_uint, create_string_buffer
 
 import pytest
-from c_unit import OK, EventInfo, references, references3
+from c_unit import OK, references, references3
+from fmpy.fmi2 import fmi2EventInfo
 
 from cosim.fmu.exchange import INDICATORS, states
 
@@ -24,7 +25,7 @@ def host(request, unit, unit3):
         if request.param == "2":
             one.march(range(50), 0.01)
         elif request.param == "exchange":
-            one.done("NewDiscreteStates", byref(EventInfo()))
+            one.done("NewDiscreteStates", byref(fmi2EventInfo()))
             one.done("EnterContinuousTimeMode")
         yield one
 

@@ -21,25 +21,17 @@ CASES = {
     "slab": {**PLANE, "turning_surface": {"curvature": 1.0}},
     "static_strengthening": {"static_strengthening": {"rate": 0.02}},
     "thermal_weakening": {"thermal_weakening": {"per_joule": 0.4}},
-    "damping and velocity_weakening": {
-        "structural_damping": {"coefficient": 0.5},
-        "velocity_weakening": {"linear": 0.3},
-    },
+    "damping and velocity_weakening": {"structural_damping": {"coefficient": 0.5},
+        "velocity_weakening": {"linear": 0.3}},
     "stick_creep": {**SLOW, "friction": {"stick_creep": 4e-3}},
-    "stick_creep in the plane": {
-        **PLANE,
-        "surface": {"speed": 0.03},
-        "initial": {"vx": 0.03, "phi": 0.05, "y": 0.005},
-        "friction": {"stick_creep": 4e-3},
-    },
+    "stick_creep in the plane": {**PLANE, "surface": {"speed": 0.03},
+        "initial": {"vx": 0.03, "phi": 0.05, "y": 0.005}, "friction": {"stick_creep": 4e-3}},
     "transition_speed": {"friction": {"transition_speed": 5e-3}},
-    "bristles": {
-        "surface": {"speed": 0.03},
-        "friction": {"transition_speed": 5e-3, "presliding_distance": 1e-4},
-    },
+    "bristles": {"surface": {"speed": 0.03},
+        "friction": {"transition_speed": 5e-3, "presliding_distance": 1e-4}},
     "run-up": {"surface": {"speed": 0.05, "run_up_time": 0.9}},
     "speed_ripple": {"speed_ripple": {"amplitude": 0.05}},
-}
+}  # fmt: skip
 TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10)
 DURATION = 5.0  # s
 EVENTS = 10  # that are compared
@@ -50,18 +42,13 @@ SENSITIVE = {"bristles": 100.0, "transition_speed": 10.0}
 
 def exchanged(fmu, tables, tolerance, **more):
     options = {
-        "stop_time": DURATION,
-        "output_interval": 0.01,
-        "record_events": True,
+        "stop_time": DURATION, "output_interval": 0.01, "record_events": True,
         "output": ["mode", "slip_count", "energy_residual", "x", "heat", "slip_time"],
-    }
+    }  # fmt: skip
     return simulate_fmu(
-        str(fmu),
-        fmi_type="ModelExchange",
-        relative_tolerance=tolerance,
-        start_values=values(tables),
-        **(options | more),
-    )
+        str(fmu), fmi_type="ModelExchange", relative_tolerance=tolerance,
+        start_values=values(tables), **(options | more),
+    )  # fmt: skip
 
 
 def changes(result):
@@ -72,13 +59,10 @@ def changes(result):
 
 CREEPING = {
     "default": {"surface": {"speed": 0.05}},
-    "slow and stiff": {
-        "surface": {"speed": 1e-3},
-        "initial": {"vx": 1e-3},
-        "springs": {"stiffness": 300.0},
-    },
+    "slow and stiff": {"surface": {"speed": 1e-3}, "initial": {"vx": 1e-3},
+        "springs": {"stiffness": 300.0}},
     "plane": {**PLANE, "surface": {"speed": 0.05}, "initial": {"y": 0.005, "phi": 0.05}},
-}
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("case", CREEPING)
@@ -132,11 +116,9 @@ BESIDE = {
 @pytest.mark.parametrize("case", BESIDE)
 def test_special_contacts_move_as_in_co_simulation(fmu, case):
     common = {
-        "stop_time": 4.0,
-        "output_interval": 0.01,
-        "start_values": {**values({}), **BESIDE[case]},
+        "stop_time": 4.0, "output_interval": 0.01, "start_values": {**values({}), **BESIDE[case]},
         "output": ["x", "y", "phi", "slip_count", "slip_time"],
-    }
+    }  # fmt: skip
     result = simulate_fmu(
         str(fmu), fmi_type="ModelExchange", relative_tolerance=1e-8, record_events=False, **common
     )

@@ -4,17 +4,10 @@ import numpy as np
 from fmpy_slave import Slave, fmpy_slave
 
 OUTPUTS = (
-    "interface_temperature",
-    "belt_entry_temperature",
-    "belt_exit_temperature",
-    "ice_face_temperature",
-    "belt_share",
-    "melt_rate",
-    "melted_mass",
-    "heat_received",
-    "heat_stored",
-    "heat_to_air",
-)
+    "interface_temperature", "belt_entry_temperature", "belt_exit_temperature",
+    "ice_face_temperature", "belt_share", "melt_rate", "melted_mass", "heat_received",
+    "heat_stored", "heat_to_air",
+)  # fmt: skip
 H = 0.01  # s, between communication points
 
 

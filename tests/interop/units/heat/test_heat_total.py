@@ -56,14 +56,10 @@ def test_a_state_knows_which_of_the_two_counts(heat):
     )
 
 
-@pytest.mark.parametrize(
-    "values",
-    [
-        {"ambient__temperature_degC": -0.3, "contact__wiper": 0.3},
-        {"belt__air_heat_transfer": 1e3, "ice__air_heat_transfer": 1e3},
-    ],
-    ids=["melting", "windy"],
-)
+@pytest.mark.parametrize("values", [
+    {"ambient__temperature_degC": -0.3, "contact__wiper": 0.3},
+    {"belt__air_heat_transfer": 1e3, "ice__air_heat_transfer": 1e3},
+], ids=["melting", "windy"])  # fmt: skip
 def test_what_was_received_is_stored_or_with_the_air(heat, values):
     """The belt stops, runs back, and carries water that freezes; the heat ends."""
     n = np.arange(300)

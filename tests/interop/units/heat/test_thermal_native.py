@@ -32,13 +32,9 @@ def locations(folder):
     lower = "".join(c.lower() if i and path[i - 1 : i] == "%" else c for i, c in enumerate(path))
     bare = str(folder).replace("%", "%25")
     return [
-        f"file://{path}",
-        f"file:{path}",
-        f"FILE://LocalHost{path}",
-        f"file://{path}/",
-        f"file://{lower}",
-        f"file://{bare}",
-    ]
+        f"file://{path}", f"file:{path}", f"FILE://LocalHost{path}", f"file://{path}/",
+        f"file://{lower}", f"file://{bare}",
+    ]  # fmt: skip
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="other paths")
@@ -50,20 +46,14 @@ def test_every_way_to_write_where_the_resources_are_is_read(library, folder):
 
 
 NOWHERE = [
-    (None, "is not given"),
-    ("", "does not begin with file:"),
+    (None, "is not given"), ("", "does not begin with file:"),
     ("/abs/resources", "does not begin with file:"),
-    ("http://host/resources", "does not begin with file:"),
-    ("file:resources", "is not absolute"),
-    ("file:", "is not absolute"),
-    ("file://elsewhere/resources", "another machine"),
-    ("file:///a%2", "two hexadecimal digits"),
-    ("file:///a%", "two hexadecimal digits"),
-    ("file:///a%zz", "two hexadecimal digits"),
-    ("file:///a%00b", "zero byte"),
-    ("file:///" + "a" * 5000, "too long"),
-    ("file:///not/there", "cannot be read"),
-]
+    ("http://host/resources", "does not begin with file:"), ("file:resources", "is not absolute"),
+    ("file:", "is not absolute"), ("file://elsewhere/resources", "another machine"),
+    ("file:///a%2", "two hexadecimal digits"), ("file:///a%", "two hexadecimal digits"),
+    ("file:///a%zz", "two hexadecimal digits"), ("file:///a%00b", "zero byte"),
+    ("file:///" + "a" * 5000, "too long"), ("file:///not/there", "cannot be read"),
+]  # fmt: skip
 
 
 @pytest.mark.parametrize(("uri", "reason"), NOWHERE)

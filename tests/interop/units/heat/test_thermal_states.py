@@ -68,12 +68,10 @@ def refusal(heat, call, *arguments):
 
 def test_what_cannot_be_is_refused_with_a_reason(unit, tmp_path):
     cases = [
-        ({"heat": -1.0}, "has fallen by 1 J"),
-        ({"surface_speed": 2e5}, "1000 loops"),
-        ({"heat_flow": 1e12}, "many times over"),
-        ({"heat_flow": 1e308}, "many times over"),
+        ({"heat": -1.0}, "has fallen by 1 J"), ({"surface_speed": 2e5}, "1000 loops"),
+        ({"heat_flow": 1e12}, "many times over"), ({"heat_flow": 1e308}, "many times over"),
         ({"heat": 1e12}, "many times over"),
-    ]
+    ]  # fmt: skip
     for k, (values, reason) in enumerate(cases):
         with instance(unit, tmp_path / str(k)) as heat:
             heat.start()

@@ -74,10 +74,8 @@ def coupled(speed):
     sizes = np.diff(times)
     given = (
         np.diff(result["mechanics.heat"]) / sizes,
-        np.diff(result["mechanics.surface_travel"]) / sizes,
-        x[1:],
-        times,
-    )
+        np.diff(result["mechanics.surface_travel"]) / sizes, x[1:], times,
+    )  # fmt: skip
     expected = np.stack([of_model(result, name) for name in OUTPUTS], axis=1)
     # still air takes more of a belt that is warmer
     start = {"x": x[0], "belt__air_heat_transfer": scenario.thermal.belt.air_heat_transfer}

@@ -28,10 +28,8 @@ def test_heat_flow_is_the_difference_quotient_of_heat(block):
 
 
 RAMP_AND_RIPPLE = {
-    "surface.run_up_time": 10.0,
-    "speed_ripple.amplitude": 0.1,
-    "speed_ripple.frequency": 3.0,
-}
+    "surface.run_up_time": 10.0, "speed_ripple.amplitude": 0.1, "speed_ripple.frequency": 3.0,
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("start", [-5.0, 5.0, 1e6])

@@ -15,19 +15,16 @@ import pytest
 from fmpy_instance import instance, refused
 
 
-@pytest.mark.parametrize(
-    "time, size, message",
-    [
-        (0.5, -0.01, "step size is -0.01 s; must be greater than 0"),
-        (0.5, 0.0, "step size is 0 s"),
-        (0.5, 1e-17, "step size is 1e-17 s, lost in the rounding of the time"),
-        (0.5, 1e4, "step size is 10000 s; must be at most 1000 s, as a step cannot be interrupted"),
-        (0.5, math.nan, "of size nan: must be finite"),
-        (math.inf, 0.01, "from t = inf"),
-        (0.4, 0.01, "begins at t = 0.4 s, the last one ended at t = 0.5 s"),
-        (0.6, 0.01, "begins at t = 0.6 s"),
-    ],
-)
+@pytest.mark.parametrize("time, size, message", [
+    (0.5, -0.01, "step size is -0.01 s; must be greater than 0"),
+    (0.5, 0.0, "step size is 0 s"),
+    (0.5, 1e-17, "step size is 1e-17 s, lost in the rounding of the time"),
+    (0.5, 1e4, "step size is 10000 s; must be at most 1000 s, as a step cannot be interrupted"),
+    (0.5, math.nan, "of size nan: must be finite"),
+    (math.inf, 0.01, "from t = inf"),
+    (0.4, 0.01, "begins at t = 0.4 s, the last one ended at t = 0.5 s"),
+    (0.6, 0.01, "begins at t = 0.6 s"),
+])  # fmt: skip
 def test_a_step_that_cannot_be_is_an_error(block, time, size, message):
     block.initialise()
     block.march(0, 50, 0.01)
@@ -111,20 +108,17 @@ def test_what_initialisation_refuses_is_told_at_its_end_in_one_line(block):
     assert block.log.take_errors() == ""
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "allowed"),
-    [
-        ("rig.mass", 0.0, "must lie in (0, inf]"),
-        ("rig.free_y", 2, "must lie in [0, 1]"),
-        ("temperature_dependence.reference_degC", -1e308, "must lie in [-273.15, 0]"),
-        ("friction.table_temperature_degC[2]", -1e308, "must lie in [-273.15, 1000]"),
-        ("rig.attachment_angles_deg[1]", 1e308, "must lie in [-360, 360]"),
-        # squares and quotients of it would be infinite
-        ("rig.mass", 1e308, "must be 0, or of a size from 1e-100 to 1e+100"),
-        ("rig.mass", 5e-324, "must be 0, or of a size from 1e-100 to 1e+100"),
-        ("initial.x", -1e308, "must be 0, or of a size from 1e-100 to 1e+100"),
-    ],
-)
+@pytest.mark.parametrize(("name", "value", "allowed"), [
+    ("rig.mass", 0.0, "must lie in (0, inf]"),
+    ("rig.free_y", 2, "must lie in [0, 1]"),
+    ("temperature_dependence.reference_degC", -1e308, "must lie in [-273.15, 0]"),
+    ("friction.table_temperature_degC[2]", -1e308, "must lie in [-273.15, 1000]"),
+    ("rig.attachment_angles_deg[1]", 1e308, "must lie in [-360, 360]"),
+    # squares and quotients of it would be infinite
+    ("rig.mass", 1e308, "must be 0, or of a size from 1e-100 to 1e+100"),
+    ("rig.mass", 5e-324, "must be 0, or of a size from 1e-100 to 1e+100"),
+    ("initial.x", -1e308, "must be 0, or of a size from 1e-100 to 1e+100"),
+])  # fmt: skip
 def test_a_parameter_out_of_range_is_refused(block, name, value, allowed):
     said = block.refuses(block.initialise, **{name: value})
     assert said.partition("; ")[0] == f"{name} = {value:g}: {allowed}"

@@ -57,14 +57,11 @@ def exact(block):
     return driven(block, SHOWN, inside=True)
 
 
-@pytest.mark.parametrize(
-    ("given", "finest", "orders"),
-    [
-        ({"hold": 0}, 6e-5, (0.8, 1.8)),
-        ({"hold": 1}, 1e-5, (0.8, 1.8)),
-        ({"with_rate": True}, 3e-7, (1.7, 3.0)),
-    ],
-)
+@pytest.mark.parametrize(("given", "finest", "orders"), [
+    ({"hold": 0}, 6e-5, (0.8, 1.8)),
+    ({"hold": 1}, 1e-5, (0.8, 1.8)),
+    ({"with_rate": True}, 3e-7, (1.7, 3.0)),
+])  # fmt: skip
 def test_the_motion_converges_to_that_of_the_ripple_inside(block, exact, given, finest, orders):
     errors = []
     for size in STEPS:
@@ -89,12 +86,9 @@ def test_outputs_have_first_derivatives(fmu, tmp_path):
         def rate(name, order=1):
             value = ctypes.c_double()
             block.slave.fmi2GetRealOutputDerivatives(
-                block.slave.component,
-                ctypes.byref(ctypes.c_uint(at[name])),
-                1,
-                ctypes.byref(ctypes.c_int(order)),
-                ctypes.byref(value),
-            )
+                block.slave.component, ctypes.byref(ctypes.c_uint(at[name])), 1,
+                ctypes.byref(ctypes.c_int(order)), ctypes.byref(value),
+            )  # fmt: skip
             return value.value
 
         for place, velocity in (("x", "vx"), ("y", "vy"), ("phi", "omega")):
