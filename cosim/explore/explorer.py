@@ -25,9 +25,9 @@ PRESETS = ("reference", "study", "slab")
 SHARED = (UPLOT, "live.js", "plot.js", "rig.js")
 WORKER = "worker.js"
 SCRIPTS = (
-    *("units.js", "scenario.js", "checks.js", "runs.js", "statistics.js", "plots.js"),
-    *("pictures.js", "regimes.js", "top_view.js", "controls.js", "main.js"),
-)
+    "units.js", "scenario.js", "checks.js", "runs.js", "statistics.js", "plots.js",
+    "pictures.js", "regimes.js", "top_view.js", "controls.js", "main.js",
+)  # fmt: skip
 #: Of a belt: the unit has room for so many with any number of modes.
 MOST_CELLS = 2048
 #: Says, in the page, which tool has made it.

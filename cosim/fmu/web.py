@@ -21,15 +21,15 @@ NAME, HEAT = "explorer", "explorer_heat"
 #: What is taken of the native unit; of the thermal unit, all but the functions of FMI.
 SHARED = {
     NAME: (
-        *("kernel.c", "kernel.h", "draws.c", "draws.h", "words.c", "words.h"),
-        *("sentences.c", "variables.c", "variables.h", "unit.h", "model.h"),
+        "kernel.c", "kernel.h", "draws.c", "draws.h", "words.c", "words.h",
+        "sentences.c", "variables.c", "variables.h", "unit.h", "model.h",
     ),
     HEAT: (
-        *("belt.c", "belt.h", "ice.c", "ice.h", "linear.c", "linear.h", "water.c", "water.h"),
-        *("model.c", "model.h", "resources.c", "resources.h", "unit.h"),
-        *("variables.c", "variables.h"),
+        "belt.c", "belt.h", "ice.c", "ice.h", "linear.c", "linear.h", "water.c", "water.h",
+        "model.c", "model.h", "resources.c", "resources.h", "unit.h",
+        "variables.c", "variables.h",
     ),
-}
+}  # fmt: skip
 
 
 @cache

@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 #: What a spreadsheet takes a cell for a formula by.
 FORMULA = ("=", "+", "-", "@", "\t", "\r")
 PACKAGES = (
-    *("stickslip", "numpy", "scipy", "scikit-fem", "fmpy", "pythonfmu"),
-    *("xarray", "h5netcdf", "matplotlib", "pydantic"),
-)
+    "stickslip", "numpy", "scipy", "scikit-fem", "fmpy", "pythonfmu",
+    "xarray", "h5netcdf", "matplotlib", "pydantic",
+)  # fmt: skip
 
 
 class Shown(TypedDict):

@@ -52,9 +52,9 @@ class Coupling(Method):
 
 #: Keys of [coupling] that mean something to the iterated scheme alone, and to a step control alone.
 _OF_ITERATION = (
-    *("waveform", "sweep", "acceleration", "relaxation"),
-    *("relative_tolerance", "max_iterations", "on_divergence"),
-)
+    "waveform", "sweep", "acceleration", "relaxation",
+    "relative_tolerance", "max_iterations", "on_divergence",
+)  # fmt: skip
 _OF_CONTROL = ("largest_step", "step_tolerance", "safety")
 
 

@@ -24,9 +24,9 @@ FILES = [(name, file) for name, folder in PACKAGES.items() for file in folder.rg
 
 #: Parts of cosim that compute and write without knowing what.
 LEAVES = (
-    *("cosim.files", "cosim.interrupts", "cosim.manifest", "cosim.names", "cosim.processes"),
-    *("cosim.cores", "stickslip.lazy", "stickslip.packaged", "cosim.result", "stickslip.scratch"),
-)
+    "cosim.files", "cosim.interrupts", "cosim.manifest", "cosim.names", "cosim.processes",
+    "cosim.cores", "stickslip.lazy", "stickslip.packaged", "cosim.result", "stickslip.scratch",
+)  # fmt: skip
 PRODUCT = ("stickslip", "thermal", "cosim")
 #: Part -> what of the product it may import beside itself. What a part is not named for, the
 #: longest name that holds it is.
@@ -70,23 +70,23 @@ KNOWN_BY = {
     "cosim.cli": ("cosim.cli", "cosim.__main__"),
     # and the results of whoever works in a notebook, which show themselves
     "cosim.report": (
-        *("cosim.report", "cosim.cli", "cosim.coupling.case", "cosim.simulated"),
+        "cosim.report", "cosim.cli", "cosim.coupling.case", "cosim.simulated",
         # a sweep tells of each run what its summary tells
-        *("cosim.studies.stability.study", "cosim.studies.sweep"),
+        "cosim.studies.stability.study", "cosim.studies.sweep",
     ),
     "cosim.coupling.case": ("cosim.coupling.case", "cosim.gap", "cosim.studies", "cosim.cli"),
     "stickslip.kernel": ("stickslip",),
-}
+}  # fmt: skip
 #: What of such a part everybody may import all the same: how figures, pages and data are written;
 #: where the kernel keeps which number.
 OPEN = {
     "cosim.report": (
-        *("cosim.report.style", "cosim.report.page", "cosim.report.live", "cosim.report.files"),
-        *("cosim.report.coupling", "cosim.report.columns", "cosim.report.material"),
-        *("cosim.report.palette", "cosim.report.live_of_figure"),
+        "cosim.report.style", "cosim.report.page", "cosim.report.live", "cosim.report.files",
+        "cosim.report.coupling", "cosim.report.columns", "cosim.report.material",
+        "cosim.report.palette", "cosim.report.live_of_figure",
     ),
     "stickslip.kernel": ("stickslip.kernel.layout", "stickslip.kernel.tables"),
-}
+}  # fmt: skip
 #: Folders whose files beside folders are no rooms, as they and the folders know each other: the
 #: kernel is one text, whichever folder a function of it stands in; the parameters of the whole are
 #: put together of those of each folder, which compute with those of the whole; the list of effects

@@ -4,9 +4,9 @@ from command_line import python
 
 #: Where a wheel is made there are pydantic and a compiler.
 MISSING = (
-    *("numpy", "scipy", "fmpy", "matplotlib", "xarray", "skfem", "meshio", "jinja2", "pythonfmu"),
+    "numpy", "scipy", "fmpy", "matplotlib", "xarray", "skfem", "meshio", "jinja2", "pythonfmu",
     "thermal",
-)
+)  # fmt: skip
 MAKES = """
 import importlib.metadata, sys
 sys.modules.update(dict.fromkeys(sys.argv[1:]))

@@ -91,9 +91,9 @@ class Experiment:
 MECHANICS = Experiment(20.0, 0.01, 1e-9)
 #: Those that are not zero but for rounding, and the same in co-simulation and in model exchange.
 SHOWN_OF_MECHANICS = (
-    *("x", "vx", "friction_force_x", "sliding_speed", "heat", "sliding_distance"),
-    *("surface_travel", "mode", "slip_count"),
-)
+    "x", "vx", "friction_force_x", "sliding_speed", "heat", "sliding_distance",
+    "surface_travel", "mode", "slip_count",
+)  # fmt: skip
 
 
 Table = tuple[Sequence[str], Iterable[Row]]

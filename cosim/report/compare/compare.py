@@ -157,10 +157,10 @@ def _definition(attributes: Mapping[str, Any]) -> tuple[str, UnitDefinition]:
 
 #: What a summary has beside the numbers of the run itself, and how it was computed.
 NOT_NUMBERS = (
-    *("units", "versions", "parameters", "name", "case", "status", "reason", "created"),
-    *("scenario", "events", "wall_time", "rows", "coupling", "participants", "connections"),
-    *("outputs", "system", "source"),
-)
+    "units", "versions", "parameters", "name", "case", "status", "reason", "created",
+    "scenario", "events", "wall_time", "rows", "coupling", "participants", "connections",
+    "outputs", "system", "source",
+)  # fmt: skip
 #: Part by which two numbers differ that are the same to rounding.
 SAME = 1e-9
 #: Residual of a ledger, J or a part of it, below which it is nothing.

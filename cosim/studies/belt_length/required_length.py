@@ -41,9 +41,9 @@ NOT_ASKED = "no doubt was asked for"
 LEVELS = (f"{INTERVAL[0]:.0%} level", "median", f"{INTERVAL[1]:.0%} level")
 #: Of an answer, what JSON has, beside speed and length.
 TOLD = (
-    *("limit", "run", "interface", "evaluations", "reason", "melts", "lengths"),
+    "limit", "run", "interface", "evaluations", "reason", "melts", "lengths",
     "levels",
-)
+)  # fmt: skip
 
 
 @dataclass(frozen=True)

@@ -120,9 +120,9 @@ class FormsOf:
 #: remembered, distance slid, place on the surface, normal force, extension of a spring, time, and
 #: velocity of the block against the frame.
 AXES = (
-    *("sliding speed", "hold time", "heat memory", "distance", "place", "load"),
-    *("position", "time", "velocity"),
-)
+    "sliding speed", "hold time", "heat memory", "distance", "place", "load",
+    "position", "time", "velocity",
+)  # fmt: skip
 
 #: Where in the model an effect can enter, for the reader.
 ENTERS = ("friction", "springs", "surface", "contact")

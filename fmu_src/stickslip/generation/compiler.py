@@ -21,9 +21,9 @@ LOG = logging.getLogger(__name__)
 # With a * b + c contracted into one rounding, the motion would differ from machine to machine.
 # Nobody asks a root or a power for errno: without it they are as exact, and a twentieth faster.
 OPTIONS = (
-    *("-std=c99", "-Werror=implicit-function-declaration", "-O2", "-ffp-contract=off"),
-    *("-fno-math-errno", "-fvisibility=hidden", "-s"),
-)
+    "-std=c99", "-Werror=implicit-function-declaration", "-O2", "-ffp-contract=off",
+    "-fno-math-errno", "-fvisibility=hidden", "-s",
+)  # fmt: skip
 # Whoever calls the functions of a library by their names sees them all, and they call each other
 # without a detour for somebody's functions of the same names.
 CALLED_BY_NAME = ("-O3", "-fvisibility=default", "-fno-semantic-interposition")

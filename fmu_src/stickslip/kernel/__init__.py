@@ -30,9 +30,9 @@ class Floats(Protocol):
 
 # in the order in which each file uses only those before it
 MODULES = (
-    *("layout", "terms", "cubic", "rig.springs", "rig.drive", "rig.history"),
-    *("friction.table", "friction.coefficient", "friction.disc", "friction.force"),
-    *("contact", "stick", "steady_sliding", "bristles.law", "motion", "runge_kutta"),
-    *("interpolant", "events", "bristles.step", "advance", "outputs", "exchange"),
-    *("packing.vector", "packing.contradictions"),
-)
+    "layout", "terms", "cubic", "rig.springs", "rig.drive", "rig.history",
+    "friction.table", "friction.coefficient", "friction.disc", "friction.force",
+    "contact", "stick", "steady_sliding", "bristles.law", "motion", "runge_kutta",
+    "interpolant", "events", "bristles.step", "advance", "outputs", "exchange",
+    "packing.vector", "packing.contradictions",
+)  # fmt: skip

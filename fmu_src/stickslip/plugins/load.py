@@ -29,10 +29,10 @@ GROUP = "stickslip.effects"
 OUTSIDE = "stickslip.plugins.of_file."
 #: The tables of a scenario that are no effects.
 TABLES = (
-    *("rig", "springs", "friction", "surface", "initial", "imperfections", "solver"),
-    *("name", "effects", "defaults", "ambient", "belt", "block", "ice", "contact", "run"),
-    *("coupling", "input", "measurement", "offset"),  # of the unit, and `gap`
-)
+    "rig", "springs", "friction", "surface", "initial", "imperfections", "solver",
+    "name", "effects", "defaults", "ambient", "belt", "block", "ice", "contact", "run",
+    "coupling", "input", "measurement", "offset",  # of the unit, and `gap`
+)  # fmt: skip
 #: Of the file of an effect.
 MOST_BYTES = 2**20
 #: A campaign as there could be one, to see that the candidates can be made.

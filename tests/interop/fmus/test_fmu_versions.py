@@ -34,8 +34,8 @@ def test_ports_say_what_their_units_are_made_of_and_how_large_they_are(old, new)
     assert (ports["k"].unit, ports["k"].nominal, ports["k"].definition) == ("1", 1.0, None)
     ports = FmuParticipant(new).ports
     assert list(ports) == [
-        *("u[1]", "u[2]", "f", "n", "b", "e", "y[1]", "y[2]", "x", "events", "seen", "high")
-    ]
+        "u[1]", "u[2]", "f", "n", "b", "e", "y[1]", "y[2]", "x", "events", "seen", "high",
+    ]  # fmt: skip
     metres = coupling.UnitDefinition((0, 1, 0, 0, 0, 0, 0, 0), 1000.0)
     assert ports["u[2]"].definition == metres and ports["u[2]"].nominal == 3.0
 

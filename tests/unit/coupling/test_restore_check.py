@@ -58,8 +58,8 @@ def test_one_that_comes_back_is_left_where_it_was(off):
 
 
 @pytest.mark.parametrize("counter", [
-    *(Counter(forgets=1), Counter(fails="get_state"), Counter(fails="set_state")),
-    *(Counter(fails="free_state"), object()),
+    Counter(forgets=1), Counter(fails="get_state"), Counter(fails="set_state"),
+    Counter(fails="free_state"), object(),
 ])  # fmt: skip
 def test_one_that_does_not_is_found(counter):
     assert not restores_exactly(counter, 0.0, 0.1)

@@ -44,6 +44,6 @@ def test_the_curve_is_the_formula(name):
 def test_what_is_no_curve_has_none():
     without = {effect.id for effect in EFFECTS if not axis_of(effect)}
     assert without == {
-        *("lateral_friction", "turning_surface", "spring_misalignment", "stick_stiffness")
-    }
+        "lateral_friction", "turning_surface", "spring_misalignment", "stick_stiffness",
+    }  # fmt: skip
     assert all(law_curve(entry(name), Parameters()) is None for name in without)

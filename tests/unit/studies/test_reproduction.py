@@ -148,9 +148,9 @@ def test_json(quick):
     assert [one["id"] for one in data["claims"]] == ["C1", "C2", "C3", "C0"]
     numbers = data["claims"][0]["numbers"][0]
     assert set(numbers) == {
-        *("quantity", "unit", "study", "place", "derived", "how", "digits"),
-        *("printed", "mended", "exact"),
-    }
+        "quantity", "unit", "study", "place", "derived", "how", "digits",
+        "printed", "mended", "exact",
+    }  # fmt: skip
     assert (numbers["study"], numbers["place"]) == (4.0, "§4.2.2, eq. 4.16")
     drift = data["claims"][1]["numbers"][0]
     assert drift["study"] is None and drift["how"] == "½ µ_k g t²"
