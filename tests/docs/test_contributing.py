@@ -1,4 +1,4 @@
-"""The effect that the guide for contributors adds: its file and a line in the list, no more."""
+"""The guide for contributors: the effect that it adds, and the files that it and C name."""
 
 import os
 import re
@@ -35,3 +35,14 @@ def test_the_guide_s_effect_is_one(tmp_path):
     listed.write_text(longer, encoding="utf-8")
     said = python(ASKED, env=os.environ | {"PYTHONPATH": str(tmp_path)})
     assert said.split() == [name, "True", "True"]
+
+
+def test_files_that_are_named_are_there():
+    """A path in the guide; of the Python behind the C, in C."""
+    named = re.findall(r"`((?:cosim|fmu_src|tests|stickslip)/[\w/]+\.\w+)`", GUIDE)
+    for source in (ROOT / "fmu_src" / "native").rglob("*.[ch]"):
+        named += re.findall(r"[\w/]+\.py\b", source.read_text(encoding="utf-8"))
+    gone = {
+        name for name in named if not any((ROOT / at / name).is_file() for at in ("", "fmu_src"))
+    }
+    assert len(named) > 10 and not gone

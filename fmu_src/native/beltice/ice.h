@@ -1,7 +1,7 @@
 /* The block of ice: modes of a small Galerkin space, and its face that melts away.
 
-   The equations are those of thermal/ice/space.py and body.py: the unknown is the temperature times
-   the height ratio, the present height over that at the start. */
+   The equations are those of thermal/assembly.py and thermal/ice/body.py: the unknown is the
+   temperature times the height ratio, the present height over that at the start. */
 #ifndef ICE_H
 #define ICE_H
 
