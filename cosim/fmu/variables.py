@@ -162,7 +162,7 @@ def declared(field: FieldInfo, label: str) -> Entry:
     bounds = bounds_of(field)
     unit = None if field.annotation is int else details(field)["unit"]
     if unit is not None and unit not in UNITS:
-        raise ValueError(f"{label} is in {unit!r}, a unit that UNITS of {__name__} lacks")
+        raise ValueError(f"{label} is in {unit!r}, a unit that stickslip/units.toml lacks")
     return {
         "unit": unit,
         "min": bounds.get("gt", bounds.get("ge")),

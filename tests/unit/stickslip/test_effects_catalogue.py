@@ -38,7 +38,7 @@ def test_a_parameter_has_unit_words_default_and_range(effect):
 def test_a_unit_that_the_fmu_cannot_state_is_named(monkeypatch):
     known = {name: base for name, base in units.UNITS.items() if name != "N/m3"}
     monkeypatch.setattr(variables, "UNITS", known)
-    said = "spring_hardening: cubic is in 'N/m3', a unit that UNITS of cosim.fmu.variables"
+    said = "spring_hardening: cubic is in 'N/m3', a unit that stickslip/units.toml lacks"
     with pytest.raises(ValueError, match=said):
         variables.variables()
 
