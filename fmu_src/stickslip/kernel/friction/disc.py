@@ -123,8 +123,8 @@ def add_law_at_points(p: Floats, u: Floats, w: Floats, sliding: float, k: float)
 
     Albrecht's twelve points of a disc, exact to the seventh degree (Stroud, Approximate Calculation
     of Multiple Integrals, 1971, S2 7-1): on the axes, and on two squares. Those at x and -x slide
-    alike. What they leave of the moment goes with the seventh power of k; what the corners of one
-    square leave, exact to the third degree, with its third.
+    alike. Of a smooth law they leave k^8 of the force and k^7 of the moment; the corners of one
+    square, exact to the third degree, which do where k is least, k^4 and k^3.
     """
     if k <= p[P_FEW_POINTS] * p[P_FEW_POINTS] * p[P_FEW_POINTS]:
         add_law_at_point(p, u, w, sliding, k, 0.5, 0.5, 0.5)

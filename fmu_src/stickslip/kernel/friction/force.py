@@ -62,10 +62,10 @@ def set_sliding_coefficients(
     """Force and moment per normal force (and radius) against a sliding, into ``w[W_PAIR:]``.
 
     (sx, sy, sr) is the scaled sliding velocity; sr is a rim speed. The mean local sliding speed
-    (m/s) goes to ``w[W_MEAN_SPEED]``. Where mu_k depends on the local speed, the closed form takes
-    its value at the mean speed and a quadrature adds what differs from that. The age of the contact
-    (rate_and_state) belongs to the whole of it and goes with the mean speed. No point of the disc
-    slides more slowly than it slides less its rim spins.
+    (m/s) goes to ``w[W_MEAN_SPEED]``. Where friction depends on the local speed, the closed form
+    takes its value at the mean speed and a quadrature adds what differs from that. The age of the
+    contact (rate_and_state) belongs to the whole of it and goes with the mean speed. No point of
+    the disc slides more slowly than its centre less the rim speed: mu_s is not felt beyond that.
     """
     mu = kinetic_coefficient(p, u, w)
     sliding = sqrt(sx * sx + sy * sy)

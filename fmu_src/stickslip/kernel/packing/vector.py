@@ -74,8 +74,8 @@ def set_start(v: Floats, d: Floats, p: Floats) -> None:
     p[P_INITIAL + 2] += departure(d, D_START_ANGLE, turn)
 
 
-# (speed / v_s)^p from which nothing is left of the excess: exp(-44) of it is below the rounding of
-# any coefficient.
+# (speed / v_s)^p from which nothing is left of the excess: exp(-44) of it is below a thousandth of
+# the rounding of the coefficient that it falls from.
 NOTHING_LEFT = 44.0
 # Of its excess, what friction may err by where bristles are left out: worth some 1e-7 m of the way.
 LAG = 1e-4
@@ -252,8 +252,8 @@ def size_of(p: Floats, at: int) -> float:
     return sqrt(p[at] * p[at] + p[at + 1] * p[at + 1] + rim * rim)
 
 
-# Rim speed over sliding speed up to which a few points of the disc tell how a law averages over it,
-# to 1e-9 of what it varies by; the error grows with the eighth power.
+# Rim speed over sliding speed up to which a few points of the disc tell how a smooth law averages
+# over it, to some 1e-9 of what it varies by; the error of the force grows with the eighth power.
 FEW_POINTS = 0.07
 
 
