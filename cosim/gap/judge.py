@@ -348,12 +348,12 @@ def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
     return sorted(near, key=lambda name: -near[name])[:RIVALS]
 
 
-def promises_less(promised: float | None, of_finding: float | None) -> float | None:
+def promises_less(promised: float, of_finding: float | None) -> float | None:
     """ln of how much less probable derivatives of the simulated runs have a rival than a finding.
 
-    Where it is less than half as well worth, and they plainly tell; else None
+    Where they promise at most half as much, and plainly tell; else None.
     """
-    if promised is None or of_finding is None or promised > TAKEN * of_finding:
+    if of_finding is None or promised > TAKEN * of_finding:
         return None
     return promised - of_finding if promised - of_finding < -UNDECIDED else None
 

@@ -36,29 +36,28 @@ def rivals_of(fitting: Fitting, parts: Sequence[Part], named: Named, models: Mod
     if not rivals:
         return {}
     without = fitting.without(lone, parts, named)
-    own, *promised = (
-        without.promised([lone, *rivals]) if does_explain and lone.in_kernel
-        else [None] * (1 + len(rivals))
-    )  # fmt: skip
     found = {}
-    for rival, gain in zip(rivals, promised, strict=True):
-        more = judge.promises_less(gain, own)
-        if more is None:
-            more = _more(fitting, rival, lone, without, named)
-        found[rival.finding.name] = rival, more
+    for rival in rivals:
+        forms = [rival]
+        if lone.finding.others[rival.finding.name] > -ALIKE:  # by any form of its law
+            forms = [*fitting.forms(rival, named.with_findings(rival.finding))]
+        more = _promised(forms, lone, without) if does_explain and lone.in_kernel else None
+        found[rival.finding.name] = rival, _more(forms, lone, without) if more is None else more
     return found
 
 
-def _more(fitting: Fitting, rival: Part, lone: Part, without: Models, named: Named) -> float:
-    """ln of how much more probable simulated runs are with a rival than with the finding.
+def _promised(forms: Sequence[Part], lone: Part, without: Models) -> float | None:
+    """ln of how much less probable derivatives have the best form of a rival, if they tell."""
+    own, *promised = without.promised([lone, *forms])
+    known = [gain for gain in promised if gain is not None]
+    return judge.promises_less(max(known), own) if len(known) == len(forms) else None
 
-    By any form of its law, where rows hardly tell it.
-    """
-    finding, forms = lone.finding, [rival]
-    if finding.others[rival.finding.name] > -ALIKE:
-        forms = [*fitting.forms(rival, named.with_findings(rival.finding))]
-    over, price = (lone, price_of(finding.name)) if lone.in_kernel else (None, 0.0)
-    return max(without.gained(form, over) for form in forms) - price_of(rival.finding.name) + price
+
+def _more(forms: Sequence[Part], lone: Part, without: Models) -> float:
+    """ln of how much more probable simulated runs are with a rival than with the finding."""
+    over, price = (lone, price_of(lone.finding.name)) if lone.in_kernel else (None, 0.0)
+    gained = max(without.gained(form, over) for form in forms)
+    return gained - price_of(forms[0].finding.name) + price
 
 
 def overruled(

@@ -1,5 +1,6 @@
 """What rows would nearly have in a finding's place, and what simulated runs make of it."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -91,6 +92,27 @@ def test_no_model_is_fitted_with_a_rival_of_which_derivatives_promise_little(
 ):
     same = models(lambda part, over: -7.0, lambda parts: [own, promised], reached)
     fits, parts, named = asked(30.0, {"film_drag": -11.9}, same)
+    ((_, more),) = rivals.rivals_of(fits, parts, named, same).values()
+    assert more == pytest.approx(told)
+
+
+@pytest.mark.parametrize(
+    ("rows", "other", "told"),
+    [(-2.9, 49.0, -51.0), (-2.9, 51.0, -7.0), (-2.9, None, -7.0), (-3.1, 51.0, -52.0)],
+)
+def test_where_rows_hardly_tell_a_rival_derivatives_are_asked_of_any_form_of_its_law(
+    asked, monkeypatch, rows, other, told
+):
+    def forms(self, part, named):
+        yield from (part, replace(part, settings={"root": 1.0}))
+
+    def promised(parts):
+        own = {"run_in": 100.0, "film_drag": 48.0}
+        return [other if "root" in one.settings else own[one.effect] for one in parts]
+
+    monkeypatch.setattr(Fitting, "forms", forms)
+    same = models(lambda part, over: -7.0, promised)
+    fits, parts, named = asked(30.0, {"film_drag": rows}, same)
     ((_, more),) = rivals.rivals_of(fits, parts, named, same).values()
     assert more == pytest.approx(told)
 
