@@ -1,6 +1,6 @@
 """The contact of ice and belt: its footprint, the heat that crosses it, the water in and off it.
 
-The round contact on a belt that is averaged over its width.
+`Footprint`: the round contact on a belt that is averaged over its width.
 
 The ice is a disc of radius a, the belt a strip of width w through the disc's centre; they touch
 on the area A of their intersection, under the lane of width b = min(w, 2 a). The 2-D belt
@@ -15,7 +15,7 @@ The rectangle is cut across the belt into strips of equal length, each with its 
 on the hat functions of a uniform mesh, and their mean over a movement, are differences of
 repeated integrals of the rectangle, and therefore exact wherever the edges fall.
 
-Heat exchange between belt face and ice face over one step.
+`exchange`: heat between belt face and ice face over one step.
 
 Friction produces the flux f, a part s of it at the belt's face (half, unless one knows better); a
 conductance h joins the faces. With p_j the flux into strip j of the belt, q_j its part that comes
@@ -40,9 +40,8 @@ Melting: when the ice face would end the step above the melting point, g is what
 exactly, and m is what remains. A film of water on the face freezes before the face gets colder: m
 is then negative, down to what the film holds.
 
-Melt water: the film under the ice, and what the belt carries away.
-
-Water between ice and belt: fed by melting, dragged out by the belt, squeezed out by the ice.
+`MeltFilm`: water between ice and belt, fed by melting, dragged out by the belt, squeezed out by the
+ice.
 
 The film is shared evenly by the contact. In Couette flow the water moves at half the belt's speed
 on the average, and a film that grows evenly along the way under the ice is twice as thick at the
@@ -51,10 +50,10 @@ residence l/|v|,
 
     dh/dt = melt rate - |v| h / l - 2 p h^3 / (3 eta a^2),
 
-h the mean thickness, l the length of the contact. The last term is the slow approach of a disc of
-radius a under the pressure p to a plane through water of viscosity eta (Stefan 1874; Reynolds
-1886). Melting, shear and squeeze are the balance that Colbeck (The kinetic friction of snow,
-J. Glaciol. 34, 1988) takes for a melt film. Each term is advanced exactly, melting and shear
+h here the film's mean thickness, l the length of the contact. The last term is the slow approach of
+a disc of radius a under the pressure p to a plane through water of viscosity eta (Stefan 1874;
+Reynolds 1886). Melting, shear and squeeze are the balance that Colbeck (The kinetic friction of
+snow, J. Glaciol. 34, 1988) takes for a melt film. Each term is advanced exactly, melting and shear
 together, then the squeeze.
 
 Where the shear of the film itself is all that melts, melt rate = eta v^2 / (rho L h), so that a
@@ -63,7 +62,7 @@ latter is exact: along the way x the film grows as sqrt(4 eta v x / (rho L)), an
 of eta v / h over it. (Water that moved with the belt, at twice the speed, would leave a film that
 is thinner by the root of two, and sheared with sqrt(2 eta v rho L / l).)
 
-Melt water that the belt carries away, freezes and thaws again.
+`BeltWater`: melt water that the belt carries away, freezes and thaws again.
 
 Water that leaves the contact lies on the belt's face. Where the face would end a step below the
 melting point, the water freezes and its heat warms the face, but not above the melting point; where

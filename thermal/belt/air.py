@@ -1,4 +1,4 @@
-"""Heat transfer from a belt that runs through still air.
+"""Heat from a belt that runs through still air, and what frost on the belt could add to it.
 
 A belt drags its own boundary layer along (Sakiadis 1961, AIChE Journal 7, 26-28): with
 eta = y sqrt(U / (nu x)),
@@ -15,11 +15,9 @@ area over perimeter as length (McAdams 1954; Ra from 1e4, used below it, where i
 1 W/m2K); the two are joined as (h1^3 + h2^3)^(1/3). Radiation to walls at the temperature of the
 air adds 4 epsilon sigma T^3, epsilon 0.9 for paper, cloth and grit: 3.8 W/m2K at -8 degC.
 
-Heat that frost and moisture move between the belt and the air: bounds, not a model.
-
-Vapour crosses the same boundary layer as heat does. By the analogy of Chilton and Colburn (1934)
-its mass flux over its density difference is h_c/(rho c_p Le^(2/3)), so that a face wet or frosted
-all over gives the latent heat
+What frost and moisture move are bounds, not a model (`frost`). Vapour crosses the same boundary
+layer as heat does. By the analogy of Chilton and Colburn (1934) its mass flux over its density
+difference is h_c/(rho c_p Le^(2/3)), so that a face wet or frosted all over gives the latent heat
 
     q = h_c s (T - T_air) + h_c (L M_v)/(c_p M_a p Le^(2/3)) (1 - RH) p_s(T_air),
     s = (L M_v)/(c_p M_a p Le^(2/3)) dp_s/dT,

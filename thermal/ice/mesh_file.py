@@ -1,16 +1,15 @@
-"""A sample's shape from a mesh file: tetrahedra that stand on the plane z = 0, in metres.
+"""A sample's mesh: tetrahedra on the plane z = 0 from a file, in metres, cut thin at the base.
 
 Any format that meshio reads (Gmsh .msh, VTK .vtk and .vtu, Abaqus, Nastran, ...). Of curved
 tetrahedra the corners are taken. What would give wrong temperatures is refused: what is not one
 piece, is folded or flat somewhere, has a hollow inside, or is in another unit.
 
-Thin elements at the base of a mesh of tetrahedra.
-
-Heat that enters the base is first only tenths of a millimetre deep, less than any element of a
-mesh that somebody made for its shape. So the elements at the base are cut parallel to it: every
-edge from a node of the base to one above is cut at 0.4 of its length, five cuts make a layer 1/98
-as high. The sample's shape stays exactly what it is. Under a constant flux such layers of P2
-elements err by 0.07 % of the face's rise, layers cut at a third by 0.16 %, at a half by 0.02 %.
+Why `layered` cuts them: heat that enters the base is first only tenths of a millimetre deep, less
+than any element of a mesh that somebody made for its shape. So the elements at the base are cut
+parallel to it: every edge from a node of the base to one above is cut at 0.4 of its length, five
+cuts make a layer 1/98 as high. The sample's shape stays exactly what it is. Under a constant flux
+such layers of P2 elements err by 0.07 % of the face's rise, layers cut at a third by 0.16 %, at a
+half by 0.02 %.
 """
 
 import contextlib

@@ -9,14 +9,12 @@ How exact: between 0.1 ms and a day the face's answer to a constant flux is that
 mesh to 1e-6. The mesh's own error remains, as does that of a base facet that the belt's edge
 crosses: it counts by quadrature.
 
-A small space that contains how a body of any shape answers a flux on its contact.
-
-Heat conduction C u' + K u = b p(t) with one load b and the mean over the same contact as what is
-asked for has the transfer function b^T (s C + K)^-1 b. The Galerkin space of the solutions of
-(s C + K) u = b for shifts s interpolates it, with its derivative, at every shift, and stays
-symmetric and dissipative (rational Krylov space; Antoulas, Approximation of Large-Scale Dynamical
-Systems, 2005). The error falls geometrically with the number of shifts in a decade. With the
-constant in the space, heat is conserved to rounding.
+That space is a small one, and right for a body of any shape. Heat conduction C u' + K u = b p(t)
+with one load b and the mean over the same contact as what is asked for has the transfer function
+b^T (s C + K)^-1 b. The Galerkin space of the solutions of (s C + K) u = b for shifts s interpolates
+it, with its derivative, at every shift, and stays symmetric and dissipative (rational Krylov space;
+Antoulas, Approximation of Large-Scale Dynamical Systems, 2005). The error falls geometrically with
+the number of shifts in a decade. With the constant in the space, heat is conserved to rounding.
 """
 
 from pathlib import Path
