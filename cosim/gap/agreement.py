@@ -164,7 +164,8 @@ def _further(fitting: Fitting, parts: list[Part], named: Named) -> tuple[list[Pa
         return parts, named
     without = fitting.fitted(named, parts)
     tried = [_simulated(part, without) for part in _promising(fitting, named, without)]
-    hidden = [part for part in tried if judge.is_hidden(part.finding.gain)]
+    greatest = max((part.finding.gain for part in parts), default=0.0)
+    hidden = [part for part in tried if judge.is_hidden(part.finding.gain, greatest)]
     found = [part for part in hidden if _is_nearer(part, without)]
     if not found:
         return parts, named

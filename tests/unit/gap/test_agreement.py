@@ -360,6 +360,14 @@ def test_what_simulated_runs_promise_is_found_where_they_are_then_sure(
     assert found == ["run_in", *[name] * named]
 
 
+@pytest.mark.parametrize(("gained", "named"), [(99.0, 1), (101.0, 2)])
+def test_a_hidden_one_is_no_part_of_what_the_law_of_another_leaves(monkeypatch, gained, named):
+    """A law that is followed to 7 % leaves a 200th of its squares, here of e^20 000."""
+    rows = Rows(finding("run_in", 2e4), offers=[finding("film_drag", 60.0)])
+    found, _ = agreed(monkeypatch, rows, {"film_drag": gained})
+    assert len(found) == named
+
+
 @pytest.mark.parametrize(
     ("reached", "promised", "hinted", "named"),
     [(1.09, 90.0, 0.0, 1), (1.11, 90.0, 0.0, 0), (1.11, 90.0, 5.9, 0), (1.11, 0.0, 6.1, 1),
