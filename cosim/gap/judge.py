@@ -50,8 +50,8 @@
     hold time where the contact lets go by 10 ms sooner, is found where the runs are e^50 times as
     probable with it (by a 200th of what rows gain by another), and e^6 without what a scatter may
     be worth (ageing, e^100 and e^12); of several that gain 0.6 of the greatest, or are within e^200
-    of it, every law is tried. `none` is no finding left, and fitted runs and held-out ones at 1.1 at
-    most, each taken together; without any held out nothing tells.
+    of it, every law is tried. `none` is no finding left, and fitted runs and held-out ones at 1.1
+    at most, each taken together; without any held out nothing tells.
  9. `named`, or `class`: findings, and the last model leaves held-out runs (fitted ones where there
     are none) at 1.3 at most and better than the user's model does, or held-out ones at 1.02 with
     most of the misfit gone, and fitted ones at 1.3, too, or most of their misfit gone; `partial`
