@@ -15,7 +15,7 @@
     of campaigns drawn with the second more than a tenth are given the name of the first: a class,
     of effects alone where two are in its place. Of a lone finding three rivals are simulated that
     rows put within e^12 of it (e^200 below e^500; a 200th of its own if it does not explain the
-    runs; if it does, derivatives alone tell where they promise less than half as much, by e^12):
+    runs; if it does, derivatives alone tell where they promise at most half as much, by e^12):
     one that these put e^6 behind is told from it, one within e^12 that they prefer is not. Where
     they prefer one by e^500, or e^200 if rows do not tell the two apart, and held-out runs come out
     better with it, the first goes, if no effect stands for it only where the second explains the
@@ -351,12 +351,12 @@ def rivals_of(finding: Finding, does_explain: bool) -> list[str]:
     return sorted(near, key=lambda name: -near[name])[:RIVALS]
 
 
-def promises_less(promised: float, of_finding: float | None) -> float | None:
+def promises_less(promised: float, of_finding: float) -> float | None:
     """ln of how much less probable derivatives of the simulated runs have a rival than a finding.
 
     Where they promise at most half as much, and plainly tell; else None.
     """
-    if of_finding is None or promised > TAKEN * of_finding:
+    if promised > TAKEN * of_finding:
         return None
     return promised - of_finding if promised - of_finding < -UNDECIDED else None
 

@@ -36,19 +36,23 @@ def rivals_of(fitting: Fitting, parts: Sequence[Part], named: Named, models: Mod
     if not rivals:
         return {}
     without = fitting.without(lone, parts, named)
+    (own,) = without.promised([lone]) if does_explain and lone.in_kernel else [None]
     found = {}
     for rival in rivals:
         forms = [rival]
         if lone.finding.others[rival.finding.name] > -ALIKE:  # by any form of its law
             forms = [*fitting.forms(rival, named.with_findings(rival.finding))]
-        more = _promised(forms, lone, without) if does_explain and lone.in_kernel else None
+        more = None if own is None else _promised(forms, own, without)
         found[rival.finding.name] = rival, _more(forms, lone, without) if more is None else more
     return found
 
 
-def _promised(forms: Sequence[Part], lone: Part, without: Models) -> float | None:
-    """ln of how much less probable derivatives have the best form of a rival, if they tell."""
-    own, *promised = without.promised([lone, *forms])
+def _promised(forms: Sequence[Part], own: float, without: Models) -> float | None:
+    """ln of how much less probable derivatives have the best form of a rival, if they tell.
+
+    own : what they promise of the finding
+    """
+    promised = without.promised(list(forms))
     known = [gain for gain in promised if gain is not None]
     return judge.promises_less(max(known), own) if len(known) == len(forms) else None
 

@@ -6,8 +6,6 @@ leaves its line. Between the last two values the border is bisected.
 And how far the springs must be stretched for a block to keep to its line. Springs without
 pretension push sideways where they are compressed, and turn the block away from the line on which
 friction drags it. Pretension holds it there, as the tension of a string does.
-
-The numbers are those of a rig that decide what its block does.
 """
 
 from collections.abc import Callable, Iterator, Sequence

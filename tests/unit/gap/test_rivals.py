@@ -90,7 +90,8 @@ def test_rivals_of_a_finding_are_simulated(asked, gain, rows, gained, told, acro
 def test_no_model_is_fitted_with_a_rival_of_which_derivatives_promise_little(
     asked, promised, own, reached, told
 ):
-    same = models(lambda part, over: -7.0, lambda parts: [own, promised], reached)
+    gains = {"run_in": own, "film_drag": promised}
+    same = models(lambda *_: -7.0, lambda parts: [gains[one.effect] for one in parts], reached)
     fits, parts, named = asked(30.0, {"film_drag": -11.9}, same)
     ((_, more),) = rivals.rivals_of(fits, parts, named, same).values()
     assert more == pytest.approx(told)
